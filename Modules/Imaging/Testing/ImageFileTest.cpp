@@ -371,6 +371,39 @@ TEST(ImageFile, AsksForTheUnitWhereTheSizeMakesNoSense)
   EXPECT_TRUE(unitDoubtOf(putFile(folder / "body.nii", specimen.bytes())).likely.empty());
 }
 
+// A head of 200 mm in micrometres that states no unit, or says millimetres: its place, 200 m and
+// more from the origin, is no reason to refuse it before its unit is known.
+TEST(ImageFile, AsksForTheUnitBeforeItJudgesThePlace)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.dims = {3, 401, 401, 3, 1, 1, 1, 1};
+  nifti.voxels.assign(std::size_t{2} * 401 * 401 * 3, '\0');
+  nifti.pixdim = {1.0F, 500.0F, 500.0F, 500.0F, 1.0F, 1.0F, 1.0F, 1.0F};
+  // An axis off perpendicular by 1e-4, 0.02 mm over the slice.
+  nifti.srow = {-500.0F, 0.0F, 0.0F, 1e5F, 0.05F, -500.0F, 0.0F, 1e5F, 0.0F, 0.0F, 500.0F, -9e4F};
+  for (const int units : {0, 2})
+  {
+    SCOPED_TRACE(units);
+    nifti.units = static_cast<char>(units);
+    const auto path = putFile(folder / ("head" + std::to_string(units) + ".nii"), nifti.bytes());
+    const UnitDoubt doubt = unitDoubtOf(path);
+    EXPECT_EQ(doubt.isStated, units == 2);
+    EXPECT_EQ(std::count(doubt.likely.begin(), doubt.likely.end(), 1e-3), 1);
+    EXPECT_FALSE(readImageHeader(path).unitDoubt.likely.empty());
+    EXPECT_FALSE(loadLabels(path).unitDoubt.likely.empty());
+    const core::GridGeometry grid = readImageFile(path, {}, {}, {}, 0, 1e-3).volume->geometry();
+    EXPECT_TRUE(grid.spacing().isApprox(Eigen::Vector3d::Constant(0.5), 1e-6));
+    EXPECT_TRUE(grid.origin().isApprox(Eigen::Vector3d(-100.0, -100.0, -90.0), 1e-3));
+    expectRefused(refusalOf([&] { readImageFile(path); }), Reason::NoGeometry,
+                  "from the origin of the patient's frame");
+    expectRefused(refusalOf([&] { previewImageFile(path, 2); }), Reason::NoGeometry,
+                  "from the origin of the patient's frame");
+    expectRefused(refusalOf([&] { readImageFile(path, {}, {}, {}, 0, 1.0); }), Reason::NoGeometry,
+                  "from the origin of the patient's frame");
+  }
+}
+
 // The library keeps such files, too: labels of a cut-out of a micro-CT, and of a phantom.
 TEST(ImageFile, AFileOfThisProgramIsReadInMillimetresWhateverItsSize)
 {

@@ -27,7 +27,7 @@ constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 core::GridGeometry gridFromAffine(const std::filesystem::path& path,
                                   const std::vector<std::uint64_t>& dims,
                                   const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin,
-                                  std::vector<std::string>& notes)
+                                  std::vector<std::string>& notes, bool isUnitKnown)
 {
   core::Index3 size{};
   for (std::size_t a = 0; a < 3; ++a)
@@ -40,13 +40,13 @@ core::GridGeometry gridFromAffine(const std::filesystem::path& path,
   }
   const Eigen::Vector3d spacing = linear.colwise().norm().transpose();
   if (!linear.allFinite() || !origin.allFinite() || spacing.minCoeff() < 1e-6 ||
-      spacing.maxCoeff() > kCoarsest)
+      (isUnitKnown && spacing.maxCoeff() > kCoarsest))
     fail(FileError::Reason::NoGeometry, path,
          "its header gives no voxel size or place in the patient that can be true; export it "
          "again with its geometry");
   const Eigen::Vector3d last(size[0] - 1.0, size[1] - 1.0, size[2] - 1.0);
   const double reach = origin.cwiseAbs().maxCoeff() + spacing.cwiseProduct(last).maxCoeff();
-  if (reach > kFarthest)
+  if (isUnitKnown && reach > kFarthest)
     fail(FileError::Reason::NoGeometry, path,
          "its header puts it " + roughText(reach) +
              " mm from the origin of the patient's frame; a place within 100 m is believed, export "
@@ -70,7 +70,7 @@ core::GridGeometry gridFromAffine(const std::filesystem::path& path,
       const Eigen::Vector3d sign((corner & 1) ? 1.0 : -1.0, (corner & 2) ? 1.0 : -1.0, 1.0);
       cost = std::max(cost, ((axes - straight) * half.cwiseProduct(sign)).norm());
     }
-    if (shear > kLargestShear || cost > kLargestCost)
+    if (shear > kLargestShear || (isUnitKnown && cost > kLargestCost))
       fail(FileError::Reason::NoGeometry, path,
            "its axes are not perpendicular (off by " +
                roughText(std::asin(std::min(shear, 1.0)) * kDegrees) +

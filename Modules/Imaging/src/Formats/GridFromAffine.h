@@ -14,11 +14,12 @@ namespace petrous::imaging
 ///
 /// Axes that deviate from perpendicular by at most 1e-3 (dot product of two unit axes) and at most
 /// 0.1 mm are orthogonalized, with a note from 0.001 mm; others are rejected, reporting the error
-/// in mm. Throws FileError (NoGeometry, Unsupported).
+/// in mm. A size or place that cannot be true is rejected, too, and, as these millimetres are, only
+/// where the unit of length is known. Throws FileError (NoGeometry, Unsupported).
 core::GridGeometry gridFromAffine(const std::filesystem::path& path,
                                   const std::vector<std::uint64_t>& dims,
                                   const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin,
-                                  std::vector<std::string>& notes);
+                                  std::vector<std::string>& notes, bool isUnitKnown = true);
 
 /// The unit of length of a file.
 struct LengthUnit

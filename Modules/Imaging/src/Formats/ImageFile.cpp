@@ -176,6 +176,7 @@ LoadedImage readImageFile(const std::filesystem::path& path,
   VoxelSource source(path);
   if (unit)
     source.settleUnit(unit, {});
+  source.takeFileUnit();
   if (isRas)
     source.settleSide(isRas, {});
   requireImage(path, source, volume);
@@ -209,6 +210,7 @@ ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t sli
   VoxelSource source(path);
   if (unit)
     source.settleUnit(unit, {});
+  source.takeFileUnit();
   if (isRas)
     source.settleSide(isRas, {});
   requireImage(path, source, volume);

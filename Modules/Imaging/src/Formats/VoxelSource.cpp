@@ -183,7 +183,6 @@ void VoxelSource::place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& or
   m_linear = linear;
   m_origin = origin;
   m_apart = apart;
-  scaleTo(m_unit);
   if (m_dims.size() >= 3 && linear.allFinite() && !isPlausibleSize(m_dims, linear))
   {
     m_unitDoubt = {unit.mm, unit.isStated, longestEdge(m_dims, linear), {}};
@@ -191,9 +190,10 @@ void VoxelSource::place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& or
       if (other != unit.mm && isPlausibleSize(m_dims, other / unit.mm * linear))
         m_unitDoubt.likely.push_back(other);
   }
+  scaleTo(m_unit, m_unitDoubt.likely.empty());
 }
 
-void VoxelSource::scaleTo(double unit)
+void VoxelSource::scaleTo(double unit, bool isUnitKnown)
 {
   constexpr double kPlacementsDiffer = 0.1; // mm between sform and qform; noted if exceeded
   const double scale = unit / m_unit;
@@ -201,7 +201,8 @@ void VoxelSource::scaleTo(double unit)
   if (scale * m_apart > kPlacementsDiffer)
     notes.push_back("places itself twice (sform and qform), up to " + roughText(scale * m_apart) +
                     " mm apart; the sform is used, as the NIfTI standard says");
-  m_geometry = gridFromAffine(m_path, m_dims, scale * m_linear, scale * m_origin, notes);
+  m_geometry =
+      gridFromAffine(m_path, m_dims, scale * m_linear, scale * m_origin, notes, isUnitKnown);
   m_placeNotes = std::move(notes);
 }
 
@@ -244,8 +245,14 @@ bool VoxelSource::settleUnit(const std::optional<double>& unit,
                     [this](const ImageGrid& grid) { return core::sameGrid(grid, *m_geometry); }))
       return settle(one, ", as its grid is then that of an image of the case");
   }
-  scaleTo(m_unit);
+  scaleTo(m_unit, false);
   return false;
+}
+
+void VoxelSource::takeFileUnit()
+{
+  if (!m_unitDoubt.likely.empty())
+    scaleTo(m_unit);
 }
 
 void VoxelSource::assume(bool isRas)

@@ -56,8 +56,12 @@ public:
   /// The unit of length, if what the file states or leaves open makes it no head, ear or specimen.
   const UnitDoubt& unitDoubt() const noexcept { return m_unitDoubt; }
   /// Settles it: as `unit` (mm) says, which a file without doubt follows too, else by the grid of
-  /// an image; notes it. Whether it is settled. Before the side.
+  /// an image; notes it. Whether it is settled. Before the side. Until then the voxels lie in the
+  /// file's unit, wherever that puts them.
   bool settleUnit(const std::optional<double>& unit, const std::vector<ImageGrid>& images);
+  /// Takes the file's unit all the same. Throws FileError (NoGeometry) where the size or the place
+  /// cannot be true in it.
+  void takeFileUnit();
   /// The value of voxels outside the scanned field, as this program's files keep it.
   const std::optional<double>& padding() const noexcept { return m_padding; }
   /// The text header of a NRRD; nullopt for other formats.
@@ -82,7 +86,7 @@ private:
   void countVolumes();
   void place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin, const LengthUnit& unit,
              double apart = 0.0);
-  void scaleTo(double unit);
+  void scaleTo(double unit, bool isUnitKnown = true);
   long double voxelBytes() const;
   void checkRoom();
   void readText(const core::IndexBox& box, void* out, const core::Progress& progress) const;

@@ -294,6 +294,15 @@ protected:
     }
     EXPECT_TRUE(cut.isEmpty()) << where.toStdString() << ":\n" << cut.join('\n').toStdString();
   }
+  /// Guarded: to look at one takes time, in which others may go.
+  static std::vector<QPointer<QDialog>> shownDialogs()
+  {
+    std::vector<QPointer<QDialog>> shown;
+    for (QWidget* top : QApplication::topLevelWidgets())
+      if (auto* dialog = qobject_cast<QDialog*>(top); dialog && dialog->isVisible())
+        shown.emplace_back(dialog);
+    return shown;
+  }
   static bool opensDialog(const QAction& action)
   {
     return !action.menu() && (action.text().endsWith(QString::fromUtf8("…")) ||
@@ -355,9 +364,8 @@ protected:
       for (int tries = 0; !found && tries < 10; ++tries)
       {
         QTest::qWait(30);
-        for (QWidget* top : QApplication::topLevelWidgets())
-          if (auto* dialog = qobject_cast<QDialog*>(top);
-              dialog && dialog->isVisible() && !qobject_cast<QProgressDialog*>(dialog))
+        for (const QPointer<QDialog>& dialog : shownDialogs())
+          if (dialog && dialog->isVisible() && !qobject_cast<QProgressDialog*>(dialog))
             look(*dialog);
       }
       EXPECT_TRUE(
@@ -633,9 +641,8 @@ TEST_F(Manners, DialogsHaveNamesForScreenReadersAndAWayOutByKey)
     poll.start(10);
     action(QString::fromUtf8(entry))->trigger();
     if (poll.isActive()) // not modal
-      for (QWidget* top : QApplication::topLevelWidgets())
-        if (auto* dialog = qobject_cast<QDialog*>(top);
-            dialog && dialog->isVisible() && poll.isActive())
+      for (const QPointer<QDialog>& dialog : shownDialogs())
+        if (dialog && poll.isActive())
         {
           poll.stop();
           look(*dialog);

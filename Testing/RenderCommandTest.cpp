@@ -235,6 +235,12 @@ TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
   EXPECT_NE(drawn("--wetness 1"), plain);
   EXPECT_NE(drawn("--shadows"), plain);
   EXPECT_EQ(drawn("--no-shadows"), plain);
+  EXPECT_EQ(drawn("--exposure 0 --no-tone-curve"), plain);
+  EXPECT_NE(drawn("--exposure -1"), plain);
+  EXPECT_NE(drawn("--exposure 1"), plain);
+  EXPECT_NE(drawn("--exposure 1 --tone-curve"), drawn("--exposure 1"));
+  expectRefused(render("--exposure 5"), 2, "EV");
+  expectRefused(render("--exposure nan"), 2, "--exposure");
   expectRefused(render("--wetness 1.5"), 2, "--wetness");
   expectRefused(render("--light-falloff -1"), 2, "mm");
   expectRefused(render("--light-falloff nan"), 2, "--light-falloff");

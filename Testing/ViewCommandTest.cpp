@@ -43,9 +43,10 @@ TEST_F(ViewCommand, RenderAndSliceShowWhatIsSaved)
   };
   const std::string at = std::to_string(center(0)) + "," + std::to_string(center(1) + 5.0) + "," +
                          std::to_string(center(2));
-  const std::string render = "--view superior --light-falloff 150 --wetness 0.5 --shadows --stereo "
-                             "anaglyph --eye-separation 20 --clip " +
-                             at + ",0,0,-1 --crop 0,47,0,40,0,44";
+  const std::string render =
+      "--view superior --light-falloff 150 --wetness 0.5 --shadows --exposure 0.5 "
+      "--tone-curve --stereo anaglyph --eye-separation 20 --clip " +
+      at + ",0,0,-1 --crop 0,47,0,40,0,44";
   const std::string plain = drawn("render ear");
   const std::string wanted = drawn("render ear " + render);
   ASSERT_NE(plain, wanted);
@@ -59,6 +60,12 @@ TEST_F(ViewCommand, RenderAndSliceShowWhatIsSaved)
                 .at("stereo"),
             nullptr);
 
+  EXPECT_EQ(set.at("light").at("exposure_ev"), 0.5);
+  EXPECT_EQ(set.at("light").at("tone_curve"), true);
+  EXPECT_EQ(json("view ear --exposure 0 --no-tone-curve").at("light").at("exposure_ev"), 0.0);
+  EXPECT_NE(drawn("render ear"), wanted);
+  EXPECT_EQ(drawn("render ear --exposure 0.5 --tone-curve"), wanted);
+  EXPECT_EQ(json("view ear --exposure 0.5 --tone-curve").at("light").at("tone_curve"), true);
   EXPECT_EQ(set.at("light").at("shadows"), true);
   EXPECT_EQ(json("view ear --no-shadows").at("light").at("shadows"), false);
   EXPECT_NE(drawn("render ear"), wanted);

@@ -54,8 +54,8 @@ struct RenderOptions
   std::string crop, roi;
   std::vector<std::string> clip;
   std::optional<double> eyeSeparation, convergence;
-  std::optional<double> falloff, wetness;
-  std::optional<bool> shadows;
+  std::optional<double> falloff, wetness, exposure;
+  std::optional<bool> shadows, toneCurve;
   std::optional<double> widthMillimetres, dotsPerInch;
   std::string along;
   int turntable = 0, frames = 0; ///< 0: not given
@@ -153,6 +153,10 @@ void takeView(RenderOptions& options, Shot& shot, const scene::ViewState& saved)
     options.wetness = view.light->wetness;
   if (view.light && !options.shadows)
     options.shadows = view.light->shadows;
+  if (view.light && !options.exposure)
+    options.exposure = view.light->exposure;
+  if (view.light && !options.toneCurve)
+    options.toneCurve = view.light->toneCurve;
   if (options.isPrint() || options.isFilm())
     options.stereo = "none";
   shot.stereo = *rendering::parseStereoMode(options.stereo);
@@ -176,7 +180,9 @@ rendering::SceneContents renderContents(const RenderOptions& options, const scen
   rendering::SceneContents contents = assembly.contents(value);
   presenters::illuminate(contents, scene::ViewState::Light{options.falloff.value_or(0.0),
                                                            options.wetness.value_or(0.0),
-                                                           options.shadows.value_or(false)});
+                                                           options.shadows.value_or(false),
+                                                           options.exposure.value_or(0.0),
+                                                           options.toneCurve.value_or(false)});
   presenters::clip(contents, value.view.clipping, value.ct.geometry);
   return contents;
 }
@@ -246,7 +252,8 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
                       rendering::StereoRig::kFarthestConvergence, "mm"}));
   command
       .add_option("--light-falloff", options.falloff,
-                  "Distance at which the light has half its intensity; 0: no falloff (as saved)")
+                  "Distance at which the light has half its intensity, with the focal point as "
+                  "bright as without; 0: no falloff (as saved)")
       ->type_name("MM")
       ->check(within({0.0, 10000.0, "mm"}));
   command
@@ -257,6 +264,16 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
       "--shadows,!--no-shadows", [&options](std::int64_t times) { options.shadows = times > 0; },
       "Darken cavities, and throw the soft shadow of a lamp above the view axis (as "
       "saved)");
+  constexpr double kMaxExposure = scene::ViewState::Light::kMaxExposure;
+  command
+      .add_option("--exposure", options.exposure,
+                  "Brightness in stops, -4 to 4: one more doubles the luminance (as saved)")
+      ->type_name("EV")
+      ->check(within({-kMaxExposure, kMaxExposure, "EV"}));
+  command.add_flag_function(
+      "--tone-curve,!--no-tone-curve",
+      [&options](std::int64_t times) { options.toneCurve = times > 0; },
+      "Roll highlights off above 80 % instead of clipping them (as saved)");
   command
       .add_option("--thickness", options.thickness,
                   "Colour bone by its thickness over a structure, 0 to 5 mm")

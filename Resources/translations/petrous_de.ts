@@ -4766,6 +4766,26 @@ Verletzt: %1, %2</translation>
         <source>Cavities are darker than what is open, and a lamp somewhat above the line of sight throws a soft shadow</source>
         <translation>Vertiefungen sind dunkler als das, was offen liegt, und eine Lampe etwas über der Blickrichtung wirft einen weichen Schatten</translation>
     </message>
+    <message>
+        <source>E&amp;xposure</source>
+        <translation>&amp;Belichtung</translation>
+    </message>
+    <message>
+        <source>Brightness of all that is lit, EV: one more doubles the luminance, one less halves it. 0 shows structures in the colours of their list</source>
+        <translation>Helligkeit von allem, was beleuchtet ist, in EV: Eins mehr verdoppelt die Leuchtdichte, eins weniger halbiert sie. Bei 0 haben Strukturen die Farben ihrer Liste</translation>
+    </message>
+    <message>
+        <source> EV</source>
+        <translation> EV</translation>
+    </message>
+    <message>
+        <source>Soft &amp;highlights</source>
+        <translation>&amp;Weiche Glanzlichter</translation>
+    </message>
+    <message>
+        <source>What is brighter than 80 % rolls off towards white instead of burning out; bright colours of structures become a little darker than in their list</source>
+        <translation>Was heller als 80 % ist, geht sanft in Weiß über, statt auszubrennen; helle Farben von Strukturen werden etwas dunkler als in ihrer Liste</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::PreviewBar</name>

@@ -8121,6 +8121,10 @@
         <translation>der Lichtabfall muss 0 bis 10000 mm sein, die Nässe 0 bis 1</translation>
     </message>
     <message>
+        <source>the exposure must be -4 to 4 EV</source>
+        <translation>die Belichtung muss -4 bis 4 EV sein</translation>
+    </message>
+    <message>
         <source>the stereo mode is unknown</source>
         <translation>der Stereomodus ist unbekannt</translation>
     </message>

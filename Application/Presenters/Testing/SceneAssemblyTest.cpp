@@ -100,6 +100,15 @@ TEST(SceneAssembly, KeepsTheLabelFieldWhileTheSameVoxelsAreShown)
   EXPECT_EQ(assembly.contents(value).labels, nullptr);
 }
 
+// As slices show it when the case is opened.
+TEST(SceneAssembly, SectionsAreInTheBoneWindow)
+{
+  const auto section = SceneAssembly().contents(slabs()).section;
+  ASSERT_TRUE(section);
+  EXPECT_EQ(section->width, 4000.0);
+  EXPECT_EQ(section->level, 700.0);
+}
+
 TEST(SceneAssembly, GivesAnOverlapToTheLowerPriority)
 {
   scene::Case value = slabs();

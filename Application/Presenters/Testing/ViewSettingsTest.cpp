@@ -25,6 +25,28 @@ TEST(ViewSettings, TellsOnlyWhatChanged)
   EXPECT_EQ(stereos, 3);
 }
 
+TEST(ViewSettings, ExposureAndToneCurveComeBackFromASavedView)
+{
+  ViewSettings settings;
+  int lights = 0;
+  settings.events.lightChanged = [&lights] { ++lights; };
+  settings.setExposure(1.0 / 3.0);
+  settings.setToneCurve(true);
+  settings.setToneCurve(true);
+  EXPECT_EQ(lights, 2);
+  petrous::scene::ViewState view;
+  view.light = settings.lightState();
+  ViewSettings other, copy;
+  other.take(view, false);
+  copy.take(other);
+  EXPECT_EQ(copy.light().exposure, 1.0 / 3.0);
+  EXPECT_TRUE(copy.light().toneCurve);
+  view.light.emplace(); // as saved before there was any
+  copy.take(view, false);
+  EXPECT_EQ(copy.light().exposure, 0.0);
+  EXPECT_FALSE(copy.light().toneCurve);
+}
+
 TEST(ViewSettings, HoldsValuesWithinTheirLimits)
 {
   ViewSettings settings;
@@ -32,6 +54,10 @@ TEST(ViewSettings, HoldsValuesWithinTheirLimits)
   EXPECT_EQ(settings.light().wetness, 1.0);
   settings.setFalloff(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(settings.light().falloff, 0.0);
+  settings.setExposure(-7.0);
+  EXPECT_EQ(settings.light().exposure, -4.0);
+  settings.setExposure(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(settings.light().exposure, 0.0);
   settings.setEyeSeparation(1e6);
   EXPECT_EQ(settings.rig().eyeSeparation, 200.0);
   settings.setConvergence(0.0);

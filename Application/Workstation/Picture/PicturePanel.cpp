@@ -64,17 +64,41 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
                  percentSlider("wetness", tr("Gloss of a wet surface")),
                  [this] { return percent(m_settings.light().wetness); },
                  [this](int percent) { m_settings.setWetness(0.01 * percent); }));
-  auto* shadows = new QCheckBox(tr("&Shadows"));
-  shadows->setObjectName("shadows");
-  shadows->setToolTip(
+  addCheck(
+      form, tr("&Shadows"), "shadows",
       tr("Cavities are darker than what is open, and a lamp somewhat above the line "
-         "of sight throws a soft shadow"));
-  m_bound.add(
-      shadows, [this] { return m_settings.light().shadows; },
+         "of sight throws a soft shadow"),
+      [this] { return m_settings.light().shadows; },
       [this](bool on) { m_settings.setShadows(on); });
-  form->addRow(QString(), shadows);
+  constexpr double kMaxExposure = scene::ViewState::Light::kMaxExposure;
+  form->addRow(tr("E&xposure"),
+               m_bound.add(
+                   numberBox("exposure",
+                             tr("Brightness of all that is lit, EV: one more doubles the "
+                                "luminance, one less halves it. 0 shows structures in "
+                                "the colours of their list"),
+                             {-kMaxExposure, kMaxExposure, tr(" EV"), 1, 0.5}),
+                   [this] { return m_settings.light().exposure; },
+                   [this](double exposure) { m_settings.setExposure(exposure); }));
+  addCheck(
+      form, tr("Soft &highlights"), "toneCurve",
+      tr("What is brighter than 80 % rolls off towards white instead of burning out; "
+         "bright colours of structures become a little darker than in their list"),
+      [this] { return m_settings.light().toneCurve; },
+      [this](bool on) { m_settings.setToneCurve(on); });
   addStereo(form, quadBuffer);
   settingsChanged();
+}
+
+void PicturePanel::addCheck(QFormLayout* form, const QString& name, const char* objectName,
+                            const QString& tip, const Bindings::Get<bool>& get,
+                            const Bindings::Set<bool>& set)
+{
+  auto* box = new QCheckBox(name);
+  box->setObjectName(objectName);
+  box->setToolTip(tip);
+  m_bound.add(box, get, set);
+  form->addRow(QString(), box);
 }
 
 void PicturePanel::addStereo(QFormLayout* form, bool quadBuffer)

@@ -26,6 +26,8 @@ public:
   void settingsChanged(); ///< light or stereo
 
 private:
+  void addCheck(QFormLayout* form, const QString& name, const char* objectName, const QString& tip,
+                const Bindings::Get<bool>& get, const Bindings::Set<bool>& set);
   void addPercent(QFormLayout* form, const QString& name, QSlider* slider);
   void addStereo(QFormLayout* form, bool quadBuffer);
   void setBoneOpacity(double opacity);

@@ -39,6 +39,8 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   widget<QDoubleSpinBox>("lightFalloff").setValue(120.0);
   widget<QSlider>("wetness").setValue(40);
   widget<QAbstractButton>("shadows").click();
+  widget<QDoubleSpinBox>("exposure").setValue(-1.5);
+  widget<QAbstractButton>("toneCurve").click();
   widget<QDoubleSpinBox>("eyeSeparation").setValue(22.0);
   auto& stereo = widget<QComboBox>("stereoMode");
   stereo.setCurrentIndex(stereo.findText("Anaglyph (red-cyan)"));
@@ -53,6 +55,8 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   EXPECT_EQ(widget<QDoubleSpinBox>("lightFalloff").value(), 120.0);
   EXPECT_EQ(widget<QSlider>("wetness").value(), 40);
   EXPECT_TRUE(widget<QAbstractButton>("shadows").isChecked());
+  EXPECT_EQ(widget<QDoubleSpinBox>("exposure").value(), -1.5);
+  EXPECT_TRUE(widget<QAbstractButton>("toneCurve").isChecked());
   EXPECT_EQ(widget<QDoubleSpinBox>("eyeSeparation").value(), 22.0);
   EXPECT_EQ(widget<QDoubleSpinBox>("convergence").value(), 0.0);
   EXPECT_EQ(widget<QComboBox>("stereoMode").currentText(), "Anaglyph (red-cyan)");
@@ -114,7 +118,7 @@ TEST_F(Settings, WhatNobodyUnderstandsIsTheUsual)
 {
   const QString file = QString::fromStdString((folder() / "odd.conf").string());
   std::ofstream(file.toStdString())
-      << "[light]\nfalloff_mm=nan\nwetness=lots\n[stereo]\n"
+      << "[light]\nfalloff_mm=nan\nwetness=lots\nexposure_ev=inf\n[stereo]\n"
          "mode=holographic\neye_separation_mm=-5\n[hand]\nthrust_n=x\n"
          "[burr]\ndiameter_mm=4\nrpm=60000\nkind=laser\n";
   WindowSettings settings(file);
@@ -122,6 +126,7 @@ TEST_F(Settings, WhatNobodyUnderstandsIsTheUsual)
   settings.restore(view, true);
   EXPECT_EQ(view.light().falloff, 0.0);
   EXPECT_EQ(view.light().wetness, 0.0);
+  EXPECT_EQ(view.light().exposure, 0.0);
   EXPECT_EQ(view.stereo(), rendering::StereoMode::None);
   EXPECT_EQ(view.rig().eyeSeparation, 0.0); // clamped to its limits, as a user's value is
   EXPECT_FALSE(settings.thrust());

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <QAbstractButton>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -61,7 +62,7 @@ protected:
                                            4000.0 / 7.0, 1.0 / 3.0};
     view.slices->planes.emplace();
     (*view.slices->planes)[1] = {10.0 / 3.0, Eigen::Vector3d(1.0 / 7.0, 0.0, -1.0 / 9.0)};
-    view.light = scene::ViewState::Light{1000.0 / 7.0, 1.0 / 3.0, true};
+    view.light = scene::ViewState::Light{1000.0 / 7.0, 1.0 / 3.0, true, -2.0 / 3.0, true};
     view.stereo = scene::ViewState::Stereo{"anaglyph", 100.0 / 7.0, 1000.0 / 3.0};
     view.clipping.planes = {{kBallCenter, Eigen::Vector3d(0.0, 0.6, 0.8)}};
     view.clipping.crop = core::IndexBox{{0, 0, 0}, {64, 64, 50}};
@@ -105,6 +106,8 @@ TEST_F(ViewStates, ShowsACaseAsItWasSaved)
   EXPECT_NEAR(widget<QDoubleSpinBox>("lightFalloff").value(), 142.9, 0.01);
   EXPECT_EQ(widget<QSlider>("wetness").value(), 33);
   EXPECT_TRUE(widget<QAbstractButton>("shadows").isChecked());
+  EXPECT_NEAR(widget<QDoubleSpinBox>("exposure").value(), -0.7, 0.01);
+  EXPECT_TRUE(widget<QAbstractButton>("toneCurve").isChecked());
   EXPECT_EQ(view().display().stereo(), rendering::StereoMode::Anaglyph);
   EXPECT_NEAR(widget<QDoubleSpinBox>("eyeSeparation").value(), 14.3, 0.01);
   const dissection::Burr burr = widget<DrillBar>("drillBar").burr();
@@ -120,6 +123,8 @@ TEST_F(ViewStates, ShowsACaseAsItWasSaved)
   openWindow("plain");
   EXPECT_EQ(widget<QDoubleSpinBox>("lightFalloff").value(), 0.0);
   EXPECT_FALSE(widget<QAbstractButton>("shadows").isChecked());
+  EXPECT_EQ(widget<QDoubleSpinBox>("exposure").value(), 0.0);
+  EXPECT_FALSE(widget<QAbstractButton>("toneCurve").isChecked());
   EXPECT_EQ(widget<QDoubleSpinBox>("thrust").value(), 1.0);
   EXPECT_EQ(view().display().stereo(), rendering::StereoMode::None);
 }

@@ -59,6 +59,9 @@ void WindowSettings::restore(presenters::ViewSettings& view, bool quadBuffer) co
   if (const auto wetness = number("light/wetness"))
     view.setWetness(*wetness);
   view.setShadows(m_file.value("light/shadows").toBool());
+  if (const auto exposure = number("light/exposure_ev"))
+    view.setExposure(*exposure);
+  view.setToneCurve(m_file.value("light/tone_curve").toBool());
   view.setEyeSeparation(number("stereo/eye_separation_mm"));
   view.setConvergence(number("stereo/convergence_mm"));
   const QString mode = m_file.value("stereo/mode").toString();
@@ -72,6 +75,8 @@ void WindowSettings::keep(const presenters::ViewSettings& view)
   m_file.setValue("light/falloff_mm", view.light().falloff);
   m_file.setValue("light/wetness", view.light().wetness);
   m_file.setValue("light/shadows", view.light().shadows);
+  m_file.setValue("light/exposure_ev", view.light().exposure);
+  m_file.setValue("light/tone_curve", view.light().toneCurve);
   for (const auto& [value, name] : kModes)
     if (value == view.stereo())
       m_file.setValue("stereo/mode", name);

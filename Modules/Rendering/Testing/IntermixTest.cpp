@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "PictureComparison.h"
 #include "PictureScenes.h"
 #include "petrous/Rendering/ScenePicture.h"
@@ -134,6 +136,57 @@ TEST(Intermix, EndsRaysAtTheToolWithinLabelsAndASecondImage)
   SceneContents contents = fullScene();
   contents.tool = tool({2.0, -6.0, 3.0}, Vector(0.4, -1.0, 0.6), 1.5);
   expectTheSame(contents, slanting());
+}
+
+// VTK draws meshes and tool.
+TEST(Intermix, ExposesMeshesAndToolAsTheBone)
+{
+  SceneContents contents = cutBall();
+  contents.tool = tool({2.0, -8.0, 3.0}, Vector(0.4, -1.0, 0.6));
+  contents.meshes = {square("sheet", {0.0, -4.0, 0.0}, {14.0, 0.0, 0.0}, {0.0, 0.0, 14.0})};
+  contents.meshes[0].look.color = {0.9F, 0.8F, 0.3F};
+  const Picture plain = draw(contents, slanting());
+  for (const double exposure : {-1.0, 0.0, 1.0})
+  {
+    contents.light.exposure = exposure;
+    contents.light.toneCurve = true;
+    expectTheSame(contents, slanting());
+  }
+  contents.light.toneCurve = false;
+  expectTheSame(contents, slanting());
+  contents.light.exposure = 0.0;
+  EXPECT_EQ(countDifferentPixels(draw(contents, slanting()), plain), 0U);
+}
+
+// Each pixel is that of the opaque mesh or that without it.
+TEST(Intermix, ExposesAMeshBehindAScreenDoor)
+{
+  SceneContents contents = cutBall();
+  contents.meshes = {square("sheet", {0.0, -4.0, 0.0}, {14.0, 0.0, 0.0}, {0.0, 0.0, 14.0})};
+  contents.light.exposure = 1.0;
+  contents.light.toneCurve = true;
+  const Picture opaque = draw(contents, slanting());
+  contents.meshes[0].look.opacity = 0.5F;
+  const Picture half = draw(contents, slanting());
+  contents.meshes[0].look.shown = false;
+  const Picture without = draw(contents, slanting());
+  const auto same = [](const Picture& a, const Picture& b, int column, int row)
+  { return std::equal(a.pixel(column, row), a.pixel(column, row) + 3, b.pixel(column, row)); };
+  int closed = 0;
+  int open = 0;
+  int neither = 0;
+  for (int row = 0; row < kHeight; ++row)
+    for (int column = 0; column < kWidth; ++column)
+    {
+      const bool isClosed = same(half, opaque, column, row);
+      const bool isOpen = same(half, without, column, row);
+      closed += isClosed && !isOpen;
+      open += isOpen && !isClosed;
+      neither += !isOpen && !isClosed;
+    }
+  EXPECT_GT(closed, 1000);
+  EXPECT_NEAR(open, closed, 0.02 * closed);
+  EXPECT_EQ(neither, 0);
 }
 
 TEST(Intermix, HidesAToolInsideOpaqueBone)

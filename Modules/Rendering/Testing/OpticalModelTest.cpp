@@ -1,5 +1,7 @@
 #include "OpticalModel.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 using namespace petrous;
@@ -40,6 +42,69 @@ TEST(OpticalModel, LightIsHalvedAtTheFalloffAndFadesWithTheSquareFarAway)
   EXPECT_DOUBLE_EQ(optics::lightAt(light, 0.0), 0.8);
   EXPECT_DOUBLE_EQ(optics::lightAt(light, 50.0), 0.4);
   EXPECT_NEAR(optics::lightAt(light, 1e5) / optics::lightAt(light, 2e5), 4.0, 1e-5);
+}
+
+TEST(OpticalModel, FalloffLeavesTheFocalPointAsBrightWhereverTheCameraIs)
+{
+  LightSettings light;
+  light.intensity = 0.8;
+  light.falloff = 50.0;
+  for (const double focus : {1.0, 50.0, 400.0})
+    EXPECT_NEAR(optics::lightAt(light, focus, focus), 0.8, 1e-12);
+  EXPECT_NEAR(optics::lightAt(light, 100.0, 50.0), 0.8 * 2.0 / 5.0, 1e-12);
+  core::CameraPose camera;
+  camera.position = {0.0, 0.0, 30.0};
+  camera.focalPoint = {0.0, 40.0, 0.0};
+  EXPECT_DOUBLE_EQ(optics::lampOf(camera).focus, 50.0);
+  camera.head = core::CameraPose::Head{{0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}};
+  EXPECT_DOUBLE_EQ(optics::lampOf(camera).focus, 5.0); // of both eyes
+}
+
+TEST(OpticalModel, AStopDoublesTheLuminanceOfADisplayOfGamma22)
+{
+  LightSettings light;
+  const Eigen::Vector3d usual = lit(light, 0.7);
+  EXPECT_EQ(optics::lightAt(light, 0.0), 1.0); // nothing is rounded at 0 EV
+  for (const double stops : {-1.0, 0.5, 1.0})
+  {
+    light.exposure = stops;
+    const Eigen::Vector3d exposed = lit(light, 0.7);
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(std::log2(std::pow(exposed[c], 2.2) / std::pow(usual[c], 2.2)), stops, 1e-9);
+  }
+}
+
+// Values of the Khronos PBR Neutral specification without its toe: 1 - 0.04 / (p - 0.6) of a peak
+// p, and 1 / (0.15 (p - p') + 1) of its saturation.
+TEST(OpticalModel, ToneCurveIsThatOfItsSpecification)
+{
+  using Color = Eigen::Vector3d;
+  EXPECT_TRUE(optics::toneCurve({1.0, 1.0, 1.0}).isApprox(Color::Constant(0.9), 1e-12));
+  EXPECT_TRUE(optics::toneCurve({1.6, 1.6, 1.6}).isApprox(Color::Constant(0.96), 1e-12));
+  EXPECT_TRUE(
+      optics::toneCurve({1.0, 0.0, 0.0}).isApprox(Color(0.9, 0.0133004926, 0.0133004926), 1e-9));
+}
+
+TEST(OpticalModel, ToneCurveLeavesMidTonesAndIsMonotoneAndSmooth)
+{
+  EXPECT_EQ(optics::toneCurve(Eigen::Vector3d::Zero()), Eigen::Vector3d::Zero());
+  EXPECT_EQ(optics::toneCurve({-1.0, 0.5, 0.8}), Eigen::Vector3d(0.0, 0.5, 0.8));
+  const Eigen::Vector3d hue(1.0, 0.6, 0.1);
+  constexpr double kStep = 1e-3;
+  Eigen::Vector3d last = Eigen::Vector3d::Zero();
+  Eigen::Vector3d slope = hue;
+  for (double light = kStep; light < 8.0; light += kStep)
+  {
+    const Eigen::Vector3d shown = optics::toneCurve(light * hue);
+    const Eigen::Vector3d rise = (shown - last) / kStep;
+    EXPECT_GT(rise.minCoeff(), 0.0) << light;
+    EXPECT_LT((rise - slope).cwiseAbs().maxCoeff(), 0.02) << light; // no bend
+    EXPECT_LT(shown.maxCoeff(), 1.0) << light;
+    EXPECT_NEAR((shown[0] - shown[1]) / (shown[0] - shown[2]), 0.4 / 0.9, 1e-9) << light; // hue
+    last = shown;
+    slope = rise;
+  }
+  EXPECT_GT(last[0], 0.99);
 }
 
 TEST(OpticalModel, SurfaceIsAmbientPlusLambert)
@@ -102,6 +167,9 @@ TEST(OpticalModel, NoColorLeavesZeroToOne)
   light.wetness = 1.0;
   EXPECT_LE(lit(light, 1.0, 0.0, 1.0).maxCoeff(), 1.0);
   EXPECT_LE(optics::interiorColor(Eigen::Vector3d::Ones(), light, 0.0).maxCoeff(), 1.0);
+  light.toneCurve = true;
+  EXPECT_LT(lit(light, 1.0, 0.0, 1.0).maxCoeff(), 1.0);
+  EXPECT_LT(optics::interiorColor(Eigen::Vector3d::Ones(), light, 0.0).maxCoeff(), 1.0);
   light.intensity = -1.0;
   EXPECT_GE(lit(light, 1.0).minCoeff(), 0.0);
 }

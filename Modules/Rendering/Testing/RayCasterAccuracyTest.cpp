@@ -47,6 +47,13 @@ View lit(View view, double falloff, double wetness)
   return view;
 }
 
+View toned(View view, double exposure, bool toneCurve)
+{
+  view.contents.light.exposure = exposure;
+  view.contents.light.toneCurve = toneCurve;
+  return view;
+}
+
 // Bone with scanner noise of a fifth of the intensity rise per voxel at the surface.
 SceneContents noisy(float surfaceOpacity)
 {
@@ -196,8 +203,41 @@ std::vector<Case> cases()
       {"FalloffAndWetness", [] { return lit(View{fullScene()}, 50.0, 0.5); }},
       {"FalloffInTheInside",
        [] {
-         return lit({translucentBall(), from({3.0, -19.0, 3.0}, {0.0, 0.0, 0.0}, 60.0)}, 12.0, 0.0);
+         return lit({translucentBall(), from({3.0, -19.0, 3.0}, {1.5, -9.5, 1.5}, 60.0)}, 12.0,
+                    0.0);
        }},
+      {"Sections",
+       []
+       {
+         View view{fullScene()};
+         view.contents.clipping = {{{0.0, -2.0, 0.0}, Vector(0.2, 1.0, 0.1).normalized()}};
+         view.contents.section = SectionWindow{3200.0, 700.0};
+         view.contents.light.exposure = 1.0;
+         return view;
+       }},
+      {"SectionOfOpaqueBone",
+       []
+       {
+         View view{hollowBall(oblique())};
+         view.contents.crop = core::IndexBox{{10, 12, 5}, {33, 40, 41}};
+         view.contents.section = SectionWindow{};
+         return view;
+       }},
+      {"SectionOfBoneInASecondImage",
+       []
+       {
+         View view{translucentBall()};
+         view.contents.second = movedWaves();
+         view.contents.materials = {waveMaterial(0.6F)};
+         view.contents.crop = core::IndexBox{{10, 12, 5}, {33, 40, 41}};
+         view.contents.section = SectionWindow{};
+         return view;
+       }},
+      {"Exposed", [] { return toned(lit(View{fullScene()}, 0.0, 0.5), 1.0, false); }},
+      {"UnderexposedToneCurve", [] { return toned(lit(View{fullScene()}, 0.0, 0.5), -1.0, true); }},
+      {"ToneCurve", [] { return toned(lit(View{cutBall()}, 0.0, 1.0), 0.0, true); }},
+      {"OverexposedToneCurve", [] { return toned(lit(View{fullScene()}, 0.0, 0.5), 1.0, true); }},
+      {"OverexposedInside", [] { return toned(View{translucentBall()}, 1.0, true); }},
   };
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "ReferenceScenes.h"
+#include "petrous/Rendering/RenderingError.h"
 
 using namespace petrous;
 using namespace petrous::rendering;
@@ -301,14 +302,63 @@ TEST(TissueRay, StartsAtAnEyeInsideTissue)
   expectEverywhere(see(contents, along({1.0, 0.0, 0.0}, 3.0)), vectorOf(kGreen));
 }
 
+// 32 mm to the face, and 40 to the focal point.
 TEST(TissueRay, DimsWithTheDistanceFromTheLampAndShinesWhereItIsWet)
 {
   SceneContents contents = block();
   contents.materials = {flat({0.5F, 0.5F, 0.5F})};
+  contents.light.intensity = 0.5;
   contents.light.falloff = 16.0;
   contents.light.wetness = 0.25;
   expectEverywhere(see(contents, along({1.0, 0.0, 0.0}, 40.0)),
-                   Vector::Constant((0.5 + 0.25) / (1.0 + 4.0))); // 32 mm to the face
+                   Vector::Constant(0.5 * (0.5 + 0.25) * (1.0 + 2.5 * 2.5) / (1.0 + 4.0)));
+}
+
+TEST(TissueRay, ShowsTheCtInGreyWhereBoneIsCutOff)
+{
+  // A plane across a ramp of 50 HU per mm, in a window from -400 to 2800 HU, seen at an angle.
+  SceneContents contents;
+  contents.ct =
+      image(cube(33, 0.5), [](const Vector& p) { return 1000.0 + 50.0 * p.x() + 100.0 * p.y(); });
+  contents.iso = -1e4;
+  contents.materials = {flat(kRed)};
+  contents.light.exposure = 1.0; // of what is lit
+  contents.light.wetness = 1.0;
+  contents.section = SectionWindow{3200.0, 1200.0};
+  const Vector normal = Vector(-1.0, 0.5, 0.2).normalized();
+  contents.clipping = {{{0.0, 0.0, 0.0}, normal}};
+  const core::CameraPose pose = along({-1.0, 0.2, 0.0}, 40.0);
+  const ReferencePicture picture = see(contents, pose);
+  int compared = 0;
+  forEachRay(pose,
+             [&](int column, int row, const PixelRay& ray)
+             {
+               const double t = -ray.origin.dot(normal) / ray.direction.dot(normal);
+               const Vector at = ray.origin + t * ray.direction;
+               if (at.cwiseAbs().maxCoeff() > 7.9)
+                 return;
+               const double value = 1000.0 + 50.0 * at.x() + 100.0 * at.y();
+               EXPECT_LT((rgbOf(picture, column, row) - Vector::Constant((value + 400.0) / 3200.0))
+                             .cwiseAbs()
+                             .maxCoeff(),
+                         1e-5);
+               ++compared;
+             });
+  EXPECT_GT(compared, 500);
+}
+
+TEST(TissueRay, LeavesAStructureItsColourWhereItIsCutOff)
+{
+  SceneContents contents = block();
+  contents.labels = halfSpace(1.0);
+  contents.materials = {flat(kGreen), flat(kRed)};
+  contents.section = SectionWindow{4000.0, 700.0};
+  contents.light.wetness = 1.0;
+  expectEverywhere(see(contents, along({-1.0, 0.0, 0.0}, 40.0)), vectorOf(kRed));
+  expectEverywhere(see(contents, along({1.0, 0.0, 0.0}, 40.0)),
+                   Vector::Constant((1000.0 + 1300.0) / 4000.0));
+  contents.section->width = 0.0;
+  EXPECT_THROW(see(contents, along({1.0, 0.0, 0.0}, 40.0)), RenderingError);
 }
 
 TEST(TissueRay, FindsAChordThatIsShorterThanAStep)

@@ -608,6 +608,17 @@ ViewState::Tool toolIn(const json& j)
   return tool;
 }
 
+ViewState::Light lightIn(const json& j)
+{
+  ViewState::Light light;
+  light.falloff = j.at("falloff_mm").get<double>();
+  light.wetness = j.at("wetness").get<double>();
+  light.shadows = j.value("shadows", false);
+  light.exposure = j.value("exposure_ev", 0.0);
+  light.toneCurve = j.value("tone_curve", false);
+  return light;
+}
+
 json viewOut(const Case& value)
 {
   const ViewState& view = value.view;
@@ -623,6 +634,10 @@ json viewOut(const Case& value)
     j["light"] = {{"falloff_mm", view.light->falloff}, {"wetness", view.light->wetness}};
     if (view.light->shadows)
       j["light"]["shadows"] = true;
+    if (view.light->exposure != 0.0)
+      j["light"]["exposure_ev"] = view.light->exposure;
+    if (view.light->toneCurve)
+      j["light"]["tone_curve"] = true;
   }
   if (view.stereo)
     j["stereo"] = stereoOut(*view.stereo);
@@ -649,8 +664,7 @@ ViewState viewIn(const json& j)
   if (j.contains("slices"))
     view.slices = slicesIn(j.at("slices"));
   if (j.contains("light"))
-    view.light = {j.at("light").at("falloff_mm").get<double>(),
-                  j.at("light").at("wetness").get<double>(), j.at("light").value("shadows", false)};
+    view.light = lightIn(j.at("light"));
   if (j.contains("stereo"))
     view.stereo = stereoIn(j.at("stereo"));
   if (j.contains("clipping"))

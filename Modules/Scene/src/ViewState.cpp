@@ -110,7 +110,8 @@ bool operator==(const Slices& a, const Slices& b)
 
 bool operator==(const ViewState::Light& a, const ViewState::Light& b)
 {
-  return std::tie(a.falloff, a.wetness, a.shadows) == std::tie(b.falloff, b.wetness, b.shadows);
+  return std::tie(a.falloff, a.wetness, a.shadows, a.exposure, a.toneCurve) ==
+         std::tie(b.falloff, b.wetness, b.shadows, b.exposure, b.toneCurve);
 }
 
 bool operator==(const ViewState::Stereo& a, const ViewState::Stereo& b)
@@ -161,6 +162,10 @@ void checkView(const ViewState& view)
   if (view.light)
     require(isWithin(view.light->falloff, 0.0, 1e4) && isWithin(view.light->wetness, 0.0, 1.0),
             "the light's falloff must be 0 to 10000 mm, the wetness 0 to 1");
+  constexpr double kMaxExposure = ViewState::Light::kMaxExposure;
+  if (view.light)
+    require(isWithin(view.light->exposure, -kMaxExposure, kMaxExposure),
+            "the exposure must be -4 to 4 EV");
   if (view.stereo)
   {
     constexpr std::string_view kModes[] = {"none", "side-by-side", "interleaved", "anaglyph",

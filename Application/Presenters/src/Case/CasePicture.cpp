@@ -82,6 +82,8 @@ void illuminate(rendering::SceneContents& contents,
   contents.light.falloff = given.falloff;
   contents.light.wetness = given.wetness;
   contents.light.setShadows(given.shadows);
+  contents.light.exposure = given.exposure;
+  contents.light.toneCurve = given.toneCurve;
 }
 
 std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clipping,

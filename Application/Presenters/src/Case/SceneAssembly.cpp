@@ -5,6 +5,7 @@
 
 #include "petrous/Appearance/AppearanceMaterial.h"
 #include "petrous/Presenters/BoneThickness.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
 
@@ -119,6 +120,8 @@ rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
   if (!m_thicknessOver.empty() && !m_thickness)
     m_thickness = boneThickness(value, m_thicknessOver, progress);
   contents.thickness = {m_thickness, kFarthestThickness};
+  const GreyWindow grey = displayOf(value).bone;
+  contents.section = rendering::SectionWindow{grey.width, grey.level};
 
   for (const auto& mesh : value.meshes)
     if (mesh.look.shown && !scene::findStructure(value, mesh.name))

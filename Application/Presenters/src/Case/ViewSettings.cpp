@@ -56,6 +56,18 @@ void ViewSettings::setShadows(bool on)
     events.lightChanged();
 }
 
+void ViewSettings::setExposure(double exposure)
+{
+  constexpr double kMax = scene::ViewState::Light::kMaxExposure;
+  change(m_light.exposure, std::isnan(exposure) ? 0.0 : held(exposure, -kMax, kMax),
+         events.lightChanged);
+}
+
+void ViewSettings::setToneCurve(bool on)
+{
+  change(m_light.toneCurve, on, events.lightChanged);
+}
+
 void ViewSettings::setStereo(rendering::StereoMode mode)
 {
   change(m_stereo, mode, events.stereoChanged);
@@ -82,6 +94,8 @@ void ViewSettings::take(const scene::ViewState& view, bool quadBuffer)
     setFalloff(view.light->falloff);
     setWetness(view.light->wetness);
     setShadows(view.light->shadows);
+    setExposure(view.light->exposure);
+    setToneCurve(view.light->toneCurve);
   }
   if (!view.stereo)
     return;
@@ -98,6 +112,8 @@ void ViewSettings::take(const ViewSettings& other)
   setFalloff(other.m_light.falloff);
   setWetness(other.m_light.wetness);
   setShadows(other.m_light.shadows);
+  setExposure(other.m_light.exposure);
+  setToneCurve(other.m_light.toneCurve);
   setEyeSeparation(other.m_rig.eyeSeparation);
   setConvergence(other.m_rig.convergence);
   setStereo(other.m_stereo);
@@ -105,7 +121,7 @@ void ViewSettings::take(const ViewSettings& other)
 
 scene::ViewState::Light ViewSettings::lightState() const
 {
-  return {m_light.falloff, m_light.wetness, m_light.shadows};
+  return {m_light.falloff, m_light.wetness, m_light.shadows, m_light.exposure, m_light.toneCurve};
 }
 
 scene::ViewState::Stereo ViewSettings::stereoState() const

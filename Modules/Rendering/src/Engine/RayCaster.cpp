@@ -362,6 +362,7 @@ RayFeatures RayCaster::features() const
   features.thickness = static_cast<bool>(m_contents.thickness.distance);
   features.clip = !m_contents.clipping.empty();
   features.shadows = m_contents.light.shadows;
+  features.tone = m_contents.light.toneCurve;
   features.exact = m_statistics.filterBits < RenderQuality::kExactFilterBits;
   features.rounded = features.exact && m_quality.filterBits > 0;
   return features;
@@ -558,6 +559,7 @@ void RayCaster::draw(const Frame& frame, bool count)
   bindTextures(shader, frame);
   setRays(shader, frame);
   setVolume(shader);
+  setLight(shader, frame);
   setShadows(shader, frame);
   castRays(tissueOnScreen(frame, width, height));
   if (frame.fovea && !count)
@@ -619,6 +621,7 @@ void RayCaster::drawPart(const Frame& frame, const RenderQuality& quality,
   bindTextures(shader, frame);
   setRays(shader, frame);
   setVolume(shader);
+  setLight(shader, frame);
   setShadows(shader, frame);
   castRays(part);
 }

@@ -138,6 +138,7 @@ private:
   void bindTextures(GlProgram& program, const Frame& frame) const;
   void setRays(GlProgram& program, const Frame& frame) const;
   void setVolume(GlProgram& program) const;
+  void setLight(GlProgram& program, const Frame& frame) const;
   void setShadows(GlProgram& program, const Frame& frame) const;
   void castRays(const core::IndexBox& pixels);
   GlProgram& presenting();

@@ -134,10 +134,6 @@ void RayCaster::setVolume(GlProgram& program) const
   program.set("normalFromVoxel", Eigen::Matrix3d(voxelFromMm.transpose()));
   program.set("voxelFromMm", voxelFromMm);
   program.set("colorDepth", optics::kColorDepth * grid.minSpacing());
-  const LightSettings& light = m_contents.light;
-  program.set("light",
-              Eigen::Vector4d(light.intensity, light.ambient, light.specular, light.wetness));
-  program.set("falloff", light.falloff);
   program.set("maskScale", m_mask.map().scale);
   program.set("maskOffset", m_mask.map().offset);
   if (m_contents.labels)
@@ -181,6 +177,18 @@ void RayCaster::setVolume(GlProgram& program) const
     program.set("secondScale", m_second.map.scale);
     program.set("secondOffset", m_second.map.offset);
   }
+}
+
+void RayCaster::setLight(GlProgram& program, const Frame& frame) const
+{
+  const LightSettings& light = m_contents.light;
+  program.set("light", Eigen::Vector4d(optics::lightAt(light, 0.0, frame.lamp.focus), light.ambient,
+                                       light.specular, light.wetness));
+  program.set("falloff", light.falloff);
+  const SectionWindow window = m_contents.section.value_or(SectionWindow());
+  program.set("section", m_contents.section ? Eigen::Vector2d(window.level - 0.5 * window.width,
+                                                              1.0 / window.width)
+                                            : Eigen::Vector2d::Zero().eval());
 }
 
 void RayCaster::setShadows(GlProgram& program, const Frame& frame) const

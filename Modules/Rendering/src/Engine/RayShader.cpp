@@ -10,6 +10,7 @@
 #include "RayOpticsShader.h"
 #include "RaySceneShader.h"
 #include "RayShadowsShader.h"
+#include "ToneCurveShader.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Rendering/ThicknessColor.h"
 #include "petrous/Volume/LabelBorders.h"
@@ -38,10 +39,16 @@ constexpr Part kParts[] = {
     {&RayFeatures::clip, "PETROUS_CLIP", "clipping"},
     {&RayFeatures::thickness, "PETROUS_THICKNESS", "thickness"},
     {&RayFeatures::shadows, "PETROUS_SHADOWS", "shadows"},
+    {&RayFeatures::tone, "PETROUS_TONE", "tone"},
     {&RayFeatures::count, "PETROUS_COUNT", nullptr},
     {&RayFeatures::exact, "PETROUS_EXACT", nullptr},
     {&RayFeatures::rounded, "PETROUS_ROUNDED", nullptr},
 };
+
+std::string constantText(const char* name, double value)
+{
+  return std::string("const float ") + name + " = float(" + core::generalText(value, 9) + ");\n";
+}
 
 std::string constants()
 {
@@ -57,9 +64,7 @@ std::string constants()
       {"kLampTangent", optics::kLampTangent},
       {"kSliceGrowth", kSliceGrowth}};
   for (const auto& [name, value] : reals)
-  {
-    text += std::string("const float ") + name + " = float(" + core::generalText(value, 9) + ");\n";
-  }
+    text += constantText(name, value);
   text += "const vec3 kThicknessColors[" + std::to_string(kThicknessColors.size()) + "] = vec3[](";
   for (std::size_t n = 0; n < kThicknessColors.size(); ++n)
   {
@@ -98,6 +103,13 @@ std::vector<std::string> RayFeatures::names() const
   return names;
 }
 
+std::string toneCurveShader()
+{
+  return constantText("kToneStart", optics::kToneStart) +
+         constantText("kToneDesaturation", optics::kToneDesaturation) +
+         std::string(kToneCurveShader);
+}
+
 std::string rayFragmentShader(const RayFeatures& features)
 {
   std::string text;
@@ -108,6 +120,7 @@ std::string rayFragmentShader(const RayFeatures& features)
   return text.append(kRaySceneShader)
       .append(kRayClipShader)
       .append(kRayShadowsShader)
+      .append(features.tone ? toneCurveShader() : std::string())
       .append(kRayOpticsShader)
       .append(kRayMarchShader)
       .append(kRayCastShader);

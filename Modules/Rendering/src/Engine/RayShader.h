@@ -23,6 +23,7 @@ struct RayFeatures
   bool clip = false;      ///< clipping planes
   bool thickness = false; ///< bone is coloured by its distance to a structure
   bool shadows = false;   ///< ambient occlusion, and the lamp's shadow
+  bool tone = false;      ///< lit colours go through the tone curve
   bool count = false;     ///< texture fetches and samples are counted
   bool exact = false;     ///< values by a filter of our own: the card's rounds its weights
   bool rounded = false;   ///< the card's filter is made to round its weights
@@ -31,6 +32,9 @@ struct RayFeatures
   std::vector<std::string>
   names() const; ///< "ct" and the added features; counting and filters are not named
 };
+
+/// The tone curve in GLSL, with its constants.
+std::string toneCurveShader();
 
 /// Fragment shader of a variant (for GlProgram), with the constants of OpticalModel.h and
 /// OccupancyGrid.h inserted.

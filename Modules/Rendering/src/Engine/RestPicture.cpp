@@ -39,8 +39,8 @@ bool sameQuality(const RenderQuality& a, const RenderQuality& b)
 bool samePicture(const RestPicture::Key& a, const RestPicture::Key& b)
 {
   return a.width == b.width && a.height == b.height && a.contents == b.contents &&
-         a.opaque == b.opaque && a.lamp == b.lamp && sameQuality(a.quality, b.quality) &&
-         sameView(a.view, b.view);
+         a.opaque == b.opaque && a.lamp == b.lamp && a.focus == b.focus &&
+         sameQuality(a.quality, b.quality) && sameView(a.view, b.view);
 }
 
 /// The rays through another place of each pixel, which is `right` and `down` of its centre.

@@ -27,6 +27,7 @@ public:
     std::uint64_t opaque = 0;   ///< of the polygons at which rays end
     RenderQuality quality;
     std::optional<Eigen::Vector3d> lamp = std::nullopt; ///< of shadows
+    double focus = 0.0; ///< mm to the focal point, if the light has a falloff
   };
 
   /// Samples a pixel of the picture that can be shown: 0 (none yet), 1, 4, 8 or 16.

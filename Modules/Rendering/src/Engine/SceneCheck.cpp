@@ -42,6 +42,9 @@ void checkContents(const SceneContents& contents)
   for (const appearance::Material& material : contents.materials)
     require(material.source == appearance::IntensitySource::Ct || contents.second.volume,
             "a material reads a second image, and there is none");
+  require(!contents.section ||
+              (contents.section->width > 0.0 && std::isfinite(contents.section->level)),
+          "the sections' grey window must be wider than 0");
   require(!contents.thickness.distance || contents.thickness.farthest > 0.0,
           "the farthest thickness must be above 0 mm");
 }

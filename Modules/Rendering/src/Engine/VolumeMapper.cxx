@@ -505,7 +505,8 @@ void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
            my.caster.changes(),
            petrous::rendering::opaqueState(renderer),
            *my.restQuality,
-           my.contents.light.shadows ? std::optional(frame.lamp.at) : std::nullopt};
+           my.contents.light.shadows ? std::optional(frame.lamp.at) : std::nullopt,
+           my.contents.light.falloff > 0.0 ? frame.lamp.focus : 0.0};
   try
   {
     if (rest && rest->picture.shows(key))

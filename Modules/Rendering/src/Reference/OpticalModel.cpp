@@ -8,27 +8,56 @@
 namespace petrous::rendering::optics
 {
 
-double lightAt(const LightSettings& light, double distance)
+double exposureFactor(double exposure)
 {
+  constexpr double kDisplayGamma = 2.2;
+  return std::exp2(exposure / kDisplayGamma);
+}
+
+double lightAt(const LightSettings& light, double distance, double focus)
+{
+  const double intensity = light.intensity * exposureFactor(light.exposure);
   if (!(light.falloff > 0.0))
-    return light.intensity;
+    return intensity;
   const double ratio = distance / light.falloff;
-  return light.intensity / (1.0 + ratio * ratio);
+  const double atFocus = focus / light.falloff;
+  return intensity * (1.0 + atFocus * atFocus) / (1.0 + ratio * ratio);
+}
+
+Eigen::Vector3d toneCurve(const Eigen::Vector3d& color)
+{
+  const Eigen::Vector3d lit = color.cwiseMax(0.0);
+  const double peak = lit.maxCoeff();
+  if (peak <= kToneStart)
+    return lit;
+  constexpr double kRange = 1.0 - kToneStart;
+  const double next = 1.0 - kRange * kRange / (peak - kToneStart + kRange);
+  const double weight = 1.0 / (kToneDesaturation * (peak - next) + 1.0);
+  return weight * (next / peak) * lit + Eigen::Vector3d::Constant((1.0 - weight) * next);
+}
+
+Eigen::Vector3d displayed(const Eigen::Vector3d& color, const LightSettings& light)
+{
+  return light.toneCurve ? toneCurve(color) : color.cwiseMax(0.0).cwiseMin(1.0).eval();
+}
+
+double sectionGrey(const SectionWindow& window, double value)
+{
+  return std::clamp((value - window.level) / window.width + 0.5, 0.0, 1.0);
 }
 
 Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics, double shininess,
                              double cosine, const LightSettings& light, double distance,
-                             const Seen& seen)
+                             const Seen& seen, double focus)
 {
   const double facing = std::clamp(std::abs(cosine), 0.0, 1.0);
   const double diffuse = light.ambient * seen.sky + (1.0 - light.ambient) * facing * seen.lamp;
   const double highlight = optics.specular * light.specular * std::pow(facing, shininess) +
                            light.wetness * std::pow(facing, kWetShininess);
   const Eigen::Vector3d color(optics.color[0], optics.color[1], optics.color[2]);
-  return (lightAt(light, distance) *
-          (color * diffuse + Eigen::Vector3d::Constant(seen.lamp * highlight)))
-      .cwiseMax(0.0)
-      .cwiseMin(1.0);
+  return displayed(lightAt(light, distance, focus) *
+                       (color * diffuse + Eigen::Vector3d::Constant(seen.lamp * highlight)),
+                   light);
 }
 
 Eigen::Vector3d Lamp::from(const Eigen::Vector3d& point) const
@@ -43,19 +72,20 @@ Lamp lampOf(const core::CameraPose& camera)
   const Eigen::Vector3d view = head.focalPoint - head.position;
   const Eigen::Vector3d forward = view.normalized();
   Lamp lamp;
+  lamp.focus = view.norm();
   lamp.right = forward.cross(camera.viewUp).normalized();
   lamp.up = lamp.right.cross(forward);
   lamp.isFar = camera.parallelScale.has_value();
   lamp.at = lamp.isFar ? (kLampTilt * lamp.up - forward).normalized().eval()
-                       : (head.position + kLampTilt * view.norm() * lamp.up).eval();
+                       : (head.position + kLampTilt * lamp.focus * lamp.up).eval();
   return lamp;
 }
 
 Eigen::Vector3d interiorColor(const Eigen::Vector3d& color, const LightSettings& light,
-                              double distance)
+                              double distance, double focus)
 {
   const double diffuse = light.ambient + (1.0 - light.ambient) * kInteriorFacing;
-  return (lightAt(light, distance) * diffuse * color).cwiseMax(0.0).cwiseMin(1.0);
+  return displayed(lightAt(light, distance, focus) * diffuse * color, light);
 }
 
 } // namespace petrous::rendering::optics

@@ -38,8 +38,10 @@ namespace petrous::rendering
 /// The material is i's from structure to structure i; otherwise structureAt(x)'s where occupancy >
 /// 0.5 - 1e-3 at x; otherwise a lumen's where the index at x is that of a lumen; otherwise bone.
 /// Where tissue is cut off by the hull, the crop box or a clipping plane, n is that face's normal
-/// and v is taken at x itself. A zero gradient (n = 0) faces the camera, as does tissue that
-/// contains the camera. Depth is that of the first surface, whatever its opacity.
+/// and v is taken at x itself; with SceneContents::section its colour is sectionGrey of the CT's
+/// value if the material is bone's, otherwise transfer(v), and neither is lit. A zero gradient (n =
+/// 0) faces the camera, as does tissue that contains the camera. Depth is that of the first
+/// surface, whatever its opacity.
 ///
 /// Thickness over a structure: if a surface that is not such a face has the material of bone or of
 /// a lumen, and the distance d to the structure there (trilinear, ThicknessOverlay) is below
@@ -91,32 +93,57 @@ struct Seen
   double lamp = 1.0;
 };
 
-/// The lamp of shadows, beside the camera of a frame or of both eyes.
+/// The lamp of a frame or of both eyes; that of shadows is beside their camera.
 struct Lamp
 {
   Eigen::Vector3d at{0.0, 0.0, 0.0}; ///< mm; `isFar`: unit vector towards it
   bool isFar = false;
   Eigen::Vector3d up{0.0, 0.0, 1.0}; ///< unit, of the picture
   Eigen::Vector3d right{1.0, 0.0, 0.0};
+  double focus = 0.0; ///< mm from the camera to the focal point
 
   Eigen::Vector3d from(const Eigen::Vector3d& point) const; ///< unit, towards it
 };
 /// At the camera's distance from the focal point; of a parallel projection, far away.
 Lamp lampOf(const core::CameraPose& camera);
 
-/// Light arriving at a distance (mm) from the light source at the camera: intensity / (1 + (d /
-/// falloff)^2), or intensity if falloff is 0.
-double lightAt(const LightSettings& light, double distance);
+/// What an exposure, EV, multiplies colours by: 2^(EV / 2.2). Light is calculated with colours as
+/// they are displayed, which are about the power 1/2.2 of luminance.
+double exposureFactor(double exposure);
+
+/// Light arriving at a distance (mm) from the light source at the camera, d, with e =
+/// exposureFactor: intensity e (1 + (focus / falloff)^2) / (1 + (d / falloff)^2), or intensity e if
+/// falloff is 0. `focus`: mm to where the falloff changes nothing.
+double lightAt(const LightSettings& light, double distance, double focus = 0.0);
+
+/// Of the largest channel, up to which toneCurve changes nothing, and how strongly what it
+/// compresses loses its saturation.
+constexpr double kToneStart = 0.8;
+constexpr double kToneDesaturation = 0.15;
+
+/// Khronos PBR Neutral tone mapper (specification of 2024) without its toe, which is meant for
+/// Fresnel reflection. For a largest channel p > s = kToneStart, with d = 1 - s:
+///   p' = 1 - d^2 / (p - s + d);  w = 1 / (kToneDesaturation (p - p') + 1)
+///   c' = w c p' / p + (1 - w) p'
+/// Hue stays; channels are continuously differentiable, rise with the light, and stay below 1.
+/// Negative ones count as 0.
+Eigen::Vector3d toneCurve(const Eigen::Vector3d& color);
+
+/// A lit colour as it is displayed: by toneCurve if the light has one, else clamped to 0..1.
+Eigen::Vector3d displayed(const Eigen::Vector3d& color, const LightSettings& light);
+
+/// Grey of a CT's value in a section, 0 to 1.
+double sectionGrey(const SectionWindow& window, double value);
 
 /// light (c (ambient sky + (1 - ambient) facing lamp) + lamp (k_s specular facing^shininess
-///        + wetness facing^kWetShininess)), clamped to 0..1; k_s of the transfer function.
+///        + wetness facing^kWetShininess)), as displayed; k_s of the transfer function.
 Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics, double shininess,
                              double cosine, const LightSettings& light, double distance,
-                             const Seen& seen = {});
+                             const Seen& seen = {}, double focus = 0.0);
 
-/// light c (ambient + (1 - ambient) kInteriorFacing), clamped to 0..1.
+/// light c (ambient + (1 - ambient) kInteriorFacing), as displayed.
 Eigen::Vector3d interiorColor(const Eigen::Vector3d& color, const LightSettings& light,
-                              double distance);
+                              double distance, double focus = 0.0);
 
 /// Background; RGB, 0 to 1.
 constexpr double kBackground[3] = {0.105, 0.115, 0.130};

@@ -75,7 +75,7 @@ ReferenceRayCaster::Implementation::see(const PixelRay& ray, const optics::Lamp&
 {
   Eigen::Vector3d color = Eigen::Vector3d::Zero();
   double visible = 1.0; // fraction of the pixels not yet covered by a screen door
-  for (const SurfaceGeometry::Hit& hit : m_shapes.along(ray))
+  for (const SurfaceGeometry::Hit& hit : m_shapes.along(ray, lamp.focus))
   {
     const GatheredLight light = gather(ray, hit.distance, lamp);
     color += visible * hit.opacity * (light.color + light.transmittance * hit.color);

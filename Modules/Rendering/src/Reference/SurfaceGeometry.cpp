@@ -97,10 +97,10 @@ Eigen::Vector3d normalAt(const core::TriangleMesh& mesh,
 }
 
 Eigen::Vector3d lit(const Eigen::Vector3d& color, const ShapeHit& hit, const PixelRay& ray,
-                    const LightSettings& light)
+                    const LightSettings& light, double focus)
 {
   return optics::surfaceColor({{color[0], color[1], color[2]}, 0.0, 1.0}, light.shininess,
-                              hit.normal.dot(ray.direction), light, hit.distance);
+                              hit.normal.dot(ray.direction), light, hit.distance, {}, focus);
 }
 
 struct ToolHits
@@ -120,7 +120,7 @@ ToolHits meetTool(const ToolPose& tool, const PixelRay& ray)
   return hits;
 }
 
-void addTool(const ToolPose& tool, const LightSettings& lamp, const PixelRay& ray,
+void addTool(const ToolPose& tool, const LightSettings& lamp, double focus, const PixelRay& ray,
              std::vector<SurfaceGeometry::Hit>& hits)
 {
   LightSettings light = lamp;
@@ -131,7 +131,8 @@ void addTool(const ToolPose& tool, const LightSettings& lamp, const PixelRay& ra
   const auto add = [&](const Hit& hit, const std::array<double, 3>& color)
   {
     if (hit)
-      hits.push_back({hit->distance, lit({color[0], color[1], color[2]}, *hit, ray, light), 1.0});
+      hits.push_back(
+          {hit->distance, lit({color[0], color[1], color[2]}, *hit, ray, light, focus), 1.0});
   };
   const ToolHits met = meetTool(tool, ray);
   add(met.burr, tool.drilling ? tool::kDrillingColor : tool::kBurrColor);
@@ -168,20 +169,21 @@ SurfaceGeometry::SurfaceGeometry(const SceneContents& contents)
     m_tool = contents.tool;
 }
 
-std::vector<SurfaceGeometry::Hit> SurfaceGeometry::along(const PixelRay& ray) const
+std::vector<SurfaceGeometry::Hit> SurfaceGeometry::along(const PixelRay& ray, double focus) const
 {
   std::vector<Hit> hits;
   for (const Mesh& mesh : m_meshes)
     if (const auto hit = mesh.tree.firstAlong(ray.origin, ray.direction, 0.0))
     {
       const auto& color = mesh.look.color;
-      hits.push_back({hit->distance,
-                      lit({color[0], color[1], color[2]},
-                          {hit->distance, normalAt(*mesh.mesh, mesh.normals, *hit)}, ray, m_light),
-                      std::min(static_cast<double>(mesh.look.opacity), 1.0)});
+      hits.push_back(
+          {hit->distance,
+           lit({color[0], color[1], color[2]},
+               {hit->distance, normalAt(*mesh.mesh, mesh.normals, *hit)}, ray, m_light, focus),
+           std::min(static_cast<double>(mesh.look.opacity), 1.0)});
     }
   if (m_tool)
-    addTool(*m_tool, m_light, ray, hits);
+    addTool(*m_tool, m_light, focus, ray, hits);
   std::sort(hits.begin(), hits.end(),
             [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
   const auto solid =

@@ -30,8 +30,9 @@ public:
   /// inconsistent one.
   explicit SurfaceGeometry(const SceneContents& contents);
 
-  /// Nearest first, at most one hit per mesh, up to and including the first opaque one.
-  std::vector<Hit> along(const PixelRay& ray) const;
+  /// Nearest first, at most one hit per mesh, up to and including the first opaque one. `focus`:
+  /// mm to where the light's falloff changes nothing.
+  std::vector<Hit> along(const PixelRay& ray, double focus = 0.0) const;
 
 private:
   struct Mesh

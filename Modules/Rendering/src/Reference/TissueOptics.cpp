@@ -48,6 +48,7 @@ TissueOptics::TissueOptics(const SceneContents& contents)
   , m_materials(contents.materials)
   , m_light(contents.light)
   , m_thickness(contents.thickness)
+  , m_section(contents.section)
   , m_field(makeField(contents))
 {
   if (m_materials.empty())
@@ -209,10 +210,16 @@ Eigen::Vector3d TissueOptics::normalAt(const Eigen::Vector3d& patient, State fro
 
 TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, State from, State to,
                                               const std::optional<Eigen::Vector3d>& face,
-                                              const optics::Seen& seen) const
+                                              const optics::Seen& seen, double focus) const
 {
   const Eigen::Vector3d point = ray.origin + t * ray.direction;
   const appearance::Material& material = surfaceMaterial(point, from, to);
+  if (face && m_section && &material == &m_materials.front())
+  {
+    const double value = m_ct->sample(m_ct->geometry().voxelFromPatient(point));
+    return {Eigen::Vector3d::Constant(optics::sectionGrey(*m_section, value)),
+            material.surfaceOpacity};
+  }
   const Eigen::Vector3d normal = face ? *face : normalAt(point, from, to);
   Eigen::Vector3d below = point;
   if (!face)
@@ -221,7 +228,9 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
   auto look = material.transfer.at(intensity(material, below));
   if (!face && (&material == &m_materials.front() || material.lumen))
     look.color = overlayAt(point).value_or(look.color);
-  return {optics::surfaceColor(look, material.shininess, cosine, m_light, t, seen),
+  if (face && m_section)
+    return {{look.color[0], look.color[1], look.color[2]}, material.surfaceOpacity};
+  return {optics::surfaceColor(look, material.shininess, cosine, m_light, t, seen, focus),
           material.surfaceOpacity};
 }
 

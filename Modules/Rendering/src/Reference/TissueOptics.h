@@ -54,10 +54,10 @@ public:
   Eigen::Vector3d normalAt(const Eigen::Vector3d& patient, State from, State to) const;
 
   /// Surface at distance t along the ray, at the transition between two states. `face`: normal of
-  /// the face that cuts the tissue off there; zero: facing the camera.
+  /// the face that cuts the tissue off there; zero: facing the camera. `focus`: see lightAt.
   Surface surfaceAt(const PixelRay& ray, double t, State from, State to,
-                    const std::optional<Eigen::Vector3d>& face,
-                    const optics::Seen& seen = {}) const;
+                    const std::optional<Eigen::Vector3d>& face, const optics::Seen& seen = {},
+                    double focus = 0.0) const;
 
   const volume::TissueField& field() const noexcept { return m_field; }
   const LightSettings& light() const noexcept { return m_light; }
@@ -83,6 +83,7 @@ private:
   std::vector<appearance::Material> m_materials;
   LightSettings m_light;
   ThicknessOverlay m_thickness;
+  std::optional<SectionWindow> m_section;
   volume::TissueField m_field;
 };
 

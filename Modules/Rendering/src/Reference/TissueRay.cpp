@@ -154,7 +154,8 @@ void TissueRay::addSurface(Walk& walk, double t, TissueOptics::State to,
     const bool turned = normal.dot(walk.ray.direction) > 0.0;
     seen = m_shadows.at(point, turned ? -normal : normal, walk.lamp);
   }
-  const TissueOptics::Surface surface = m_optics.surfaceAt(walk.ray, t, walk.state, to, face, seen);
+  const TissueOptics::Surface surface =
+      m_optics.surfaceAt(walk.ray, t, walk.state, to, face, seen, walk.lamp.focus);
   if (std::isnan(walk.light.depth))
     walk.light.depth = t;
   walk.light.color += walk.light.transmittance * surface.opacity * surface.color;
@@ -182,9 +183,9 @@ void TissueRay::gather(Walk& walk, double to) const
     const auto optics = transfer.at(a + (b - a) * fraction);
     const double opacity = -std::expm1(-optics.extinction * length);
     const Eigen::Vector3d color(optics.color[0], optics.color[1], optics.color[2]);
-    walk.light.color +=
-        walk.light.transmittance * opacity *
-        optics::interiorColor(color, m_optics.light(), from + (to - from) * fraction);
+    walk.light.color += walk.light.transmittance * opacity *
+                        optics::interiorColor(color, m_optics.light(),
+                                              from + (to - from) * fraction, walk.lamp.focus);
     walk.light.transmittance *= 1.0 - opacity;
   };
   const auto addPiece = [&](double first, double last)

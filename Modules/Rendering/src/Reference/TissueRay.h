@@ -31,7 +31,7 @@ public:
   TissueRay(const TissueRay&) = delete;
   TissueRay& operator=(const TissueRay&) = delete;
 
-  /// Up to `end` mm, e.g. an opaque hit. `lamp`: of the shadows, if the scene has any.
+  /// Up to `end` mm, e.g. an opaque hit. `lamp`: of the frame.
   GatheredLight cast(const PixelRay& ray, double end, const optics::Lamp& lamp) const;
 
 private:

@@ -246,6 +246,7 @@ private:
   void forEachProp(const Visit& visit);
 
   vtkNew<vtkLight> m_lamp;
+  double m_falloff = 0.0; // mm
   vtkNew<vtkCallbackCommand> m_onStart;
   vtkNew<vtkCallbackCommand> m_onEnd;
   unsigned long m_startObserver = 0;
@@ -278,6 +279,11 @@ void ScenePicture::Implementation::startFrame()
   core::CameraPose lampCamera = poseOf(renderer->GetActiveCamera()); // not yet that of an eye
   lampCamera.head = pose.head;
   mapper->SetLampCamera(lampCamera);
+  LightSettings light;
+  light.falloff = m_falloff;
+  const double atLamp = optics::lightAt(light, 0.0, optics::lampOf(lampCamera).focus);
+  m_lamp->SetAttenuationValues(1.0 / atLamp, 0.0,
+                               m_falloff > 0.0 ? 1.0 / (atLamp * m_falloff * m_falloff) : 0.0);
   foveated.reset();
   drawn = quality;
   if (interactive || progressive)
@@ -342,8 +348,7 @@ void ScenePicture::Implementation::setVolume(const SceneContents& contents)
     checkMaterials(contents);
   labels = contents.labels;
   materials = contents.materials.size();
-  const double falloff = contents.light.falloff;
-  m_lamp->SetAttenuationValues(1.0, 0.0, falloff > 0.0 ? 1.0 / (falloff * falloff) : 0.0);
+  m_falloff = contents.light.falloff;
   mapper->SetContents(contents);
   isNew = true;
   volume->SetVisibility(mapper->GetTotalNumberOfInputConnections() > 0 ? 1 : 0);
@@ -469,6 +474,7 @@ void ScenePicture::setContents(const SceneContents& contents)
   check(contents);
   m_implementation->setVolume(contents);
   m_implementation->setMeshes(contents);
+  m_implementation->tool.setLight(contents.light);
   setTool(contents.tool);
 }
 

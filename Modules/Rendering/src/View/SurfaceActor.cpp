@@ -14,6 +14,8 @@
 #include <vtkShaderProperty.h>
 #include <vtkUniforms.h>
 
+#include "OpticalModel.h"
+#include "RayShader.h"
 #include "ScreenDoorShader.h"
 
 namespace petrous::rendering
@@ -76,6 +78,40 @@ std::vector<Eigen::Vector3f> vertexNormals(const core::TriangleMesh& mesh)
   return normals;
 }
 
+void PolygonShading::apply(vtkActor* actor, const LightSettings& light, float opacity, int pattern)
+{
+  const bool isExposed = light.exposure != 0.0;
+  const bool hasPattern = opacity < 1.0F;
+  std::string code;
+  if (isExposed)
+    code += "gl_FragData[0].rgb *= p_exposure;\n";
+  if (light.toneCurve)
+    code += "gl_FragData[0].rgb = toneCurve(gl_FragData[0].rgb);\n";
+  if (hasPattern)
+    code += kScreenDoorShader;
+  vtkShaderProperty* shader = actor->GetShaderProperty();
+  if (code != m_code)
+  {
+    m_code = code;
+    shader->ClearAllFragmentShaderReplacements();
+    shader->GetFragmentCustomUniforms()->RemoveAllUniforms();
+    if (light.toneCurve)
+      shader->AddFragmentShaderReplacement("//VTK::Light::Dec", true,
+                                           "//VTK::Light::Dec\n" + toneCurveShader(), false);
+    if (!code.empty())
+      shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
+                                           "//VTK::Light::Impl\n" + code, false);
+  }
+  vtkUniforms* uniforms = shader->GetFragmentCustomUniforms();
+  if (isExposed)
+    uniforms->SetUniformf("p_exposure", static_cast<float>(optics::exposureFactor(light.exposure)));
+  if (hasPattern)
+  {
+    uniforms->SetUniformf("p_opacity", opacity);
+    uniforms->SetUniformi("p_shift", 5 * pattern);
+  }
+}
+
 SurfaceActor::SurfaceActor(int pattern)
   : m_pattern(pattern)
 {
@@ -108,23 +144,7 @@ void SurfaceActor::setLook(const appearance::StructureAppearance& look, const Li
   property->SetSpecular(light.specular * light.intensity);
   property->SetSpecularPower(kHighlight * light.shininess);
 
-  const bool wantsPattern = look.opacity < 1.0F;
-  vtkShaderProperty* shader = m_actor->GetShaderProperty();
-  if (wantsPattern != m_hasPattern)
-  {
-    m_hasPattern = wantsPattern;
-    shader->ClearAllFragmentShaderReplacements();
-    shader->GetFragmentCustomUniforms()->RemoveAllUniforms();
-    if (wantsPattern)
-      shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
-                                           "//VTK::Light::Impl\n" + std::string(kScreenDoorShader),
-                                           false);
-  }
-  if (wantsPattern)
-  {
-    shader->GetFragmentCustomUniforms()->SetUniformf("p_opacity", look.opacity);
-    shader->GetFragmentCustomUniforms()->SetUniformi("p_shift", 5 * m_pattern);
-  }
+  m_shading.apply(m_actor, light, look.opacity, m_pattern);
 }
 
 } // namespace petrous::rendering

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -23,6 +24,18 @@ vtkSmartPointer<vtkPolyData> toPolyData(const core::TriangleMesh& mesh,
 /// Area-weighted vertex normals.
 std::vector<Eigen::Vector3f> vertexNormals(const core::TriangleMesh& mesh);
 
+/// What is injected into VTK's polygon shader so that an actor's lit colours are displayed as the
+/// ray caster's are: exposure, tone curve and screen-door transparency. Nothing where none is used.
+class PolygonShading
+{
+public:
+  /// `pattern` offsets the screen door of an opacity below 1.
+  void apply(vtkActor* actor, const LightSettings& light, float opacity = 1.0F, int pattern = 0);
+
+private:
+  std::string m_code; // injected
+};
+
 /// A surface shaded like bone, with screen-door transparency.
 class SurfaceActor
 {
@@ -37,7 +50,7 @@ public:
 
 private:
   int m_pattern;
-  bool m_hasPattern = false;
+  PolygonShading m_shading;
   vtkNew<vtkPolyDataMapper> m_mapper;
   vtkNew<vtkActor> m_actor;
 };

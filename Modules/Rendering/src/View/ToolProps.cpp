@@ -152,6 +152,7 @@ ToolProps::ToolProps(Look look)
       property->SetLineWidth(1.5F);
       continue;
     }
+    m_shadings[part] = std::make_unique<PolygonShading>();
     property->SetColor(colors[part][0], colors[part][1], colors[part][2]);
     property->SetInterpolationToPhong();
     property->SetAmbient(kAmbient);
@@ -207,6 +208,13 @@ void ToolProps::setPose(const std::optional<ToolPose>& tool)
   }
   for (const auto& actor : m_actors)
     actor->SetUserMatrix(pose);
+}
+
+void ToolProps::setLight(const LightSettings& light)
+{
+  for (std::size_t part = 0; part < m_actors.size(); ++part)
+    if (m_shadings[part])
+      m_shadings[part]->apply(m_actors[part], light);
 }
 
 void ToolProps::shapeBurr(const ToolPose& tool)

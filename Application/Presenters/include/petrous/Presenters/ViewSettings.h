@@ -29,6 +29,8 @@ public:
   void setFalloff(double millimetres); ///< 0: none; clamped to 0 to kFarthestFalloff
   void setWetness(double wetness);     ///< clamped to 0 to 1
   void setShadows(bool on);
+  void setExposure(double exposure); ///< EV, clamped to +-ViewState::Light::kMaxExposure
+  void setToneCurve(bool on);
 
   rendering::StereoMode stereo() const noexcept { return m_stereo; }
   const rendering::StereoRig& rig() const noexcept { return m_rig; }

@@ -55,11 +55,15 @@ struct LightSettings
   double ambient = kAmbient; ///< ambient fraction of the surface colour
   double specular = 0.18;    ///< strength of the highlight, 0 to 1
   double shininess = 18.0;   ///< of meshes and tools; tissues of the volume have their own
-  double falloff = 0.0;      ///< mm from the light to half its intensity; 0: no attenuation
-  double wetness = 0.0;      ///< intensity of the narrow highlight of a wet surface, 0 to 1; 0: dry
+  /// mm from the light to where it has half of its intensity at the light; 0: no attenuation. The
+  /// camera's focal point is as bright as without.
+  double falloff = 0.0;
+  double wetness = 0.0; ///< intensity of the narrow highlight of a wet surface, 0 to 1; 0: dry
   /// Tissue keeps ambient light out of cavities, and throws a soft shadow of a lamp somewhat above
   /// the view axis (record 33).
   bool shadows = false;
+  double exposure = 0.0;  ///< EV: each doubles the luminance on the screen (record 35)
+  bool toneCurve = false; ///< highlights roll off instead of being clipped
 
   /// Meshes lie in no shadow, and look the same with and without.
   double ambientOfMeshes() const noexcept { return shadows ? kAmbient : ambient; }
@@ -90,6 +94,13 @@ struct ThicknessOverlay
   double farthest = 5.0; ///< mm, > 0; thicker bone keeps its colour
 };
 
+/// Grey of the CT's sections: black at `level` - `width` / 2, white at `level` + `width` / 2.
+struct SectionWindow
+{
+  double width = 4000.0; ///< > 0, in the CT's unit
+  double level = 700.0;
+};
+
 /// The negative side is not drawn; patient LPS mm.
 struct ClippingPlane
 {
@@ -109,6 +120,9 @@ struct SceneContents
   SecondImage second;
   std::vector<ClippingPlane> clipping;
   std::optional<core::IndexBox> crop; ///< drawn CT voxels; nullopt: all
+  /// Where hull, crop box and clipping planes cut tissue off, the face is unlit, and bone's shows
+  /// the CT in grey; nullopt: such faces are lit as surfaces are.
+  std::optional<SectionWindow> section;
   ThicknessOverlay thickness;
   std::vector<MeshContents> meshes;
   std::optional<ToolPose> tool;

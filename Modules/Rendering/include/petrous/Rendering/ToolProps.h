@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include <vtkNew.h>
@@ -16,6 +17,8 @@ class vtkSphereSource;
 
 namespace petrous::rendering
 {
+
+class PolygonShading;
 
 /// The drill: burr, shaft and handpiece of ToolShape.h. A ghost is a coarse wire frame without
 /// light, which hides nothing.
@@ -33,6 +36,7 @@ public:
   void addTo(vtkRenderer* renderer) const;
   void removeFrom(vtkRenderer* renderer) const;
   void setPose(const std::optional<ToolPose>& tool);
+  void setLight(const LightSettings& light); ///< exposure and tone curve; not of a ghost
 
 private:
   void shapeBurr(const ToolPose& tool);
@@ -42,7 +46,8 @@ private:
   vtkNew<vtkCylinderSource> m_shaft;
   vtkNew<vtkCylinderSource> m_handpiece;
   std::array<vtkSmartPointer<vtkActor>, 3> m_actors;
-  std::array<double, 3> m_idle, m_drilling; // colours of the burr
+  std::array<std::unique_ptr<PolygonShading>, 3> m_shadings; // none of a ghost
+  std::array<double, 3> m_idle, m_drilling;                  // colours of the burr
 };
 
 } // namespace petrous::rendering

@@ -72,8 +72,8 @@ public:
   };
   void SetFovea(const std::optional<Fovea>& fovea);
 
-  /// The camera (world) beside which the lamp of shadows is, e.g. that between both eyes; null: the
-  /// one that draws.
+  /// The camera (world) beside which the lamp of shadows is, and at whose focal point the light's
+  /// falloff changes nothing, e.g. that between both eyes; null: the one that draws.
   void SetLampCamera(const std::optional<petrous::core::CameraPose>& camera);
 
   /// Casts shadows, if there are any (world); null: none does. Drawn elsewhere.

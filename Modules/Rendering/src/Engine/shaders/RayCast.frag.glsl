@@ -8,7 +8,7 @@
 // the first centre), distances from the camera in mm.
 //
 // Last part of the fragment shader, after RayScene.glsl (textures, uniforms, features),
-// RayClip.glsl, RayShadows.glsl, RayOptics.glsl and RayMarch.glsl.
+// RayClip.glsl, RayShadows.glsl, ToneCurve.glsl (with TONE), RayOptics.glsl and RayMarch.glsl.
 
 // Bracket of a change of state.
 struct Bracket
@@ -192,6 +192,8 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   vec4 overlay = bony ? overlayAt(v) : vec4(0.0);
   float size = length(slopeMm);
   vec3 below = v;
+  bool isSection = facing >= 0.0 && section.y > 0.0;
+  bool isGrey = isSection && ray.material == 0;
   Seen seen = Seen(1.0, 1.0);
 #ifdef PETROUS_SHADOWS
   bool shadowed = facing < 0.0 && ray.state == kAir && size > 1e-12;
@@ -207,8 +209,11 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
       below += voxelFromMm * (slopeMm * (colorDepth / size));
     }
   }
-  vec3 lit = surfaceColor(ray.material, ray.row, intensityAt(below, ray.more), facing, hit,
-                          overlay, seen);
+  float value = intensityAt(below, isGrey ? vec4(0.0) : ray.more);
+  if (isGrey)
+    overlay = vec4(vec3(clamp((value - section.x) * section.y, 0.0, 1.0)), 1.0);
+  vec3 lit =
+      surfaceColor(ray.material, ray.row, value, facing, hit, overlay, seen, isSection);
   ray.color += ray.transmittance * ray.row.z * lit;
 #ifdef PETROUS_INTERIOR
   ray.lit += ray.transmittance * ray.row.z * reaches(ray.gathering, hit / stepLength);

@@ -7,6 +7,16 @@ float lightAt(float t)
   return light.x / (1.0 + ratio * ratio);
 }
 
+// A lit colour as it is displayed.
+vec3 displayed(vec3 lit)
+{
+#ifdef PETROUS_TONE
+  return toneCurve(lit);
+#else
+  return clamp(lit, 0.0, 1.0);
+#endif
+}
+
 // Intensity used by a material.
 float intensityAt(vec3 v, vec4 more)
 {
@@ -47,9 +57,9 @@ vec4 overlayAt(vec3 v)
 #endif
 }
 
-// `overlay`: see overlayAt; `seen`: of the surface.
+// `overlay`: see overlayAt; `seen`: of the surface; `isSection`: a face, which is not lit.
 vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, vec4 overlay,
-                  Seen seen)
+                  Seen seen, bool isSection)
 {
   COUNT(1);
   float width = float(textureSize(lookTexture, 0).x);
@@ -58,7 +68,8 @@ vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, ve
   look.rgb = mix(look.rgb, overlay.rgb, overlay.a);
   float diffuse = light.y * seen.sky + (1.0 - light.y) * facing * seen.lamp;
   float highlight = look.a * light.z * pow(facing, row.w) + light.w * pow(facing, kWetShininess);
-  return clamp(lightAt(t) * (look.rgb * diffuse + seen.lamp * highlight), 0.0, 1.0);
+  vec3 lit = displayed(lightAt(t) * (look.rgb * diffuse + seen.lamp * highlight));
+  return isSection ? look.rgb : lit;
 }
 
 #ifdef PETROUS_INTERIOR
@@ -119,7 +130,7 @@ void gather(int material, vec4 row, Gathering g, float steps, float middle, vec2
   float inverse = 1.0 / max(rise.a * run, 1e-24);
   float opacity = 1.0 - exp2(rise.a * rise.a * inverse * g.exponent * steps);
   float reached = reaches(g, middle);
-  vec3 shade = clamp(rise.rgb * (run * inverse * g.lamp * reached), 0.0, 1.0);
+  vec3 shade = displayed(rise.rgb * (run * inverse * g.lamp * reached));
   color += transmittance * opacity * shade;
   lit += transmittance * opacity * reached;
   transmittance -= transmittance * opacity;

@@ -8,6 +8,7 @@
 //   INTERIOR   translucent tissue             CLIP     clipping planes
 //   THICKNESS  bone is coloured by its distance to a structure
 //   SHADOWS    surfaces see less of the sky and of the lamp where tissue is in the way
+//   TONE       lit colours go through the tone curve
 //   COUNT      fetches and samples are counted
 //   EXACT      the card's filter rounds: values come from one of our own
 //   ROUNDED    the card's filter is made to round its weights, for tests on one that does not
@@ -70,8 +71,9 @@ uniform float colorDepth; // mm
 uniform float weights; // of the card's filter between two texels
 #endif
 
-uniform vec4 light; // intensity, ambient, specular, wetness
+uniform vec4 light; // intensity at the lamp with exposure, ambient, specular, wetness
 uniform float falloff;
+uniform vec2 section; // grey of bone's faces: value of black, 1 / range; 0, 0: lit as surfaces are
 
 #ifdef PETROUS_MASK
 uniform sampler3D maskTexture;

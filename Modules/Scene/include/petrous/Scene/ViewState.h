@@ -65,9 +65,12 @@ struct ViewState
 
   struct Light
   {
-    double falloff = 0.0; ///< mm from the lamp to half its intensity; 0: none
-    double wetness = 0.0; ///< 0 to 1
-    bool shadows = false; ///< ambient occlusion, and the lamp's shadow
+    double falloff = 0.0;   ///< mm from the lamp to half its intensity; 0: none
+    double wetness = 0.0;   ///< 0 to 1
+    bool shadows = false;   ///< ambient occlusion, and the lamp's shadow
+    double exposure = 0.0;  ///< EV, -kMaxExposure to kMaxExposure
+    bool toneCurve = false; ///< highlights roll off instead of being clipped
+    static constexpr double kMaxExposure = 4.0;
   };
 
   struct Stereo

@@ -1,0 +1,122 @@
+#include <algorithm>
+
+#include "PictureComparison.h"
+#include "PictureScenes.h"
+#include "petrous/Rendering/ScenePicture.h"
+
+using namespace petrous;
+using namespace petrous::rendering;
+using namespace petrous::rendering::synthetic;
+
+namespace
+{
+
+bool hasTone(const Shot& shot)
+{
+  const auto& names = shot.statistics.variant;
+  return std::count(names.begin(), names.end(), "tone") > 0;
+}
+
+MeshContents sheet(const std::array<float, 3>& color, float y = 0.0F)
+{
+  core::TriangleMesh mesh;
+  mesh.vertices = {{-14.0F, y, -14.0F}, {14.0F, y, -14.0F}, {0.0F, y, 14.0F}};
+  mesh.triangles = {{0, 1, 2}};
+  MeshContents contents{"sheet", std::make_shared<core::TriangleMesh>(mesh), {}};
+  contents.look.color = color;
+  return contents;
+}
+
+/// Of one colour without highlight, and a sheet.
+SceneContents matt(float grey)
+{
+  SceneContents contents = hollowBall();
+  contents.materials = {
+      {appearance::TransferFunction::constant({grey, 0.5F * grey, 0.2F}, 1.0F, 0.0F)}};
+  contents.meshes = {sheet({grey, 0.2F, 0.1F})};
+  contents.light.specular = 0.0;
+  return contents;
+}
+
+} // namespace
+
+TEST(TonePicture, IsCompiledWhereItIsWantedAndGoesAgain)
+{
+  SceneContents contents = fullScene();
+  contents.meshes = {sheet({0.9F, 0.2F, 0.1F})};
+  contents.light.wetness = 1.0;
+  ScenePicture scene;
+  scene.setCamera(slanting());
+  scene.setContents(contents);
+  OffscreenView view(kWidth, kHeight);
+  const Shot plain = shoot(view, scene);
+  EXPECT_FALSE(hasTone(plain));
+  contents.light.toneCurve = true;
+  contents.light.exposure = 0.5;
+  scene.setContents(contents);
+  const Shot toned = shoot(view, scene);
+  EXPECT_TRUE(hasTone(toned));
+  EXPECT_GT(countDifferentPixels(plain.picture, toned.picture), 1000U);
+  contents.light.toneCurve = false;
+  contents.light.exposure = 0.0;
+  scene.setContents(contents);
+  const Shot again = shoot(view, scene);
+  EXPECT_FALSE(hasTone(again));
+  EXPECT_EQ(countDifferentPixels(plain.picture, again.picture), 0U);
+}
+
+TEST(TonePicture, MidTonesAreAsWithoutItToTheBit)
+{
+  for (const float grey : {0.4F, 0.78F})
+  {
+    SceneContents contents = matt(grey);
+    const Picture plain = draw(contents, slanting());
+    contents.light.toneCurve = true;
+    EXPECT_EQ(countDifferentPixels(draw(contents, slanting()), plain), 0U) << grey;
+  }
+}
+
+TEST(TonePicture, HighlightsKeepTheirShapeWhereTheyWereFlatWhite)
+{
+  SceneContents contents = hollowBall();
+  contents.light.wetness = 1.0;
+  contents.light.exposure = 1.0;
+  const auto white = [](const Picture& picture)
+  {
+    int count = 0;
+    for (std::size_t p = 0; p < picture.rgb.size(); p += 3)
+      count += *std::min_element(picture.rgb.begin() + static_cast<std::ptrdiff_t>(p),
+                                 picture.rgb.begin() + static_cast<std::ptrdiff_t>(p + 3)) == 255;
+    return count;
+  };
+  EXPECT_GT(white(draw(contents, slanting())), 30);
+  contents.light.toneCurve = true;
+  EXPECT_EQ(white(draw(contents, slanting())), 0);
+}
+
+// A wall across the view axis, with the focal point on it.
+TEST(TonePicture, FalloffLeavesTheFocalPointAsBrightFromEveryDistance)
+{
+  SceneContents contents = boneScene(
+      ct<std::int16_t>(cube(48, 0.5), [](const Vector& p) { return p.y(); })); // bone: y > 0
+  contents.materials = {{appearance::TransferFunction::constant({0.6F, 0.5F, 0.4F}, 1.0F, 0.0F)}};
+  contents.light.specular = 0.0;
+  const auto middle = [&](double distance)
+  {
+    const core::CameraPose pose = from({0.0, -distance, 0.0}, {0.0, 0.0, 0.0}, 300.0 / distance);
+    const std::uint8_t* pixel = draw(contents, pose).pixel(kWidth / 2, kHeight / 2);
+    return std::array<int, 3>{pixel[0], pixel[1], pixel[2]};
+  };
+  for (const bool isMesh : {false, true})
+  {
+    contents.meshes.clear();
+    if (isMesh)
+      contents.meshes = {sheet({0.6F, 0.5F, 0.4F}, -0.01F)};
+    contents.light.falloff = 0.0;
+    const auto plain = middle(40.0);
+    contents.light.falloff = 30.0;
+    for (const double distance : {20.0, 40.0, 120.0})
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(middle(distance)[c], plain[c], 1) << distance << " " << isMesh;
+  }
+}

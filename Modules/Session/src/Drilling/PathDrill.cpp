@@ -26,6 +26,7 @@ PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& optio
   : m_dissection(value.dissection)
   , m_tissue(scene.drill().field())
   , m_radius(0.5 * options.tool.burr.diameter)
+  , m_cuts(!options.tool.instrument)
   , m_turns(options.tool.burr.rpm > 0.0)
   , m_proxy(scene.proxyOf(options.tool))
   , m_servo(*m_proxy, setupOf(scene, options.tool))
@@ -60,7 +61,7 @@ const TickRecord& PathDrill::feel(const dissection::ToolSample& sample) noexcept
   reading.time = sample.time;
   reading.pose = {sample.pose.translation(), sample.pose.rotation()};
   reading.health = haptics::DeviceHealth::Good;
-  m_parameters.drill = sample.drill ? 1 : 0;
+  m_parameters.drill = sample.drill && m_cuts ? 1 : 0;
   m_record = m_servo.tick(TickInput::of(sample.time, reading, m_parameters));
   return m_record;
 }
@@ -80,7 +81,7 @@ void PathDrill::cut(const dissection::ToolSample& sample)
   if (m_recording)
     m_recording->add(m_record);
   const bool inside = m_record.status == static_cast<std::uint8_t>(haptics::ProxyStatus::Inside);
-  if (!inside || !sample.drill || !m_turns)
+  if (!inside || !sample.drill || !m_turns || !m_cuts)
   {
     m_swept.reset();
     m_changed.clear();

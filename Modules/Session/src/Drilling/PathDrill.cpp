@@ -8,6 +8,8 @@ namespace petrous::session
 namespace
 {
 
+constexpr double kBeyond = 1.0; // mm: see ConstantThrust::goal, of a tool without a ball
+
 ServoSetup setupOf(const TouchScene& scene, const TouchTool& tool)
 {
   ServoSetup setup = scene.servoOf(tool);
@@ -74,6 +76,9 @@ void PathDrill::approach(const Eigen::Vector3d& place)
   if (std::exchange(m_approached, m_loop.state()) != m_loop.state())
     m_approach.forget();
   m_approach.apply(place, m_parameters);
+  Eigen::Map<Eigen::Vector3d> way(m_parameters.approach);
+  if (const double length = way.norm(); !m_cuts && length > 0.0)
+    way *= 1.0 + kBeyond / length; // a burr's centre may go to the surface, a tip beyond it
 }
 
 void PathDrill::cut(const dissection::ToolSample& sample)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include <vtkNew.h>
@@ -17,8 +18,8 @@ class vtkSphereSource;
 namespace petrous::rendering
 {
 
-/// The drill: burr, shaft and handpiece of ToolShape.h. A ghost is a coarse wire frame without
-/// light, which hides nothing.
+/// The drill, burr, shaft and handpiece of ToolShape.h, or an instrument. A ghost is a coarse wire
+/// frame without light, which hides nothing.
 class ToolProps
 {
 public:
@@ -36,12 +37,14 @@ public:
 
 private:
   void shapeBurr(const ToolPose& tool);
+  void shapeInstrument(const ToolPose& tool);
 
   vtkNew<vtkSphereSource> m_burr;                   // smooth
   vtkSmartPointer<vtkPolyData> m_fluted, m_gritted; // of radius 1; made when first needed
   vtkNew<vtkCylinderSource> m_shaft;
   vtkNew<vtkCylinderSource> m_handpiece;
-  std::array<vtkSmartPointer<vtkActor>, 3> m_actors;
+  std::shared_ptr<const core::TriangleMesh> m_instrument; // as in the last of the actors
+  std::array<vtkSmartPointer<vtkActor>, 4> m_actors;
   std::array<double, 3> m_idle, m_drilling; // colours of the burr
 };
 

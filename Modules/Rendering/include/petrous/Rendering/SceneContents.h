@@ -47,7 +47,7 @@ struct ToolPose
   double turn = 0.0; ///< rad about the axis, of the finish
   /// Drawn in place of ball, shaft and handpiece: a closed surface, its tip at the origin, +z to
   /// the hand, mm. It throws no shadow.
-  std::shared_ptr<const core::TriangleMesh> instrument;
+  std::shared_ptr<const core::TriangleMesh> instrument = nullptr;
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity(); ///< of the instrument
 };
 

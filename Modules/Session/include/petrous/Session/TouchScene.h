@@ -40,7 +40,7 @@ struct TouchTool
   dissection::Burr burr;
   Mode mode = Mode::SixDof;
   /// In place of burr and mode, if any: always with six degrees of freedom.
-  std::shared_ptr<const Instrument> instrument;
+  std::shared_ptr<const Instrument> instrument = nullptr;
   haptics::ProxyParameters coupling; ///< 1 N/mm and 20 N mm/rad by default
 
   /// Whether the tool needs a burr's point shell (shellOf).

@@ -130,11 +130,11 @@ bool TouchOverlay::update(const session::TickRecord& record)
   { return std::abs(a - b) < tolerance; };
   const bool isTurned = m_tool && tool && tool->instrument &&
                         m_tool->rotation.angularDistance(tool->rotation) >= kHeading;
-  const bool rests = m_tool && tool && !isTurned && (m_tool->center - tool->center).norm() < kPlace &&
-                     (m_tool->axisToHand - tool->axisToHand).norm() < kHeading &&
-                     m_tool->drilling == tool->drilling && m_tool->handpiece == tool->handpiece &&
-                     same(m_shownForce, m_force.force(), kForce) &&
-                     same(m_shownLag, m_view.lag(), kPlace);
+  const bool rests =
+      m_tool && tool && !isTurned && (m_tool->center - tool->center).norm() < kPlace &&
+      (m_tool->axisToHand - tool->axisToHand).norm() < kHeading &&
+      m_tool->drilling == tool->drilling && m_tool->handpiece == tool->handpiece &&
+      same(m_shownForce, m_force.force(), kForce) && same(m_shownLag, m_view.lag(), kPlace);
   if (rests || !tool)
     return false;
   m_tool = tool;

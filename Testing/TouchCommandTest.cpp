@@ -133,6 +133,50 @@ TEST_F(TouchCommand, HoldsTheToolAtTheSurfaceAndSaysTheForce)
   }
 }
 
+// The same path with a pick: its tip is the origin, so it goes 2 mm farther down than the burr.
+TEST_F(TouchCommand, AnInstrumentFromAMeshIsFeltAtItsTipAndRemovesNothing)
+{
+  // 60 mm long, 2 mm wide at the hand's end.
+  std::ofstream(m_folder / "pick.obj") << "v 0 0 0\nv 1 1 60\nv -1 1 60\nv -1 -1 60\nv 1 -1 60\n"
+                                          "f 1 3 2\nf 1 4 3\nf 1 5 4\nf 1 2 5\nf 2 3 4\nf 2 4 5\n";
+  const std::string tool = " --tool " + quoted(m_folder / "pick.obj");
+  const auto answer = json(drill(press(kTop - 1.0, true), tool));
+  EXPECT_EQ(answer["removed_mm3"], 0.0);
+  EXPECT_EQ(answer["strokes"], 0);
+  EXPECT_EQ(answer["instrument"]["file"], "pick.obj");
+  EXPECT_EQ(answer["instrument"]["length_mm"], 60.0);
+  EXPECT_LE(answer["instrument"]["points"], 2000);
+  EXPECT_LT(answer["instrument"]["sampling_error_mm"], 1.0);
+  EXPECT_EQ(answer.count("predicted_mm3"), 0U);
+  const auto rows = log("log.csv");
+  const Row& last = rows.back();
+  EXPECT_NEAR(last.at("pz_mm"), kTop, 0.05 * 0.4);
+  EXPECT_NEAR(last.at("px_mm"), 0.3, 0.02);
+  EXPECT_NEAR(last.at("fz_n"), 1.0, 0.03);
+  EXPECT_NEAR(last.at("thrust_n"), last.at("fz_n"), 0.03);
+
+  // Its shaft along x in the file: the same.
+  std::ofstream(m_folder / "lying.obj") << "v 0 0 0\nv 60 1 1\nv 60 -1 1\nv 60 -1 -1\nv 60 1 -1\n"
+                                           "f 1 3 2\nf 1 4 3\nf 1 5 4\nf 1 2 5\nf 2 3 4\nf 2 4 5\n";
+  const std::string lying = " --tool " + quoted(m_folder / "lying.obj") + " --tool-axis x+";
+  EXPECT_NEAR(json(drill(press(kTop - 1.0, false), lying))["instrument"]["length_mm"], 60.0, 1e-4);
+  EXPECT_NEAR(log("log.csv").back().at("pz_mm"), kTop, 0.05 * 0.4);
+
+  // Pressed with a set thrust onto the bone from above.
+  json(drill(press(kTop + 0.5, true), tool + " --thrust 2"));
+  EXPECT_NEAR(log("log.csv").back().at("pz_mm"), kTop, 0.05 * 0.4);
+  EXPECT_NEAR(log("log.csv").back().at("thrust_n"), 2.0, 0.1);
+
+  const Outcome both = run(drill(press(1.0, false), tool + " --burr diamond"));
+  EXPECT_NE(both.code, 0);
+  EXPECT_NE(both.err.find("--burr"), std::string::npos);
+  EXPECT_NE(run(drill(press(1.0, false), " --tool-axis x+")).code, 0) << "of what?";
+  std::ofstream(m_folder / "open.obj") << "v 0 0 0\nv 1 1 60\nv -1 1 60\nf 1 2 3\n";
+  const Outcome open = run(drill(press(1.0, false), " --tool " + quoted(m_folder / "open.obj")));
+  EXPECT_NE(open.code, 0);
+  EXPECT_NE(open.err.find("not closed"), std::string::npos) << open.err;
+}
+
 // The place is above the bone, the shaft parallel to it: the approach is along the bone's normal.
 TEST_F(TouchCommand, PressesAndDrillsWithTheShaftAlongTheBone)
 {

@@ -10,6 +10,7 @@
 #include "petrous/Dissection/ToolPath.h"
 #include "petrous/Library/Journal.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/InstrumentFile.h"
 #include "petrous/Presenters/RecordingPlayer.h"
 #include "petrous/Session/PathDrill.h"
 
@@ -26,6 +27,7 @@ struct Options
   double rpm = 60000.0;
   double rate = 1000.0;
   std::string mode = "6dof", log, record, replay, materials, burrs;
+  std::string tool, toolAxis = presenters::kInstrumentAxes[0];
   std::optional<double> thrust;
   bool withoutDamaged = false;
   const CLI::App* command = nullptr;
@@ -133,6 +135,15 @@ double armAt(const session::PathDrill& session, const session::TickRecord& recor
                       : session::BurrRemovalModel::armOf(session.radius(), record.elevation, 0.0);
 }
 
+nlohmann::json instrumentJson(const session::Instrument& instrument)
+{
+  const auto bounds = instrument.surface->bounds();
+  return {{"file", instrument.name},
+          {"points", instrument.shell->points.size()},
+          {"sampling_error_mm", instrument.shell->spacing},
+          {"length_mm", static_cast<double>(bounds[1].z() - bounds[0].z())}};
+}
+
 void printBalance(const Context& context, const session::PathDrill& session, nlohmann::json& answer)
 {
   const session::RemovalBalance balance = session.removal().balance();
@@ -167,10 +178,19 @@ void play(const Context& context, const Options& options)
   session::PathDrill::Options tool = toolFrom(options);
   std::ifstream file = core::openInput(options.path, kLargestInput);
   const auto path = dissection::ToolPath::read(file, options.path);
+  const core::Progress progress = context.progress();
+  if (!options.tool.empty())
+  {
+    presenters::LoadedInstrument loaded =
+        presenters::readInstrument(options.tool, options.toolAxis, progress);
+    for (const std::string& note : loaded.notes)
+      context.warn(options.tool + ": " + note);
+    tool.tool.instrument = std::move(loaded.instrument);
+  }
+  const auto& instrument = tool.tool.instrument;
 
   library::Library library = context.openLibrary();
   scene::Case value;
-  const core::Progress progress = context.progress();
   const auto leftOut = openCase(context, library, options, value, progress);
   const library::SavedState opened = value;
   tool.camera = presenters::currentCamera(value);
@@ -179,7 +199,8 @@ void play(const Context& context, const Options& options)
   session::TouchScene touch(value, progress, 0, true);
   const auto journal = journalOf(library, value, touch);
   session::PathDrill session(value, touch, tool);
-  DrillReport report(value, touch, 0.5 * tool.tool.burr.diameter, options.log, context.json());
+  DrillReport report(value, touch, instrument ? 0.0 : 0.5 * tool.tool.burr.diameter, options.log,
+                     context.json());
 
   std::size_t ticks = 0;
   const double start = path.samples().front().time;
@@ -188,7 +209,8 @@ void play(const Context& context, const Options& options)
             [&](const dissection::ToolSample& tick)
             {
               if (ticks++ % 256 == 0)
-                progress.report(0.9 * (tick.time - start) / length, "drilling");
+                progress.report(0.9 * (tick.time - start) / length,
+                                instrument ? "feeling" : "drilling");
               const session::TickRecord& record =
                   report.feel([&]() -> const session::TickRecord& { return session.feel(tick); });
               session.cut(tick);
@@ -200,12 +222,19 @@ void play(const Context& context, const Options& options)
   session.end();
   journal->follow(value.dissection);
   report.close();
-  save(context, library, value, report, opened, *journal, leftOut, progress);
+  if (!instrument)
+    save(context, library, value, report, opened, *journal, leftOut, progress);
 
   report.print(context);
   nlohmann::json answer = report.json();
   answer["left_out"] = leftOutJson(value, leftOut);
-  printBalance(context, session, answer);
+  if (instrument)
+  {
+    context.print("felt with " + presenters::toString(*instrument));
+    answer["instrument"] = instrumentJson(*instrument);
+  }
+  else
+    printBalance(context, session, answer);
   if (const session::RecordingWriter* recording = session.recording())
   {
     context.print("recorded in " + options.record + ": " + std::to_string(recording->bytes()) +
@@ -287,7 +316,7 @@ void addDrillCommand(CLI::App& app, Context& context)
           throw UsageError("drill: give either --path or --replay");
         context.refuseOverwriting(
             {options->log, options->record},
-            {options->path, options->replay, options->materials, options->burrs});
+            {options->path, options->replay, options->materials, options->burrs, options->tool});
         options->replay.empty() ? play(context, *options) : replay(context, *options);
       });
   options->command = command;
@@ -303,19 +332,36 @@ void addDrillCommand(CLI::App& app, Context& context)
               "Instead of a path: play a recording again on its case, including removal, and "
               "compare every tick bit for bit")
           ->type_name("F.ticks");
+  CLI::Option* instrument =
+      command
+          ->add_option("--tool", options->tool,
+                       "Instead of a burr: an instrument, a closed mesh of 1 to 300 mm (OBJ, STL, "
+                       "PLY, VTP), its tip at the origin; it is felt and removes nothing")
+          ->type_name("FILE")
+          ->excludes(replayed);
+  command
+      ->add_option(
+          "--tool-axis", options->toolAxis,
+          "Along which axis of its file the instrument lies, from the tip to the hand (z+)")
+      ->check(oneOf({presenters::kInstrumentAxes.begin(), presenters::kInstrumentAxes.end()}))
+      ->needs(instrument);
   command->add_option("--burr", options->kind, "cutting or diamond (cutting)")
-      ->check(oneOf({"cutting", "diamond"}));
+      ->check(oneOf({"cutting", "diamond"}))
+      ->excludes(instrument);
   command->add_option("--diameter", options->diameter, "Diameter of the burr, mm (4)")
-      ->check(within({0.1, 20.0, "mm"}));
+      ->check(within({0.1, 20.0, "mm"}))
+      ->excludes(instrument);
   command->add_option("--rpm", options->rpm, "Spindle speed, revolutions per minute (60000)")
-      ->check(within({0.0, 200000.0}));
+      ->check(within({0.0, 200000.0}))
+      ->excludes(instrument);
   command->add_option("--tick-hz", options->rate, "Servo rate in simulated time, Hz (1000)")
       ->check(within({1.0, 100000.0}))
       ->excludes(replayed);
   command
       ->add_option("--mode", options->mode,
                    "6dof: burr, shaft and handpiece; 3dof: the burr alone (6dof)")
-      ->check(oneOf({"6dof", "3dof"}));
+      ->check(oneOf({"6dof", "3dof"}))
+      ->excludes(instrument);
   command
       ->add_option(
           "--thrust", options->thrust,
@@ -328,16 +374,19 @@ void addDrillCommand(CLI::App& app, Context& context)
       ->add_option("--materials", options->materials,
                    "Material catalogue (materials.json in the library, else built in)")
       ->type_name("F.json")
-      ->excludes(replayed);
+      ->excludes(replayed)
+      ->excludes(instrument);
   command
       ->add_option("--burrs", options->burrs,
                    "Burr catalogue (burrs.json in the library, else built in)")
       ->type_name("F.json")
-      ->excludes(replayed);
+      ->excludes(replayed)
+      ->excludes(instrument);
   command
       ->add_option("--record", options->record, "Record every tick and every removal, for --replay")
       ->type_name("F.ticks")
-      ->excludes(replayed);
+      ->excludes(replayed)
+      ->excludes(instrument);
   command
       ->add_option("--log", options->log,
                    "CSV with one row per tick: device, tool, force, contact, removed volume")

@@ -112,6 +112,7 @@ DrillReport::DrillReport(scene::Case& value, session::TouchScene& scene, double 
   : m_case(value)
   , m_position(value.dissection.history().position())
   , m_before(value.dissection.strokes().size())
+  , m_cuts(radius > 0.0)
 {
   if (!log.empty())
     m_log.emplace(log, value, scene);
@@ -179,7 +180,8 @@ void DrillReport::print(const Context& context) const
   const Cut result = cut();
   if (m_inside > 0)
     context.warn("the tool stood in tissue for " + std::to_string(m_inside) +
-                 " ticks: there nothing is felt, and the drill takes what the burr sweeps");
+                 (m_cuts ? " ticks: there nothing is felt, and the drill takes what the burr sweeps"
+                         : " ticks: there nothing is felt"));
   if (m_heldOff > 0)
     context.warn(session::holderToString(m_holder) + " lay on tissue and held the burr off for " +
                  std::to_string(m_heldOff) +

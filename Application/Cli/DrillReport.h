@@ -53,7 +53,7 @@ private:
 class DrillReport
 {
 public:
-  /// radius     of the burr, mm
+  /// radius     of the burr, mm; 0: an instrument, whose tip counts, and which removes nothing
   /// log        the file of `--log`, or empty
   /// distances  whether the minimum distance of the burr to each labelled structure is computed
   /// Case and scene must outlive this.
@@ -95,6 +95,7 @@ private:
   std::optional<presenters::StructureDistances> m_distances;
   std::size_t m_position; // at the start
   std::size_t m_before;   // number of strokes at the start
+  bool m_cuts;            // the tool is a burr
   bool m_placed = false;  // the device controls the tool
   core::TickTimes m_times;
   double m_force = 0.0;       // N, maximum of all ticks

@@ -2713,6 +2713,14 @@ The wheel changes it while the burr drills, 0.5 N a notch, with Shift a fifth of
         <translation>Wie fest eine Hand ohne Kraft (Maus, SpaceMouse) die Fräse auf das Gewebe drückt, N: je fester, desto schneller dringt sie ein.
 Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein Fünftel davon. Solange Umschalt gehalten wird, ist es doppelt so groß</translation>
     </message>
+    <message>
+        <source>I&amp;nstrument</source>
+        <translation>I&amp;nstrument</translation>
+    </message>
+    <message>
+        <source>Pick, dissector or curette from a file: the left button, or Space, presses it on the tissue, and it removes nothing</source>
+        <translation>Häkchen, Dissektor oder Kürette aus einer Datei: Die linke Taste oder die Leertaste drückt es auf das Gewebe, und es trägt nichts ab</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::DrillController</name>
@@ -2799,6 +2807,34 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>Handpiece: %1° from the line of sight, at %2° on the screen</source>
         <translation>Handstück: %1° zur Blickrichtung, bei %2° auf dem Bildschirm</translation>
+    </message>
+    <message>
+        <source>Instrument from a file</source>
+        <translation>Instrument aus einer Datei</translation>
+    </message>
+    <message>
+        <source>Surfaces (%1)</source>
+        <translation>Oberflächen (%1)</translation>
+    </message>
+    <message>
+        <source>All files (*)</source>
+        <translation>Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>From its tip to the hand the instrument lies along this axis of its file:</source>
+        <translation>Von der Spitze zur Hand liegt das Instrument entlang dieser Achse seiner Datei:</translation>
+    </message>
+    <message>
+        <source>Reading the instrument…</source>
+        <translation>Das Instrument wird gelesen…</translation>
+    </message>
+    <message>
+        <source>%1: felt at %2 points, no place of its surface farther than %3 mm from one</source>
+        <translation>%1: an %2 Punkten gefühlt, keine Stelle der Oberfläche weiter als %3 mm von einem entfernt</translation>
+    </message>
+    <message>
+        <source>Taking up the instrument…</source>
+        <translation>Das Instrument wird aufgenommen…</translation>
     </message>
 </context>
 <context>
@@ -4035,6 +4071,10 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>Begin with the &amp;built-in tables</source>
         <translation>Mit den ein&amp;gebauten Tabellen beginnen</translation>
+    </message>
+    <message>
+        <source>Instrument from a file</source>
+        <translation>Instrument aus einer Datei</translation>
     </message>
 </context>
 <context>
@@ -9011,6 +9051,14 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>Spindle and teeth, louder in bone and brighter where the wall is thin; a tone while a warning is shown</source>
         <translation>Spindel und Schneiden, lauter im Knochen und heller, wo die Wand dünn ist; ein Signalton, solange vor einer Struktur gewarnt wird</translation>
+    </message>
+    <message>
+        <source>Instr&amp;ument from a file…</source>
+        <translation>Instr&amp;ument aus einer Datei…</translation>
+    </message>
+    <message>
+        <source>A closed surface (OBJ, STL, PLY, VTP) of 1 to 300 mm, its tip at the origin: it is felt and drawn, and removes nothing</source>
+        <translation>Eine geschlossene Oberfläche (OBJ, STL, PLY, VTP) von 1 bis 300 mm, die Spitze im Ursprung: Sie wird gefühlt und gezeichnet und trägt nichts ab</translation>
     </message>
 </context>
 </TS>

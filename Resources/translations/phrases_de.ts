@@ -1484,6 +1484,54 @@
         <translation>halten Sie ihn locker: Feder entlang %1, %#2 N/mm</translation>
     </message>
     <message>
+        <source>an instrument lies along x+, x-, y+, y-, z+ or z- of its file, not along '%1'</source>
+        <translation>ein Instrument liegt entlang x+, x-, y+, y-, z+ oder z- seiner Datei, nicht entlang „%1“</translation>
+    </message>
+    <message>
+        <source>it would be %#1 mm if its numbers were in %~2</source>
+        <translation>es wären %#1 mm, wenn die Zahlen in %~2 wären</translation>
+    </message>
+    <message>
+        <source>%#1 mm if its numbers were in %~2</source>
+        <translation>%#1 mm, wenn die Zahlen in %~2 wären</translation>
+    </message>
+    <message>
+        <source>is %#1 mm long by the unit that it states, and an instrument is 1 to 300 mm%~2; export it in mm</source>
+        <translation>ist nach der angegebenen Einheit %#1 mm lang, und ein Instrument 1 bis 300 mm%~2; exportieren Sie es in mm</translation>
+    </message>
+    <message>
+        <source>is %#1 mm long, and an instrument is 1 to 300 mm%~2; export it in mm</source>
+        <translation>ist %#1 mm lang, und ein Instrument 1 bis 300 mm%~2; exportieren Sie es in mm</translation>
+    </message>
+    <message>
+        <source>has %#1 triangles, and an instrument at most %#2; export it coarser</source>
+        <translation>hat %#1 Dreiecke, und ein Instrument höchstens %#2; exportieren Sie es gröber</translation>
+    </message>
+    <message>
+        <source>is not closed: its surface ends at %#1 edges; an instrument is a solid body, so close its holes and export it again</source>
+        <translation>ist nicht geschlossen: Die Oberfläche endet an %#1 Kanten; ein Instrument ist ein fester Körper: Schließen Sie die Löcher, und exportieren Sie es noch einmal</translation>
+    </message>
+    <message>
+        <source>encloses nothing; an instrument is a solid body with a closed surface</source>
+        <translation>umschließt nichts; ein Instrument ist ein fester Körper mit geschlossener Oberfläche</translation>
+    </message>
+    <message>
+        <source>Its tip is taken to be the point farthest from the hand, as the file's origin is not within 1 mm of its surface</source>
+        <translation>Als Spitze gilt der Punkt, der am weitesten von der Hand entfernt ist, denn der Ursprung der Datei liegt mehr als 1 mm von der Oberfläche entfernt</translation>
+    </message>
+    <message>
+        <source>It is longer across the shaft than along it; if it lies along another axis of its file than %1, say which</source>
+        <translation>Es ist quer zum Schaft länger als längs; falls es entlang einer anderen Achse seiner Datei als %1 liegt, geben Sie diese an</translation>
+    </message>
+    <message>
+        <source>sampling the instrument</source>
+        <translation>Das Instrument wird abgetastet</translation>
+    </message>
+    <message>
+        <source>%1: %#2 points, no place of its surface farther than %#3 mm from one</source>
+        <translation>%1: %#2 Punkte, keine Stelle der Oberfläche weiter als %#3 mm von einem entfernt</translation>
+    </message>
+    <message>
         <source>%#1 stroke</source>
         <translation>%#1 Bohrzug</translation>
     </message>
@@ -3633,6 +3681,14 @@
     <message>
         <source>The device sent a position %#1 mm away, farther than any hand reaches.</source>
         <translation>Das Gerät sandte eine Lage in %#1 mm Entfernung, die keine Hand erreicht.</translation>
+    </message>
+    <message>
+        <source>instrument: a shell has 200 to 20000 points, not %#1</source>
+        <translation>Instrument: Eine Hülle hat 200 bis 20000 Punkte, nicht %#1</translation>
+    </message>
+    <message>
+        <source>instrument: its surface has no area</source>
+        <translation>Instrument: Die Oberfläche hat keine Fläche</translation>
     </message>
 </context>
 <context>
@@ -8365,6 +8421,10 @@
     <message>
         <source>touch: the tissue is of another case</source>
         <translation>Tastsinn: Das Gewebe ist von einem anderen Fall</translation>
+    </message>
+    <message>
+        <source>recording: %1 is an instrument, whose surface a recording does not hold; record a burr</source>
+        <translation>Aufzeichnung: %1 ist ein Instrument, dessen Oberfläche eine Aufzeichnung nicht enthält; zeichnen Sie eine Fräse auf</translation>
     </message>
     <message>
         <source>live session</source>

@@ -66,14 +66,6 @@ QString nameOf(const fs::path& path)
       (plain.has_filename() ? plain : plain.parent_path()).filename().string().c_str());
 }
 
-QString patternsOf(unsigned contents)
-{
-  QStringList patterns;
-  for (const std::string_view ending : imaging::readEndings(contents))
-    patterns += "*" + words(std::string(ending));
-  return patterns.join(' ');
-}
-
 // A series by its description, as a folder often holds several.
 template <class Source>
 QString titleOf(const Source& source)

@@ -21,6 +21,7 @@ DrillBar::DrillBar(QWidget* parent)
   : QToolBar(tr("Drill"), parent)
   , m_drill(new QAction(tr("Drill"), this))
   , m_pointer(new QAction(tr("Pointer"), this))
+  , m_instrument(new QAction(tr("I&nstrument"), this))
   , m_wheel(new QAction(tr("By wheel"), this))
   , m_diameter(new DiameterBox)
   , m_kind(new QComboBox)
@@ -48,6 +49,11 @@ DrillBar::DrillBar(QWidget* parent)
          "distance to the nearest surface at its tip"));
   addAction(m_pointer);
   widgetForAction(m_pointer)->setObjectName("pointerButton");
+
+  m_instrument->setCheckable(true);
+  m_instrument->setToolTip(
+      tr("Pick, dissector or curette from a file: the left button, or Space, presses it on the "
+         "tissue, and it removes nothing"));
 
   m_diameter->setSuffix(tr(" mm"));
   m_diameter->setObjectName("burrDiameter");

@@ -30,6 +30,8 @@ public:
   {
     return m_pointer;
   }
+  /// checked: an instrument is in use; it removes nothing. In the menu only.
+  QAction* instrumentAction() const noexcept { return m_instrument; }
   void stepDiameter(int steps); ///< among those available
   void toggleKind();            ///< cutting or diamond
   /// The available diameters, per kind.
@@ -57,6 +59,7 @@ private:
   dissection::BurrCatalogue m_burrs = dissection::BurrCatalogue::builtIn();
   QAction* m_drill;
   QAction* m_pointer;
+  QAction* m_instrument;
   QAction* m_wheel;
   DiameterBox* m_diameter;
   QComboBox* m_kind;

@@ -6,6 +6,10 @@
 
 #include <QAction>
 #include <QApplication>
+#include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QInputDialog>
 
 #include "ActiveDeviceController.h"
 #include "Application.h"
@@ -13,6 +17,8 @@
 #include "Theme.h"
 #include "ThreeDView.h"
 #include "WindowTexts.h"
+#include "petrous/Imaging/FileFormats.h"
+#include "petrous/Presenters/InstrumentFile.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Case.h"
 
@@ -26,6 +32,8 @@ constexpr int kFaultShown = 1500;       // ms after the last tick with a fault
 constexpr int kStart = 500;             // ms for a device to settle after it was taken up
 constexpr int kGone = 1000;             // ms; a crashed server restarts sooner
 constexpr int kAnew = 300;              // ms after the last change of the tool
+constexpr double kLeastStandoff = 0.01; // mm, of an instrument's origin from the surface
+constexpr double kTipBeyond = 1.0;      // mm: how far a pressed tip may go in
 constexpr double kThrustPerNotch = 0.5; // N
 constexpr double kStill = 0.02;         // mm
 constexpr double kBeyond = 0.2;         // mm below the tissue's surface
@@ -69,6 +77,13 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
             releaseTool();
             emit statusMessage(why);
           });
+  connect(&m_reading, &BackgroundWork::failed, this,
+          [this](const QString& why)
+          {
+            m_instrumentFile.clear(); // the user is asked next time
+            emit statusMessage({});
+            emit instrumentRefused(why);
+          });
   m_frames.setInterval(kFrame);
   connect(&m_frames, &QTimer::timeout, this, &DrillController::frame);
   m_anew.setSingleShot(true);
@@ -100,6 +115,7 @@ void DrillController::connectBar()
   };
   onTool(m_bar.drillAction(), Tool::Burr);
   onTool(m_bar.pointerAction(), Tool::Pointer);
+  onTool(m_bar.instrumentAction(), Tool::Instrument);
   connect(&m_bar, &DrillBar::burrChanged, this, &DrillController::restartTool);
   connect(&m_bar, &DrillBar::pressChanged, this, &DrillController::applyBar);
 }
@@ -144,7 +160,8 @@ void DrillController::setSlicesFollow(bool follow)
 
 double DrillController::toolRadius() const
 {
-  return m_tool == Tool::Pointer ? kPointerRadius : 0.5 * m_bar.burr().diameter;
+  const bool isBall = m_tool != Tool::Pointer && m_tool != Tool::Instrument;
+  return isBall ? 0.5 * m_bar.burr().diameter : kPointerRadius;
 }
 
 rendering::ToolPose DrillController::toolForm() const
@@ -152,7 +169,9 @@ rendering::ToolPose DrillController::toolForm() const
   using rendering::BurrFinish;
   rendering::ToolPose form;
   form.radius = toolRadius();
-  form.handpiece = m_tool != Tool::Pointer;
+  form.handpiece = m_tool != Tool::Pointer && m_tool != Tool::Instrument;
+  if (m_tool == Tool::Instrument)
+    form.instrument = m_instrument->surface;
   if (form.handpiece)
     form.finish = m_bar.burr().kind == dissection::Burr::Kind::Diamond ? BurrFinish::Gritted
                                                                        : BurrFinish::Fluted;
@@ -172,6 +191,13 @@ void DrillController::applyBar()
   settings.mode = wheel && m_tool != Tool::Pointer ? Mode::Depth : Mode::Surface;
   if (m_tool == Tool::Pointer)
     settings.lift = 0.0;
+  if (m_tool == Tool::Instrument)
+  {
+    constexpr double kFarthest = 10.0; // mm, of AimSettings
+    settings.burrRadius =
+        std::clamp(presenters::reachBeyondTip(*m_instrument), kLeastStandoff, kFarthest);
+    settings.beyond = kTipBeyond;
+  }
   m_view.setWheelPresses(settings.mode == Mode::Surface);
   m_driver.set(settings);
   if (m_model.touching() && !m_model.drilling() && m_driver.outgrown())
@@ -217,6 +243,61 @@ void DrillController::setBurrAlone(bool alone)
     renewTool();
 }
 
+void DrillController::setInstrument(const QString& file, const QString& axis)
+{
+  m_instrumentFile = file;
+  m_instrumentAxis = axis;
+}
+
+void DrillController::chooseInstrument()
+{
+  QFileDialog dialog(m_view.window(), tr("Instrument from a file"));
+  dialog.setObjectName("openInstrument");
+  dialog.setFileMode(QFileDialog::ExistingFile);
+  dialog.setNameFilters({tr("Surfaces (%1)").arg(patternsOf(imaging::kMesh)), tr("All files (*)")});
+  if (!m_instrumentFile.isEmpty())
+    dialog.setDirectory(QFileInfo(m_instrumentFile).absolutePath());
+  if (dialog.exec() != QDialog::Accepted)
+    return;
+  QStringList axes;
+  for (const char* axis : presenters::kInstrumentAxes)
+    axes += axis;
+  bool isChosen = false;
+  const QString axis = QInputDialog::getItem(
+      m_view.window(), tr("Instrument from a file"),
+      tr("From its tip to the hand the instrument lies along this axis of its file:"), axes,
+      std::max(0, axes.indexOf(m_instrumentAxis)), false, &isChosen);
+  if (isChosen)
+    readInstrument(dialog.selectedFiles().first(), axis);
+}
+
+void DrillController::readInstrument(const QString& file, const QString& axis)
+{
+  emit statusMessage(tr("Reading the instrument…"));
+  m_reading.replace(
+      [this, file, axis](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        const auto read =
+            std::make_shared<const presenters::LoadedInstrument>(presenters::readInstrument(
+                QFile::encodeName(file).toStdString(), bytes(axis), progress));
+        return [this, file, axis, read]
+        {
+          setInstrument(file, axis);
+          m_instrument = read->instrument;
+          emit instrumentRead(file, axis);
+          m_tool == Tool::Instrument ? renewTool() : setTool(Tool::Instrument);
+          QStringList lines{tr("%1: felt at %2 points, no place of its surface farther than %3 mm "
+                               "from one")
+                                .arg(words(m_instrument->name))
+                                .arg(m_instrument->shell->points.size())
+                                .arg(numberText(m_instrument->shell->spacing, 2))};
+          for (const std::string& note : read->notes)
+            lines += windowText(phrase(note));
+          emit statusMessage(lines.join(". "));
+        };
+      });
+}
+
 void DrillController::releaseTool()
 {
   setTool(Tool::None);
@@ -226,16 +307,23 @@ void DrillController::setTool(Tool tool)
 {
   if (tool == m_tool)
     return;
+  if (tool == Tool::Instrument && !m_instrument)
+  {
+    m_bar.instrumentAction()->setChecked(false); // until it is read
+    return m_instrumentFile.isEmpty() ? chooseInstrument()
+                                      : readInstrument(m_instrumentFile, m_instrumentAxis);
+  }
   m_view.tool().DrillModeOff(); // stops the drill first
   m_view.tool().ProbeModeOff();
   putAway();
   if (m_tool == Tool::None)
     m_driver.beginThere();
   m_tool = tool;
-  m_view.tool().SetDrillMode(tool == Tool::Burr);
+  m_view.tool().SetDrillMode(tool == Tool::Burr || tool == Tool::Instrument); // it is pressed
   m_view.tool().SetProbeMode(tool == Tool::Pointer);
   m_bar.drillAction()->setChecked(tool == Tool::Burr);
   m_bar.pointerAction()->setChecked(tool == Tool::Pointer);
+  m_bar.instrumentAction()->setChecked(tool == Tool::Instrument);
   applyBar();
   if (tool != Tool::None && m_model.hasCase() && !m_model.ready())
     emit tissueWanted();
@@ -310,6 +398,8 @@ session::TouchTool DrillController::toolChosen() const
   tool.burr = m_bar.burr();
   if (m_isBurrAlone)
     tool.mode = session::TouchTool::Mode::ThreeDof;
+  if (m_tool == Tool::Instrument)
+    tool.instrument = m_instrument;
   if (m_tool == Tool::Pointer)
   {
     tool.burr.diameter = 2.0 * kPointerRadius;
@@ -321,8 +411,9 @@ session::TouchTool DrillController::toolChosen() const
 void DrillController::prepareTool(const session::TouchTool& tool)
 {
   if (m_tool != Tool::None)
-    emit statusMessage(m_tool == Tool::Burr ? tr("Taking up the burr…")
-                                            : tr("Taking up the pointer…"));
+    emit statusMessage(m_tool == Tool::Burr      ? tr("Taking up the burr…")
+                       : m_tool == Tool::Pointer ? tr("Taking up the pointer…")
+                                                 : tr("Taking up the instrument…"));
   if (m_preparation.busy()) // the tool chosen by then is looked at when it ends
     return;
   m_preparation.start(

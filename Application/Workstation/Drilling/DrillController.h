@@ -20,8 +20,9 @@ class ActiveDeviceController;
 class ThreeDView;
 
 /// Controls the tool. The burr drills where it is pressed; the pointer removes nothing and probes
-/// at its tip. It is moved by the mouse, through a PointerDevice, or by a chosen device. What is
-/// shown is the proxy, which the tissue holds back, not the device pose.
+/// at its tip; an instrument, a closed mesh of the user's, is pressed and removes nothing. It is
+/// moved by the mouse, through a PointerDevice, or by a chosen device. What is shown is the proxy,
+/// which the tissue holds back, not the device pose.
 class DrillController : public QObject
 {
   Q_OBJECT
@@ -36,6 +37,13 @@ public:
   void renewTool();                  ///< puts the tool away and takes it up again
   void tissueCame();                 ///< the case's structures are loaded
   void bringHere();                  ///< moves a device's tool in front of the view's centre
+
+  /// The instrument to be read when it is taken up first; empty: the user is asked for it then.
+  void setInstrument(const QString& file, const QString& axis);
+  /// Reads it in the background and takes it up. axis: of presenters::kInstrumentAxes.
+  void readInstrument(const QString& file, const QString& axis);
+  void chooseInstrument(); ///< asks the user for file and axis
+
   DrillSound& sound() noexcept { return m_sound; }
 
   /// Of the handpiece that the mouse leads, relative to the line of sight, degrees:
@@ -57,14 +65,17 @@ signals:
   /// nullptr if nothing was removed.
   void strokeEnded(const std::shared_ptr<const petrous::dissection::Stroke>& stroke);
   void statusMessage(const QString& line); ///< progress of slow operations, or errors
-  void faulted(const QString& line);       ///< of the touch session; empty when it works again
+  void instrumentRead(const QString& file, const QString& axis);
+  void instrumentRefused(const QString& why);
+  void faulted(const QString& line); ///< of the touch session; empty when it works again
 
 private:
   enum class Tool
   {
     None,
     Burr,
-    Pointer
+    Pointer,
+    Instrument
   };
   void connectBar();
   void connectView();
@@ -98,7 +109,10 @@ private:
   ActiveDeviceController& m_devices;
   ToolDriver m_driver;
   DrillSound m_sound;
-  BackgroundWork m_preparation;         // of the tool
+  BackgroundWork m_preparation; // of the tool
+  BackgroundWork m_reading;     // of an instrument
+  std::shared_ptr<const session::Instrument> m_instrument;
+  QString m_instrumentFile, m_instrumentAxis;
   std::optional<Eigen::Vector3d> m_tip; // last one probed
   QTimer m_frames;
   QTimer m_anew;

@@ -96,7 +96,7 @@ TouchOverlay::~TouchOverlay()
 bool TouchOverlay::shows(const rendering::ToolPose& form) const noexcept
 {
   return m_form.radius == form.radius && m_form.handpiece == form.handpiece &&
-         m_form.finish == form.finish;
+         m_form.finish == form.finish && m_form.instrument == form.instrument;
 }
 
 bool TouchOverlay::setReading(const std::string& text)
@@ -121,16 +121,20 @@ bool TouchOverlay::update(const session::TickRecord& record)
   {
     const double* eye = m_renderer->GetActiveCamera()->GetPosition();
     // It gives way to what is drilled.
+    tool->instrument = m_form.instrument;
+    tool->drilling = tool->drilling && !tool->instrument;
     tool->handpiece = m_form.handpiece && !interaction::hidesField(*tool, {eye[0], eye[1], eye[2]});
   }
   m_force.update(record);
   const auto same = [](double a, double b, double tolerance)
   { return std::abs(a - b) < tolerance; };
-  const bool rests = m_tool && tool && (m_tool->center - tool->center).norm() < kPlace &&
-                     (m_tool->axisToHand - tool->axisToHand).norm() < kHeading &&
-                     m_tool->drilling == tool->drilling && m_tool->handpiece == tool->handpiece &&
-                     same(m_shownForce, m_force.force(), kForce) &&
-                     same(m_shownLag, m_view.lag(), kPlace);
+  const bool isTurned = m_tool && tool && tool->instrument &&
+                        m_tool->rotation.angularDistance(tool->rotation) >= kHeading;
+  const bool rests =
+      m_tool && tool && !isTurned && (m_tool->center - tool->center).norm() < kPlace &&
+      (m_tool->axisToHand - tool->axisToHand).norm() < kHeading &&
+      m_tool->drilling == tool->drilling && m_tool->handpiece == tool->handpiece &&
+      same(m_shownForce, m_force.force(), kForce) && same(m_shownLag, m_view.lag(), kPlace);
   if (rests || !tool)
     return false;
   m_tool = tool;

@@ -20,7 +20,8 @@ namespace petrous::workstation
 class TouchOverlay
 {
 public:
-  /// `form`: the tool; only its radius, handpiece (a pointer has none) and finish count.
+  /// `form`: the tool; only its radius, handpiece (a pointer has none), finish and instrument
+  /// count.
   TouchOverlay(vtkRenderer& renderer, const rendering::ToolPose& form);
   ~TouchOverlay();
   TouchOverlay(const TouchOverlay&) = delete;

@@ -680,6 +680,15 @@ void MainWindow::connectActions()
             m_drill->setBurrAlone(alone);
             m_settings->keepBurrAlone(alone);
           });
+  on(m_actions->instrumentFile, [this] { m_drill->chooseInstrument(); });
+  connect(m_drill, &DrillController::instrumentRead, this,
+          [this](const QString& file, const QString& axis)
+          { m_settings->keepInstrument(file, axis); });
+  connect(m_drill, &DrillController::instrumentRefused, this,
+          [this](const QString& why)
+          { QMessageBox::warning(this, tr("Instrument from a file"), why); });
+  const auto [instrument, axis] = m_settings->instrument();
+  m_drill->setInstrument(instrument, axis);
   m_actions->leftHand->setChecked(m_settings->leftHand());
   m_actions->burrAlone->setChecked(m_settings->burrAlone());
   on(m_actions->smallerBurr,

@@ -202,6 +202,10 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   QMenu* drill = window.menuBar()->addMenu(tr("&Drill"));
   drill->addAction(drillBar.drillAction());
   drill->addAction(drillBar.pointerAction());
+  drill->addAction(drillBar.instrumentAction());
+  instrumentFile = make(drill, tr("Instr&ument from a file…"), {},
+                        tr("A closed surface (OBJ, STL, PLY, VTP) of 1 to 300 mm, its tip at the "
+                           "origin: it is felt and drawn, and removes nothing"));
   drill->addAction(drillBar.wheelAction());
   drill->addAction(deviceBar.hereAction());
   drill->addActions({deviceBar.connectAction(), deviceBar.testAction()});
@@ -317,6 +321,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                                        fitSlices,
                                        drillBar.drillAction(),
                                        drillBar.pointerAction(),
+                                       drillBar.instrumentAction(),
+                                       instrumentFile,
                                        record,
                                        openRecording,
                                        playRecording});

@@ -78,6 +78,7 @@ public:
   QAction* slicesFollow;  ///< checkable
   QAction* drillSound;    ///< checkable
   QAction* strokeCamera;  ///< checkable
+  QAction* instrumentFile;
   QAction* smallerBurr;
   QAction* largerBurr;
   QAction* otherKind;

@@ -116,6 +116,17 @@ void WindowSettings::keepThrust(double newtons)
   m_file.setValue("hand/thrust_n", newtons);
 }
 
+std::pair<QString, QString> WindowSettings::instrument() const
+{
+  return {m_file.value("instrument/file").toString(), m_file.value("instrument/axis").toString()};
+}
+
+void WindowSettings::keepInstrument(const QString& file, const QString& axis)
+{
+  m_file.setValue("instrument/file", file);
+  m_file.setValue("instrument/axis", axis);
+}
+
 std::optional<dissection::Burr> WindowSettings::burr() const
 {
   const auto diameter = number("burr/diameter_mm");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include <QSettings>
 
@@ -79,6 +80,11 @@ public:
   /// Whether thumbnails of cases are drawn in the background.
   bool thumbnails() const;
   void keepThumbnails(bool drawn);
+
+  /// File of the instrument, and the axis of the file along which it lies (presenters::
+  /// kInstrumentAxes); both empty without one.
+  std::pair<QString, QString> instrument() const;
+  void keepInstrument(const QString& file, const QString& axis);
 
   bool drillSound() const; ///< whether the drill is heard
   void keepDrillSound(bool heard);

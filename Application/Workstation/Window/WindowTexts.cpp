@@ -7,9 +7,11 @@
 #include <QDate>
 #include <QObject>
 #include <QRegularExpression>
+#include <QStringList>
 
 #include "Language.h"
 #include "Theme.h"
+#include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/Phrasebook.h"
 
@@ -32,6 +34,14 @@ QString volumeText(double volume)
 QString shownName(const std::string& part)
 {
   return words(presenters::shownName(part));
+}
+
+QString patternsOf(unsigned contents)
+{
+  QStringList patterns;
+  for (const std::string_view ending : imaging::readEndings(contents))
+    patterns += "*" + words(std::string(ending));
+  return patterns.join(' ');
 }
 
 QString durationText(double seconds)

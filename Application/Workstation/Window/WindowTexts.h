@@ -40,6 +40,9 @@ QString dateFormat();
 /// A date of ISO 8601 so; what is no date stays as it is.
 QString dateText(const std::string& iso);
 
+/// Name patterns of the files that hold such contents (imaging::kMesh, ...), for a file dialog.
+QString patternsOf(unsigned contents);
+
 /// With a capital letter at its beginning.
 QString capitalized(const QString& text);
 /// Adds a full stop if there is none.

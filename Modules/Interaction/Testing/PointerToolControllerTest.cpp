@@ -432,6 +432,24 @@ TEST(PointerToolController, StaysWhereItIsWhenTheModeChanges)
   expectNear(place(aim), before);
 }
 
+// Its origin is the tip, which touches only if it may go farther than the surface.
+TEST(PointerToolController, PressesATipBeyondTheSurface)
+{
+  const Vector3d target(30.0, -20.0, 0.0);
+  PointerToolController aim = aimAt(through(target), Mode::Surface);
+  AimSettings settings = aim.settings();
+  settings.burrRadius = 0.01;
+  settings.beyond = 1.0;
+  aim.setSettings(settings);
+  aim.press(Press::Drill);
+  EXPECT_NEAR((target - place(aim)).norm(), 0.01, 1e-9);
+  session::ServoParameters parameters;
+  aim.apply(parameters);
+  const Vector3d way(parameters.approach);
+  EXPECT_NEAR(way.norm(), 1.01, 1e-9);
+  EXPECT_GT(way.normalized().dot((target - place(aim)).normalized()), 1.0 - 1e-6);
+}
+
 TEST(PointerToolController, RefusesBadSettingsAndLines)
 {
   const auto refused = [](auto AimSettings::*value, double bad)
@@ -448,6 +466,7 @@ TEST(PointerToolController, RefusesBadSettingsAndLines)
   refused(&AimSettings::fineFraction, 0.0);
   refused(&AimSettings::maxLead, nan);
   refused(&AimSettings::burrRadius, -1.0);
+  refused(&AimSettings::beyond, 10.1);
   refused(&AimSettings::lift, -0.1);
   refused(&AimSettings::thrust, 21.0);
   refused(&AimSettings::approachSpeed, 0.0);

@@ -46,6 +46,7 @@ const AimSettings& checked(const AimSettings& s)
   check(within(s.maxFall, 0.0, 100.0, true), "the deepest fall must lie within 0 to 100 mm");
   check(within(s.maxRise, 0.0, 100.0, true), "the highest rise must lie within 0 to 100 mm");
   check(within(s.burrRadius, 0.0, 10.0, true), "the burr's radius must lie within 0 to 10 mm");
+  check(within(s.beyond, 0.0, 10.0), "the way beyond the surface must lie within 0 to 10 mm");
   check(within(s.lift, 0.0, 20.0), "the lift must lie within 0 to 20 mm");
   check(within(s.thrust, 0.0, 20.0), "the thrust must lie within 0 to 20 N");
   check(within(s.approachSpeed, 0.0, 1000.0, true), "the approach must lie within 0 to 1000 mm/s");
@@ -266,7 +267,7 @@ void PointerToolController::apply(session::ServoParameters& parameters) const
   // A pressed burr is placed with its tip on the tissue.
   Vector3d approach = Vector3d::Zero();
   if (m_line)
-    approach = m_settings.burrRadius * m_line->direction;
+    approach = (m_settings.burrRadius + m_settings.beyond) * m_line->direction;
   std::copy(approach.data(), approach.data() + 3, parameters.approach);
 }
 

@@ -69,6 +69,7 @@ std::optional<rendering::ToolPose> ToolView::update(const session::TickRecord& r
   rendering::ToolPose pose;
   pose.center = tool.position;
   pose.axisToHand = tool.rotation * Eigen::Vector3d::UnitZ();
+  pose.rotation = tool.rotation;
   pose.radius = m_burrRadius;
   pose.drilling = record.drill != 0;
   pose.finish = m_finish;

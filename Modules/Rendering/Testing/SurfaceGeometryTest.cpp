@@ -32,6 +32,17 @@ SceneContents dull()
 
 const core::CameraPose kAlongX = along({1.0, 0.0, 0.0}, 40.0);
 
+/// The box from (-1, -2, 0) to (1, 2, 30), as an instrument.
+std::shared_ptr<const core::TriangleMesh> bar()
+{
+  core::TriangleMesh mesh;
+  for (int n = 0; n < 8; ++n)
+    mesh.vertices.emplace_back(n & 1 ? 1.0F : -1.0F, n & 2 ? 2.0F : -2.0F, n & 4 ? 30.0F : 0.0F);
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return std::make_shared<core::TriangleMesh>(mesh);
+}
+
 } // namespace
 
 TEST(SurfaceGeometry, HideWhatLiesBehindThem)
@@ -79,6 +90,29 @@ TEST(SurfaceGeometry, LightAMeshByItsNormal)
   const core::CameraPose pose = along({1.0, 1.0, 0.0}, 40.0);
   EXPECT_NEAR(rgbOf(see(contents, pose), kWidth / 2, kHeight / 2)[0], 0.5 * lambert(std::sqrt(0.5)),
               1e-6);
+}
+
+TEST(SurfaceGeometry, ShowAnInstrumentInPlaceOfTheDrillAsItIsHeld)
+{
+  SceneContents contents = dull();
+  ToolPose tool;
+  tool.center = {3.0, 0.0, 0.0};
+  tool.instrument = bar();
+  contents.tool = tool;
+  const auto distance = [&contents](double y, double z)
+  {
+    const auto hits = SurfaceGeometry(contents).along({{-200.0, y, z}, {1.0, 0.0, 0.0}});
+    return hits.empty() ? 0.0 : hits.front().distance;
+  };
+  EXPECT_NEAR(distance(0.3, 20.0), 200.0 + 3.0 - 1.0, 1e-6);
+  EXPECT_EQ(distance(2.1, 20.0), 0.0);
+  EXPECT_EQ(distance(0.3, -0.1), 0.0) << "no ball";
+  EXPECT_EQ(distance(0.3, 30.1), 0.0) << "no handpiece";
+  contents.tool->rotation = Eigen::AngleAxisd(std::acos(-1.0) / 2.0, Eigen::Vector3d::UnitZ());
+  EXPECT_NEAR(distance(0.3, 20.0), 200.0 + 3.0 - 2.0, 1e-6) << "turned about its shaft";
+  EXPECT_EQ(distance(1.1, 20.0), 0.0);
+  contents.tool->rotation = Eigen::AngleAxisd(std::acos(-1.0) / 2.0, Eigen::Vector3d::UnitX());
+  EXPECT_NEAR(distance(-20.0, 0.3), 200.0 + 3.0 - 1.0, 1e-6) << "its shaft along -y";
 }
 
 TEST(SurfaceGeometry, ShowTheToolWhereItIs)

@@ -522,21 +522,11 @@ std::optional<Eigen::Vector3d> WorkstationModel::surfaceAt(const interaction::Pi
   return hit ? std::optional<Eigen::Vector3d>(line.at(*hit)) : std::nullopt;
 }
 
-namespace
-{
-
-bool needsShell(const session::TouchTool& tool)
-{
-  return tool.mode == session::TouchTool::Mode::SixDof;
-}
-
-} // namespace
-
 bool WorkstationModel::toolReady(const session::TouchTool& tool) const
 {
   if (!m_case || !(m_scene || m_felt))
     return false;
-  return !needsShell(tool) ||
+  return !tool.needsBurrShell() ||
          m_shells.count({tool.burr.diameter, m_case->ct.geometry.minSpacing()}) > 0;
 }
 
@@ -547,7 +537,8 @@ WorkstationModel::toolPreparation(const session::TouchTool& tool)
   wanted.burr = tool.burr;
   wanted.voxel = m_case->ct.geometry.minSpacing();
   wanted.tissue = m_tissue;
-  const bool shell = needsShell(tool) && m_shells.count({tool.burr.diameter, wanted.voxel}) == 0;
+  const bool shell =
+      tool.needsBurrShell() && m_shells.count({tool.burr.diameter, wanted.voxel}) == 0;
   std::shared_ptr<const scene::Case> value;
   std::optional<volume::TissueField> field;
   if (!m_scene && !m_felt)
@@ -597,7 +588,7 @@ void WorkstationModel::startTouch(haptics::Device& device,
     m_felt.reset();
     m_session.reset();
   }
-  if (needsShell(setup.tool))
+  if (setup.tool.needsBurrShell())
   {
     auto& shell = m_shells[{setup.tool.burr.diameter, m_case->ct.geometry.minSpacing()}];
     if (!shell)

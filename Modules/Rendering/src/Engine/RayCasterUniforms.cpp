@@ -230,7 +230,7 @@ void RayCaster::setShadows(GlProgram& program, const Frame& frame) const
   program.set("pictureRight", lamp.right);
 
   Eigen::Vector4d ball = Eigen::Vector4d::Zero();
-  if (frame.tool && tool::isShown(*frame.tool))
+  if (frame.tool && tool::castsShadow(*frame.tool))
   {
     const ToolPose& pose = *frame.tool;
     ball << grid.voxelFromPatient(pose.center), pose.radius;

@@ -120,7 +120,20 @@ ToolHits meetTool(const ToolPose& tool, const PixelRay& ray)
   return hits;
 }
 
-void addTool(const ToolPose& tool, const LightSettings& lamp, double focus, const PixelRay& ray,
+// Flat triangles.
+Hit meetInstrument(const ToolPose& tool, const volume::MeshTree& tree, const PixelRay& ray)
+{
+  const Eigen::Quaterniond toTool = tool.rotation.conjugate();
+  const auto hit =
+      tree.firstAlong(toTool * (ray.origin - tool.center), toTool * ray.direction, 0.0);
+  if (!hit)
+    return std::nullopt;
+  const auto& [a, b, c] = tree.triangles()[hit->triangle];
+  return ShapeHit{hit->distance, tool.rotation * (b - a).cross(c - a).normalized()};
+}
+
+void addTool(const ToolPose& tool, const std::optional<volume::MeshTree>& instrument,
+             const LightSettings& lamp, double focus, const PixelRay& ray,
              std::vector<SurfaceGeometry::Hit>& hits)
 {
   LightSettings light = lamp;
@@ -134,6 +147,8 @@ void addTool(const ToolPose& tool, const LightSettings& lamp, double focus, cons
       hits.push_back(
           {hit->distance, lit({color[0], color[1], color[2]}, *hit, ray, light, focus), 1.0});
   };
+  if (instrument)
+    return add(meetInstrument(tool, *instrument, ray), tool::kShaftColor);
   const ToolHits met = meetTool(tool, ray);
   add(met.burr, tool.drilling ? tool::kDrillingColor : tool::kBurrColor);
   add(met.shaft, tool::kShaftColor);
@@ -167,6 +182,8 @@ SurfaceGeometry::SurfaceGeometry(const SceneContents& contents)
   }
   if (contents.tool && tool::isShown(*contents.tool))
     m_tool = contents.tool;
+  if (m_tool && m_tool->instrument)
+    m_instrument.emplace(*m_tool->instrument);
 }
 
 std::vector<SurfaceGeometry::Hit> SurfaceGeometry::along(const PixelRay& ray, double focus) const
@@ -183,7 +200,7 @@ std::vector<SurfaceGeometry::Hit> SurfaceGeometry::along(const PixelRay& ray, do
            std::min(static_cast<double>(mesh.look.opacity), 1.0)});
     }
   if (m_tool)
-    addTool(*m_tool, m_light, focus, ray, hits);
+    addTool(*m_tool, m_instrument, m_light, focus, ray, hits);
   std::sort(hits.begin(), hits.end(),
             [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
   const auto solid =

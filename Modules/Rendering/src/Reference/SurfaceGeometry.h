@@ -11,7 +11,8 @@
 namespace petrous::rendering
 {
 
-/// Distance along a ray, mm, to the tool; nullopt: it misses. From inside, to where it leaves.
+/// Distance along a ray, mm, to the drill (ball, shaft and handpiece); nullopt: it misses. From
+/// inside, to where it leaves.
 std::optional<double> toolAlong(const ToolPose& tool, const PixelRay& ray);
 
 /// Ray intersection with the meshes and the tool of a scene, shaded as tissue surfaces; the tool
@@ -45,6 +46,7 @@ private:
 
   std::vector<Mesh> m_meshes;
   std::optional<ToolPose> m_tool;
+  std::optional<volume::MeshTree> m_instrument; // of the tool, in its frame
   LightSettings m_light;
 };
 

@@ -42,7 +42,7 @@ SurfaceShadows::SurfaceShadows(const TissueOptics& optics, const ClippedRegion& 
   , m_drawn(drawn)
   , m_step(kStep * optics.field().geometry().minSpacing())
 {
-  if (tool && tool::isShown(*tool))
+  if (tool && tool::castsShadow(*tool))
     m_tool = tool;
 }
 

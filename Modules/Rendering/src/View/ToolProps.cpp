@@ -10,10 +10,12 @@
 #include <Eigen/Geometry>
 
 #include <vtkActor.h>
+#include <vtkCleanPolyData.h>
 #include <vtkCylinderSource.h>
 #include <vtkMatrix4x4.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkSphereSource.h>
@@ -33,6 +35,8 @@ constexpr double kPi = 3.14159265358979323846;
 
 constexpr std::array<double, 3> kGhostColor{0.35, 0.85, 1.0};
 constexpr std::array<double, 3> kGhostDrillingColor{1.0, 0.45, 0.85};
+
+constexpr std::size_t kInstrument = 3; // of the actors
 
 // Relief of a finish over the ball of radius 1: longitude about the axis and latitude from the
 // equator towards the hand, rad. Only its slope is shaded, so that the ball stays the felt one.
@@ -134,11 +138,13 @@ ToolProps::ToolProps(Look look)
   m_shaft->SetResolution(isGhost ? 10 : 32);
   m_handpiece->SetResolution(isGhost ? 12 : 48);
   vtkAlgorithm* const sources[3] = {m_burr, m_shaft, m_handpiece};
-  const std::array<std::array<double, 3>, 3> colors{kBurrColor, kShaftColor, kHandpieceColor};
+  const std::array<std::array<double, 3>, 4> colors{kBurrColor, kShaftColor, kHandpieceColor,
+                                                    kShaftColor};
   for (std::size_t part = 0; part < m_actors.size(); ++part)
   {
     vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputConnection(sources[part]->GetOutputPort());
+    if (part != kInstrument)
+      mapper->SetInputConnection(sources[part]->GetOutputPort());
     m_actors[part] = vtkSmartPointer<vtkActor>::New();
     m_actors[part]->SetMapper(mapper);
     m_actors[part]->SetVisibility(0);
@@ -179,26 +185,31 @@ void ToolProps::removeFrom(vtkRenderer* renderer) const
 void ToolProps::setPose(const std::optional<ToolPose>& tool)
 {
   const bool shown = tool && isShown(*tool);
-  for (const auto& actor : m_actors)
-    actor->SetVisibility(shown ? 1 : 0);
+  const bool isInstrument = shown && tool->instrument;
+  for (std::size_t part = 0; part < m_actors.size(); ++part)
+    m_actors[part]->SetVisibility(shown && (part == kInstrument) == isInstrument ? 1 : 0);
   if (shown && !tool->handpiece)
     m_actors[2]->SetVisibility(0);
   if (!shown)
     return;
-  shapeBurr(*tool);
-  // VTK's cylinders are centred and along y.
-  m_shaft->SetRadius(shaftRadius(*tool));
-  m_shaft->SetHeight(kShaftLength);
-  m_shaft->SetCenter(0.0, 0.5 * kShaftLength, 0.0);
-  m_handpiece->SetRadius(kHandpieceRadius);
-  m_handpiece->SetHeight(kHandpieceLength);
-  m_handpiece->SetCenter(0.0, kShaftLength + 0.5 * kHandpieceLength, 0.0);
-  const auto& burr = tool->drilling ? m_drilling : m_idle;
-  m_actors[0]->GetProperty()->SetColor(burr[0], burr[1], burr[2]);
-
-  const Eigen::Matrix3d turn =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), tool->axisToHand)
-          .toRotationMatrix();
+  Eigen::Matrix3d turn = tool->rotation.toRotationMatrix();
+  if (isInstrument)
+    shapeInstrument(*tool);
+  else
+  {
+    shapeBurr(*tool);
+    // VTK's cylinders are centred and along y.
+    m_shaft->SetRadius(shaftRadius(*tool));
+    m_shaft->SetHeight(kShaftLength);
+    m_shaft->SetCenter(0.0, 0.5 * kShaftLength, 0.0);
+    m_handpiece->SetRadius(kHandpieceRadius);
+    m_handpiece->SetHeight(kHandpieceLength);
+    m_handpiece->SetCenter(0.0, kShaftLength + 0.5 * kHandpieceLength, 0.0);
+    const auto& burr = tool->drilling ? m_drilling : m_idle;
+    m_actors[0]->GetProperty()->SetColor(burr[0], burr[1], burr[2]);
+    turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), tool->axisToHand)
+               .toRotationMatrix();
+  }
   vtkNew<vtkMatrix4x4> pose;
   for (int row = 0; row < 3; ++row)
   {
@@ -215,6 +226,23 @@ void ToolProps::setLight(const LightSettings& light)
   for (std::size_t part = 0; part < m_actors.size(); ++part)
     if (m_shadings[part])
       m_shadings[part]->apply(m_actors[part], light);
+}
+
+// Smooth but for its edges.
+void ToolProps::shapeInstrument(const ToolPose& tool)
+{
+  constexpr double kEdge = 30.0; // degrees
+  if (tool.instrument == m_instrument)
+    return;
+  m_instrument = tool.instrument;
+  vtkNew<vtkCleanPolyData> joined;
+  joined->SetInputData(toPolyData(*m_instrument, vertexNormals(*m_instrument)));
+  vtkNew<vtkPolyDataNormals> smooth;
+  smooth->SetInputConnection(joined->GetOutputPort());
+  smooth->SetFeatureAngle(kEdge);
+  smooth->Update();
+  vtkPolyDataMapper::SafeDownCast(m_actors[kInstrument]->GetMapper())
+      ->SetInputData(smooth->GetOutput());
 }
 
 void ToolProps::shapeBurr(const ToolPose& tool)

@@ -8,6 +8,8 @@ namespace petrous::session
 namespace
 {
 
+constexpr double kBeyond = 1.0; // mm: see ConstantThrust::goal, of a tool without a ball
+
 ServoSetup setupOf(const TouchScene& scene, const TouchTool& tool)
 {
   ServoSetup setup = scene.servoOf(tool);
@@ -26,6 +28,7 @@ PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& optio
   : m_dissection(value.dissection)
   , m_tissue(scene.drill().field())
   , m_radius(0.5 * options.tool.burr.diameter)
+  , m_cuts(!options.tool.instrument)
   , m_turns(options.tool.burr.rpm > 0.0)
   , m_proxy(scene.proxyOf(options.tool))
   , m_servo(*m_proxy, setupOf(scene, options.tool))
@@ -60,7 +63,7 @@ const TickRecord& PathDrill::feel(const dissection::ToolSample& sample) noexcept
   reading.time = sample.time;
   reading.pose = {sample.pose.translation(), sample.pose.rotation()};
   reading.health = haptics::DeviceHealth::Good;
-  m_parameters.drill = sample.drill ? 1 : 0;
+  m_parameters.drill = sample.drill && m_cuts ? 1 : 0;
   m_record = m_servo.tick(TickInput::of(sample.time, reading, m_parameters));
   return m_record;
 }
@@ -73,6 +76,9 @@ void PathDrill::approach(const Eigen::Vector3d& place)
   if (std::exchange(m_approached, m_loop.state()) != m_loop.state())
     m_approach.forget();
   m_approach.apply(place, m_parameters);
+  Eigen::Map<Eigen::Vector3d> way(m_parameters.approach);
+  if (const double length = way.norm(); !m_cuts && length > 0.0)
+    way *= 1.0 + kBeyond / length; // a burr's centre may go to the surface, a tip beyond it
 }
 
 void PathDrill::cut(const dissection::ToolSample& sample)
@@ -80,7 +86,7 @@ void PathDrill::cut(const dissection::ToolSample& sample)
   if (m_recording)
     m_recording->add(m_record);
   const bool inside = m_record.status == static_cast<std::uint8_t>(haptics::ProxyStatus::Inside);
-  if (!inside || !sample.drill || !m_turns)
+  if (!inside || !sample.drill || !m_turns || !m_cuts)
   {
     m_swept.reset();
     m_changed.clear();

@@ -92,6 +92,8 @@ void TouchScene::publish(const std::vector<std::size_t>& bricks)
 
 const haptics::PointShell& TouchScene::shellOf(const TouchTool& tool) const
 {
+  if (tool.instrument)
+    return *tool.instrument->shell;
   auto& known = m_shells[tool.burr.diameter];
   if (!known)
     known = session::shellOf(tool.burr, m_field->geometry());
@@ -106,7 +108,7 @@ void TouchScene::giveShell(const dissection::Burr& burr,
 
 std::unique_ptr<haptics::Proxy> TouchScene::proxyOf(const TouchTool& tool) const
 {
-  if (tool.mode == TouchTool::Mode::ThreeDof)
+  if (tool.mode == TouchTool::Mode::ThreeDof && !tool.instrument)
   {
     haptics::CentreBurr burr;
     burr.radius = 0.5 * tool.burr.diameter;
@@ -119,13 +121,18 @@ ServoSetup TouchScene::servoOf(const TouchTool& tool) const
 {
   ServoSetup setup;
   setup.stiffness = tool.coupling.stiffness;
-  setup.burrPoints = tool.mode == TouchTool::Mode::ThreeDof ? 1 : shellOf(tool).burrCount;
+  const bool isCentre = tool.mode == TouchTool::Mode::ThreeDof && !tool.instrument;
+  setup.burrPoints = isCentre ? 1 : shellOf(tool).burrCount;
   return setup;
 }
 
 RecordingSetup TouchScene::recordingOf(const TouchTool& tool, const ServoSetup& servo,
                                        const std::string& note) const
 {
+  if (tool.instrument)
+    throw core::InvalidParameter("recording: " + tool.instrument->name +
+                                 " is an instrument, whose surface a recording does not hold; "
+                                 "record a burr");
   RecordingSetup setup;
   setup.note = note;
   setup.burr = tool.burr;

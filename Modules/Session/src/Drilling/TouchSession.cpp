@@ -100,7 +100,7 @@ TouchSession::TouchSession(scene::Case& value, TouchScene& scene, haptics::Devic
                             m_heard(record);
                         },
                         [this] { passUpdates(); }},
-                       setup.cuts)
+                       setup.cuts && !setup.tool.instrument)
   , m_servoThread(std::make_unique<ServoThread>(m_servo, device, m_ring, setup.parameters))
 {
 }

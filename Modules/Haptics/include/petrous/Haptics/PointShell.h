@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "petrous/Core/TriangleMesh.h"
+
 namespace petrous::haptics
 {
 
@@ -21,7 +23,8 @@ struct ToolSolid
 };
 
 /// A rigid tool as points on its surface, in frame T: origin at the burr's centre, +z along the
-/// shaft to the hand; mm. The first `burrCount` points are on the burr (they can cut).
+/// shaft to the hand; mm. The first `burrCount` points are on the burr (they can cut). An
+/// instrument's origin is its tip, and all of its points count: thrust is what any of them bears.
 struct PointShell
 {
   std::vector<Eigen::Vector3d> points;
@@ -70,5 +73,22 @@ struct BurrShape
 /// Throws InvalidParameter naming the value out of range. If the budget is too small for the bound,
 /// the burr gets what is available (at least 3/5 of it) and `burrSpacing` gives the result.
 PointShell makeBurrShell(const BurrShape& shape, double voxel, std::size_t budget = 2000);
+
+/// Samples the surface of an instrument, in frame T. The first point is the surface's nearest to
+/// the origin, the tip; each further one is, of some 50,000 places spread over the surface and of
+/// its vertices, the farthest from those before (farthest-point sampling), until `budget` is used
+/// up or every place has a point within 0.1 mm. So points are spaced evenly, whatever the
+/// triangles, and sharp ends have one.
+///
+/// `spacing` is the sampling error: tissue that is flat, or curved less than the instrument, is met
+/// by its points as by its surface, up to spacing^2 / 2R for a surface of radius R; an edge or
+/// spike of bone can sink between them by `spacing` at most.
+///
+/// surface  closed; may consist of several shells, with triangles of any orientation; mm
+/// budget   maximum number of points, in [200, 20000]
+///
+/// Throws InvalidParameter for a mesh without triangles, with vertices that do not exist or are not
+/// finite, or for a budget out of range.
+PointShell makeInstrumentShell(const core::TriangleMesh& surface, std::size_t budget = 2000);
 
 } // namespace petrous::haptics

@@ -42,6 +42,7 @@ struct AimSettings
   double maxRise = 10.0;
 
   double burrRadius = 2.0;     ///< mm, in (0, 10]
+  double beyond = 0.0;         ///< mm that a pressed tool without a ball may go in, in [0, 10]
   double lift = 1.0;           ///< mm above the surface while not pressed, in [0, 20]
   double thrust = 1.0;         ///< N, constant thrust, in [0, 20]
   double approachSpeed = 50.0; ///< mm/s, in (0, 1000]

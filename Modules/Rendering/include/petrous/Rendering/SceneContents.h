@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "petrous/Appearance/Material.h"
 #include "petrous/Appearance/StructureAppearance.h"
 #include "petrous/Core/RigidTransform.h"
@@ -36,13 +38,17 @@ enum class BurrFinish
 /// The tool in the scene, patient LPS mm.
 struct ToolPose
 {
-  Eigen::Vector3d center{0.0, 0.0, 0.0};     ///< of the burr
+  Eigen::Vector3d center{0.0, 0.0, 0.0};     ///< of the burr; an instrument's tip
   Eigen::Vector3d axisToHand{0.0, 0.0, 1.0}; ///< from the burr along the shaft
   double radius = 2.0;                       ///< of the burr
   bool drilling = false;                     ///< drawn brighter
   bool handpiece = true;                     ///< false: ball and shaft only, as for a pointer
   BurrFinish finish = BurrFinish::Smooth;
   double turn = 0.0; ///< rad about the axis, of the finish
+  /// Drawn in place of ball, shaft and handpiece: a closed surface, its tip at the origin, +z to
+  /// the hand, mm. It throws no shadow.
+  std::shared_ptr<const core::TriangleMesh> instrument = nullptr;
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity(); ///< of the instrument
 };
 
 /// The light source is at the camera, as in a microscope.

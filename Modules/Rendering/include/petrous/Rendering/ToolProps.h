@@ -20,8 +20,8 @@ namespace petrous::rendering
 
 class PolygonShading;
 
-/// The drill: burr, shaft and handpiece of ToolShape.h. A ghost is a coarse wire frame without
-/// light, which hides nothing.
+/// The drill, burr, shaft and handpiece of ToolShape.h, or an instrument. A ghost is a coarse wire
+/// frame without light, which hides nothing.
 class ToolProps
 {
 public:
@@ -40,13 +40,15 @@ public:
 
 private:
   void shapeBurr(const ToolPose& tool);
+  void shapeInstrument(const ToolPose& tool);
 
   vtkNew<vtkSphereSource> m_burr;                   // smooth
   vtkSmartPointer<vtkPolyData> m_fluted, m_gritted; // of radius 1; made when first needed
   vtkNew<vtkCylinderSource> m_shaft;
   vtkNew<vtkCylinderSource> m_handpiece;
-  std::array<vtkSmartPointer<vtkActor>, 3> m_actors;
-  std::array<std::unique_ptr<PolygonShading>, 3> m_shadings; // none of a ghost
+  std::shared_ptr<const core::TriangleMesh> m_instrument; // as in the last of the actors
+  std::array<vtkSmartPointer<vtkActor>, 4> m_actors;
+  std::array<std::unique_ptr<PolygonShading>, 4> m_shadings; // none of a ghost
   std::array<double, 3> m_idle, m_drilling;                  // colours of the burr
 };
 

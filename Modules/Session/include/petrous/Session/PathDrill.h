@@ -18,7 +18,8 @@ namespace petrous::session
 /// bit-identical result.
 ///
 /// While the tool is embedded in tissue (a path that begins inside bone) no force is rendered, and
-/// a running drill removes what the burr sweeps, until the tool is free.
+/// a running drill removes what the burr sweeps, until the tool is free. An instrument removes
+/// nothing, whatever the path's drill says.
 ///
 /// The scene must outlive this. Not thread-safe.
 class PathDrill
@@ -65,6 +66,7 @@ private:
   const dissection::Dissection& m_dissection;
   const volume::TissueField& m_tissue;
   double m_radius; // mm
+  bool m_cuts;     // an instrument does not
   bool m_turns;    // a burr that does not spin removes nothing, even when embedded
   std::unique_ptr<haptics::Proxy> m_proxy;
   Servo m_servo;

@@ -4,8 +4,10 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "petrous/Core/LockedMemory.h"
+#include "petrous/Core/TriangleMesh.h"
 #include "petrous/Haptics/HapticField.h"
 #include "petrous/Haptics/PointShell.h"
 #include "petrous/Haptics/Proxy.h"
@@ -18,6 +20,15 @@
 namespace petrous::session
 {
 
+/// An instrument that is felt with its whole surface and removes nothing: pick, dissector, curette.
+/// Frame T: the tip at the origin, +z to the hand; mm. Immutable.
+struct Instrument
+{
+  std::string name;                                  ///< display name
+  std::shared_ptr<const core::TriangleMesh> surface; ///< as drawn
+  std::shared_ptr<const haptics::PointShell> shell;  ///< as felt: points of that surface
+};
+
 /// A tool and its coupling.
 struct TouchTool
 {
@@ -28,7 +39,12 @@ struct TouchTool
   };
   dissection::Burr burr;
   Mode mode = Mode::SixDof;
+  /// In place of burr and mode, if any: always with six degrees of freedom.
+  std::shared_ptr<const Instrument> instrument = nullptr;
   haptics::ProxyParameters coupling; ///< 1 N/mm and 20 N mm/rad by default
+
+  /// Whether the tool needs a burr's point shell (shellOf).
+  bool needsBurrShell() const noexcept { return !instrument && mode == Mode::SixDof; }
 };
 
 /// Recommended coupling for a tool pressed with a given thrust, in newtons, or without one, by the
@@ -86,7 +102,7 @@ public:
   void publish(const std::vector<std::size_t>& bricks);
 
   /// Point shell of the tool for this scene's voxels, kept per burr; made on first use, unless it
-  /// was given. Throws InvalidParameter.
+  /// was given. An instrument has its own. Throws InvalidParameter.
   const haptics::PointShell& shellOf(const TouchTool& tool) const;
   void giveShell(const dissection::Burr& burr, std::shared_ptr<const haptics::PointShell> shell);
 
@@ -99,7 +115,8 @@ public:
   /// Fingerprint of what can be touched now. Reads every voxel (0.1 s for 512^3).
   RecordedScene fingerprint() const;
 
-  /// The header of a recording that begins now.
+  /// The header of a recording that begins now. Throws InvalidParameter for an instrument, whose
+  /// surface a recording does not hold.
   /// servo  as the session has it
   /// note   for the reader: what kind of session
   RecordingSetup recordingOf(const TouchTool& tool, const ServoSetup& servo,

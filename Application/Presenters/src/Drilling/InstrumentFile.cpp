@@ -1,0 +1,143 @@
+#include "petrous/Presenters/InstrumentFile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "petrous/Core/InputFile.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Imaging/MeshFile.h"
+#include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Volume/MeshMeasure.h"
+#include "petrous/Volume/MeshTree.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+constexpr double kAtTip = 1.0;     // mm from the surface to an origin that is the tip
+constexpr double kHollow = 1e-9;   // of the bounding box's volume: encloses nothing
+constexpr double kSideways = 1.25; // ratio of the longest side to the one along the shaft
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& why)
+{
+  throw core::InvalidParameter(path.string() + ": " + why);
+}
+
+// From the file's frame to frame T, without the shift.
+Eigen::Matrix3d turnOf(const std::string& axis)
+{
+  const auto known = std::find(kInstrumentAxes.begin(), kInstrumentAxes.end(), axis);
+  if (known == kInstrumentAxes.end())
+    throw core::InvalidParameter("an instrument lies along x+, x-, y+, y-, z+ or z- of its file, "
+                                 "not along '" +
+                                 axis + "'");
+  if (axis == "z-")
+    return Eigen::AngleAxisd(std::acos(-1.0), Vector3d::UnitX()).toRotationMatrix();
+  const Vector3d toHand = (axis[1] == '-' ? -1.0 : 1.0) * Vector3d::Unit(axis[0] - 'x');
+  return Eigen::Quaterniond::FromTwoVectors(toHand, Vector3d::UnitZ()).toRotationMatrix();
+}
+
+Vector3d sizeOf(const core::TriangleMesh& mesh)
+{
+  const auto bounds = mesh.bounds();
+  return (bounds[1] - bounds[0]).cast<double>();
+}
+
+void checkSize(const fs::path& path, double length, bool isUnitStated)
+{
+  if (length >= kMinInstrument && length <= kMaxInstrument)
+    return;
+  std::string others;
+  for (const double unit : {0.001, 10.0, 25.4, 1000.0})
+    if (length * unit >= 10.0 * kMinInstrument && length * unit <= kMaxInstrument)
+      others += (others.empty() ? "; it would be " : ", ") + lengthText(length * unit) +
+                " mm if its numbers were in " + unitName(unit);
+  refuse(path, "is " + lengthText(length) + " mm long" +
+                   (isUnitStated ? " by the unit that it states" : "") +
+                   ", and an instrument is 1 to 300 mm" + others + "; export it in mm");
+}
+
+void checkSurface(const fs::path& path, const core::TriangleMesh& mesh)
+{
+  if (mesh.triangles.size() > kMaxInstrumentTriangles)
+    refuse(path, "has " + std::to_string(mesh.triangles.size()) +
+                     " triangles, and an instrument at most " +
+                     std::to_string(kMaxInstrumentTriangles) + "; export it coarser");
+  const volume::MeshMeasure measure = volume::measure(mesh);
+  if (measure.openEdges > 0)
+    refuse(path, "is not closed: its surface ends at " + std::to_string(measure.openEdges) +
+                     " edges; an instrument is a solid body, so close its holes and export it "
+                     "again");
+  if (!(*measure.volume > kHollow * std::pow(sizeOf(mesh).maxCoeff(), 3)))
+    refuse(path, "encloses nothing; an instrument is a solid body with a closed surface");
+}
+
+// In frame T but for the shift.
+Vector3d tipOf(const core::TriangleMesh& mesh, std::vector<std::string>& notes)
+{
+  const double away = volume::MeshTree(mesh).distance(Vector3d::Zero(), 2.0 * kMaxInstrument);
+  if (away <= kAtTip)
+    return Vector3d::Zero();
+  const auto lowest = std::min_element(mesh.vertices.begin(), mesh.vertices.end(),
+                                       [](const Eigen::Vector3f& a, const Eigen::Vector3f& b)
+                                       { return a.z() < b.z(); });
+  notes.push_back("Its tip is taken to be the point farthest from the hand, as the file's origin "
+                  "is not within 1 mm of its surface");
+  return lowest->cast<double>();
+}
+
+} // namespace
+
+LoadedInstrument readInstrument(const fs::path& path, const std::string& axis,
+                                const core::Progress& progress)
+{
+  const Eigen::Matrix3d turn = turnOf(axis);
+  // Its coordinates are its own, not a patient's: neither LPS nor RAS.
+  imaging::LoadedMesh loaded =
+      imaging::loadMesh(path, false, std::nullopt, progress.part(0.0, 0.5));
+  core::TriangleMesh& mesh = loaded.mesh;
+  checkSize(path, sizeOf(mesh).maxCoeff(), loaded.isUnitStated);
+  checkSurface(path, mesh);
+
+  LoadedInstrument result;
+  for (Eigen::Vector3f& vertex : mesh.vertices)
+    vertex = (turn * vertex.cast<double>()).cast<float>();
+  if (const Vector3d size = sizeOf(mesh); size.maxCoeff() > kSideways * size.z())
+    result.notes.push_back("It is longer across the shaft than along it; if it lies along another "
+                           "axis of its file than " +
+                           axis + ", say which");
+  const Vector3d tip = tipOf(mesh, result.notes);
+  for (Eigen::Vector3f& vertex : mesh.vertices)
+    vertex = (vertex.cast<double>() - tip).cast<float>();
+  progress.check("sampling the instrument");
+
+  auto instrument = std::make_shared<session::Instrument>();
+  instrument->name = core::printable(path.filename());
+  instrument->shell =
+      std::make_shared<const haptics::PointShell>(haptics::makeInstrumentShell(mesh));
+  instrument->surface = std::make_shared<const core::TriangleMesh>(std::move(mesh));
+  result.instrument = std::move(instrument);
+  return result;
+}
+
+double reachBeyondTip(const session::Instrument& instrument) noexcept
+{
+  return std::max(0.0, -static_cast<double>(instrument.surface->bounds()[0].z()));
+}
+
+std::string toString(const session::Instrument& instrument)
+{
+  return instrument.name + ": " + std::to_string(instrument.shell->points.size()) +
+         " points, no place of its surface farther than " +
+         core::fixedText(instrument.shell->spacing, 2) + " mm from one";
+}
+
+} // namespace petrous::presenters

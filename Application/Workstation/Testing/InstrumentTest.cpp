@@ -1,0 +1,153 @@
+#include "GuiTest.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <QFileDialog>
+#include <QInputDialog>
+#include <QLineEdit>
+
+#include "DrillController.h"
+#include "SceneDisplay.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+
+namespace
+{
+
+class InstrumentWindow : public GuiTest
+{
+protected:
+  // 60 mm long, 2 mm wide at the hand's end, which lies along `z+` or `x+` of the file.
+  QString writePick(const std::string& name, bool lies = false) const
+  {
+    std::ofstream file(folder() / name);
+    file << "v 0 0 0\n";
+    for (const auto& [u, v] : {std::pair(1, 1), {-1, 1}, {-1, -1}, {1, -1}})
+      lies ? file << "v 60 " << u << ' ' << v << '\n' : file << "v " << u << ' ' << v << " 60\n";
+    file << "f 1 3 2\nf 1 4 3\nf 1 5 4\nf 1 2 5\nf 2 3 4\nf 2 4 5\n";
+    return QString::fromStdString((folder() / name).string());
+  }
+  DrillController& drillController() { return *window().findChild<DrillController*>(); }
+  const std::optional<rendering::ToolPose>& tool() { return view().display().tool(); }
+  bool isHeld()
+  {
+    QTest::mouseMove(&view(), view().rect().center() + QPoint(3, 0));
+    QTest::mouseMove(&view(), view().rect().center());
+    return waitFor([this] { return tool() && tool()->instrument; });
+  }
+};
+
+} // namespace
+
+TEST_F(InstrumentWindow, IsDrawnAsItIsAndPressedOnBoneOfWhichItTakesNone)
+{
+  saveBall("ball");
+  openWindow();
+  const QString file = writePick("pick.obj");
+  drillController().readInstrument(file, "z+");
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  EXPECT_FALSE(action("Drill")->isChecked());
+  ASSERT_TRUE(isHeld());
+  EXPECT_EQ(tool()->instrument->triangles.size(), 6U);
+  EXPECT_NEAR(tool()->instrument->bounds()[1].z(), 60.0F, 1e-4F);
+  EXPECT_FALSE(tool()->handpiece);
+
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
+  // Its tip comes down onto the ball.
+  EXPECT_TRUE(waitFor(
+      [this]
+      { return tool() && std::abs((tool()->center - kBallCenter).norm() - kBallRadius) < 0.35; }));
+  QTest::qWait(300);
+  EXPECT_FALSE(window().model().drilling());
+  EXPECT_FALSE(tool()->drilling);
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
+  QTest::qWait(200);
+  EXPECT_TRUE(window().model().value().dissection.strokes().empty());
+  EXPECT_TRUE(window().model().value().dissection.mask().untouched());
+
+  action("Drill")->trigger(); // the burr again
+  EXPECT_FALSE(action("Instrument")->isChecked());
+  ASSERT_TRUE(waitFor([this] { return tool() && !tool()->instrument; }));
+}
+
+TEST_F(InstrumentWindow, IsRememberedAndReadWhenItIsTakenUpAgain)
+{
+  saveBall("ball");
+  openWindow();
+  const QString file = writePick("lying.obj", true);
+  drillController().readInstrument(file, "x+");
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  closeWindow();
+  openWindow("ball");
+  action("Instrument")->trigger();
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  ASSERT_TRUE(isHeld());
+  EXPECT_NEAR(tool()->instrument->bounds()[1].z(), 60.0F, 1e-4F) << "turned as before";
+  closeWindow();
+
+  std::filesystem::remove(folder() / "lying.obj");
+  openWindow("ball");
+  QString text;
+  onMessage(
+      [&text](QMessageBox& box)
+      {
+        text = box.text();
+        box.accept();
+      });
+  action("Instrument")->trigger();
+  ASSERT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
+  EXPECT_TRUE(text.contains("lying.obj")) << text.toStdString();
+  EXPECT_FALSE(action("Instrument")->isChecked());
+}
+
+TEST_F(InstrumentWindow, IsRefusedInWordsWhenItIsNotClosed)
+{
+  saveBall("ball");
+  openWindow();
+  std::ofstream(folder() / "open.obj") << "v 0 0 0\nv 1 1 60\nv -1 1 60\nf 1 2 3\n";
+  QString text;
+  onMessage(
+      [&text](QMessageBox& box)
+      {
+        text = box.text();
+        box.accept();
+      });
+  drillController().readInstrument(QString::fromStdString((folder() / "open.obj").string()), "z+");
+  ASSERT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
+  EXPECT_TRUE(text.contains("not closed")) << text.toStdString();
+  EXPECT_FALSE(action("Instrument")->isChecked());
+}
+
+TEST_F(InstrumentWindow, IsChosenWithItsAxis)
+{
+  saveBall("ball");
+  openWindow();
+  const QString file = writePick("lying.obj", true);
+  bool isFile = false;
+  bool isAxis = false;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (auto* open = qobject_cast<QFileDialog*>(&dialog); open && !isFile)
+        {
+          isFile = true;
+          open->findChild<QLineEdit*>("fileNameEdit")->setText(file);
+          static_cast<QDialog&>(*open).accept();
+        }
+        if (auto* ask = qobject_cast<QInputDialog*>(&dialog))
+        {
+          isAxis = true;
+          EXPECT_EQ(ask->textValue(), "z+") << "at first";
+          ask->setTextValue("x+");
+          ask->accept();
+        }
+        return isAxis;
+      });
+  action("Instrument from a file…")->trigger();
+  EXPECT_TRUE(isFile && isAxis);
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  ASSERT_TRUE(isHeld());
+  EXPECT_NEAR(tool()->instrument->bounds()[1].z(), 60.0F, 1e-4F);
+}

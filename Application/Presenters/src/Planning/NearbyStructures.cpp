@@ -57,6 +57,11 @@ std::string toString(const NearbyStructure& structure)
             " mm ± " + uncertainty;
   if (structure.uncertainty.incomplete())
     text += "; registration's error unknown";
+  else if (const auto& error = structure.uncertainty.registration)
+    text += error->place.empty()
+                ? "; registration " + core::fixedText(error->p95, 1) + " mm (p95)"
+                : "; registration " + core::fixedText(error->p95, 1) + " mm (p95), but " +
+                      core::fixedText(error->away, 0) + " mm from here";
   return text;
 }
 

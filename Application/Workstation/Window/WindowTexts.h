@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include <QString>
@@ -39,6 +40,9 @@ QString phrase(const std::string& text);
 QString dateFormat();
 /// A date of ISO 8601 so; what is no date stays as it is.
 QString dateText(const std::string& iso);
+
+/// A file or folder as Qt names it, for the file system.
+std::filesystem::path pathOf(const QString& file);
 
 /// With a capital letter at its beginning.
 QString capitalized(const QString& text);

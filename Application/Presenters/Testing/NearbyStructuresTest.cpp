@@ -159,6 +159,42 @@ TEST(NearbyStructures, LeaveOutWhatIsHiddenWithoutAWarningDistance)
   EXPECT_GT(resources.at("labels.distance.carotid"), 1000U);
 }
 
+TEST(NearbyStructures, MeasureInTheBackgroundWhatIsWarnedOfLater)
+{
+  scene::Case value = balls();
+  appearance::StructureAppearance& look = value.labels[0].structures[0].look;
+  look.shown = false;
+  look.warning = 0.0;
+  NearbyStructures nearby(value);
+  nearby.surfaces();
+  const Vector3d place = kNerve + Vector3d(-kRadius - 1.0 - 1.0, 0.0, 0.0);
+  const auto names = [&]
+  {
+    std::vector<std::string> all;
+    for (const NearbyStructure& one : nearby.around(value, place, 1.0, 50.0))
+      all.push_back(one.name);
+    return all;
+  };
+  const std::vector<std::string> vessel{"carotid"};
+  EXPECT_EQ(names(), vessel);
+  EXPECT_FALSE(nearby.measuring());
+  look.warning = 2.0;
+  EXPECT_EQ(names(), vessel) << "the others go on";
+  EXPECT_TRUE(nearby.measuring());
+  for (int n = 0; n < 1000 && nearby.measuring(); ++n)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    names();
+  }
+  ASSERT_FALSE(nearby.measuring());
+  const auto near = nearby.around(value, place, 1.0, 50.0);
+  ASSERT_EQ(near.size(), 2U);
+  EXPECT_EQ(near[0].name, "facial_nerve");
+  EXPECT_EQ(near[0].state, State::Warned);
+  EXPECT_NEAR(near[0].distance, 1.0, kBias);
+  EXPECT_EQ(nearby.surfaces().resources().size(), 2U);
+}
+
 TEST(NearbyStructures, KeepWhatIsInjuredHoweverFar)
 {
   scene::Case value = balls();

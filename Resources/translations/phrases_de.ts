@@ -1536,6 +1536,10 @@
         <translation>der Fall wird mit der Aufzeichnung verglichen</translation>
     </message>
     <message>
+        <source>begins with a redo, and several strokes of this case may be what it redoes</source>
+        <translation>beginnt mit „Wiederholen“, und mehrere Bohrzüge dieses Falls können gemeint sein</translation>
+    </message>
+    <message>
         <source>playing the recording</source>
         <translation>die Aufzeichnung wird abgespielt</translation>
     </message>

@@ -93,6 +93,7 @@ TEST_F(RegisterCommand, LaysTheMrOnTheCtAndSaysHowWell)
 {
   makeCase();
   json("add ear --labels " + quoted(m_patient / "labels.seg.nrrd"));
+  json("add ear --labels tumour=" + quoted(writeLabelOnMr()));
   const auto answer = json("register ear --mr T2");
   EXPECT_NE(answer["verdict"], "failed") << answer["text"];
   EXPECT_LT(offAt(answer["transform"]), 0.25) << "MR voxels are larger";
@@ -115,6 +116,14 @@ TEST_F(RegisterCommand, LaysTheMrOnTheCtAndSaysHowWell)
   EXPECT_EQ(how["verdict"], answer["verdict"]);
   EXPECT_EQ(how["error_mm"]["p95"], answer["error_mm"]["p95"]);
   EXPECT_TRUE(how["signed_off"].is_null()) << "never assumed";
+  const auto& spread = how["error_mm"]["spread"];
+  EXPECT_TRUE(spread.is_null() || spread["rotation_deg"][0] > 0.0) << spread;
+  const auto& onMr = info["labels"].back();
+  EXPECT_EQ(onMr["name"], "tumour");
+  EXPECT_GT(onMr["registration_error_mm"]["p95"], 0.0);
+  EXPECT_NE(onMr["registration_error_mm"]["place"].is_null(), spread.is_null());
+  EXPECT_FALSE(info["labels"][0].contains("registration_error_mm")) << "drawn on the CT";
+  EXPECT_NE(run("info ear").out.find("drawn on the MR 'T2', registered to "), std::string::npos);
   for (const auto& [name, bytes] : info["resources"].items())
   {
     EXPECT_NE(name.rfind("registration.", 0), 0u) << name;

@@ -227,8 +227,7 @@ std::string sizeText(const core::GridGeometry& grid)
          " voxels of " + fixed(h[0], 3) + " x " + fixed(h[1], 3) + " x " + fixed(h[2], 3) + " mm";
 }
 
-void printCase(const Context& context, const scene::Case& value,
-               const std::vector<MeshFacts>& facts)
+void printCase(const Context& context, const scene::Case& value, const CaseFacts& facts)
 {
   context.print("case '" + value.name + "'");
   if (const std::string line = descriptionLine(value.description); !line.empty())
@@ -253,20 +252,26 @@ void printCase(const Context& context, const scene::Case& value,
                   scene::registrationToString(mr));
     printProvenance(mr);
   }
+  const auto errorText = [&facts](const std::string& structure)
+  {
+    const auto found = facts.registrationErrors.find(structure);
+    return found != facts.registrationErrors.end() ? ", " + toString(found->second) : std::string();
+  };
   for (const auto& part : value.labels)
     for (const auto& s : part.structures)
     {
       context.print("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " +
-                    s.look.preset + placeText(value, scene::placementOf(value, part)));
+                    s.look.preset + placeText(value, scene::placementOf(value, part)) +
+                    errorText(s.name));
       printProvenance(part);
     }
   for (std::size_t n = 0; n < value.meshes.size(); ++n)
   {
     const scene::MeshPart& mesh = value.meshes[n];
     const scene::Placement place = scene::placementOf(value, mesh);
-    const std::string refusal = place.missing.empty() ? facts[n].touchRefusal : "";
+    const std::string refusal = place.missing.empty() ? facts.meshes[n].touchRefusal : "";
     std::string measure;
-    if (const auto& measured = facts[n].measure)
+    if (const auto& measured = facts.meshes[n].measure)
       measure = measured->volume ? ", " + fixed(*measured->volume, 1) + " mm3"
                                  : ", open, " + std::to_string(measured->openEdges) + " edges";
     context.print("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
@@ -428,9 +433,9 @@ void addNew(CLI::App& app, Context& context)
         library.save(value, progress.part(0.8, 1.0));
         warnNotes(context, value);
         warnOfParts(context, sources);
-        const std::vector<MeshFacts> meshes = meshFacts(value);
-        printCase(context, value, meshes);
-        nlohmann::json info = infoJson(value, meshes);
+        const CaseFacts facts = factsOf(value);
+        printCase(context, value, facts);
+        nlohmann::json info = infoJson(value, facts);
         printStructures(context, structures, info);
         context.printJson(info);
       });
@@ -485,9 +490,9 @@ void addAdd(CLI::App& app, Context& context)
         presenters::addParts(value, sources, context.progress(), &structures);
         library.save(value);
         warnNotes(context, value, before);
-        const std::vector<MeshFacts> meshes = meshFacts(value);
-        printCase(context, value, meshes);
-        nlohmann::json info = infoJson(value, meshes);
+        const CaseFacts facts = factsOf(value);
+        printCase(context, value, facts);
+        nlohmann::json info = infoJson(value, facts);
         printStructures(context, structures, info);
         context.printJson(info);
       });
@@ -510,9 +515,9 @@ void addRemove(CLI::App& app, Context& context)
                            scene::Case value = library.open(options->name);
                            scene::removePart(value, options->part);
                            library.save(value);
-                           const std::vector<MeshFacts> meshes = meshFacts(value);
-                           printCase(context, value, meshes);
-                           context.printJson(infoJson(value, meshes));
+                           const CaseFacts facts = factsOf(value);
+                           printCase(context, value, facts);
+                           context.printJson(infoJson(value, facts));
                          });
   command->add_option("CASE", options->name)->required();
   command->add_option("--part", options->part, "Its name")->type_name("NAME")->required();
@@ -529,8 +534,8 @@ void addInfo(CLI::App& app, Context& context)
         const library::Library library = context.openLibrary();
         scene::Case value = library.open(*name);
         nlohmann::json areas = nlohmann::json::array();
-        const std::vector<MeshFacts> meshes = meshFacts(value);
-        printCase(context, value, meshes);
+        const CaseFacts facts = factsOf(value);
+        printCase(context, value, facts);
         const std::vector<std::string> lost = library.lost(value);
         for (const std::string& words : lost)
           context.print("  " + words);
@@ -544,7 +549,7 @@ void addInfo(CLI::App& app, Context& context)
             areas.push_back({{"label", surface.name}, {"area_mm2", surface.area}});
           }
         }
-        nlohmann::json info = infoJson(value, meshes);
+        nlohmann::json info = infoJson(value, facts);
         if (*exposed)
           info["dissection"]["exposed"] = std::move(areas);
         if (!lost.empty())

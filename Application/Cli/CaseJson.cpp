@@ -64,6 +64,9 @@ std::string touchRefusal(const scene::Case& value, const scene::MeshPart& mesh)
   }
 }
 
+namespace
+{
+
 std::vector<MeshFacts> meshFacts(const scene::Case& value)
 {
   std::vector<MeshFacts> facts;
@@ -79,6 +82,37 @@ std::vector<MeshFacts> meshFacts(const scene::Case& value)
     }
   }
   return facts;
+}
+
+std::map<std::string, presenters::RegistrationErrorHere> registrationErrors(scene::Case value)
+{
+  std::map<std::string, presenters::RegistrationErrorHere> errors;
+  value.meshes.clear();
+  const auto labels = std::move(value.labels);
+  for (const scene::LabelPart& part : labels)
+  {
+    const scene::ImagePart* mr = scene::findMr(value, scene::placementOf(value, part).drawnOn);
+    if (!mr || !mr->registration || !mr->registration->error)
+      continue;
+    value.labels = {part};
+    try
+    {
+      for (const auto& structure : scene::structureOccupancies(value))
+        if (const auto error = presenters::uncertaintyOf(value, structure).registration)
+          errors[structure.name] = *error;
+    }
+    catch (const core::Error&) // the rest of the case can still be reported
+    {
+    }
+  }
+  return errors;
+}
+
+} // namespace
+
+CaseFacts factsOf(const scene::Case& value)
+{
+  return {meshFacts(value), registrationErrors(value)};
 }
 
 json transformJson(const core::RigidTransform& transform)
@@ -97,6 +131,22 @@ json signOffJson(const scene::SignOff& signOff)
   return {{"who", orNull(signOff.who)}, {"when", orNull(signOff.when)}};
 }
 
+namespace
+{
+
+// The root mean square along each axis.
+json spreadJson(const std::optional<core::RigidSpread>& spread)
+{
+  if (!spread)
+    return {};
+  const Eigen::Matrix<double, 6, 1> deviations = spread->moments.diagonal().cwiseSqrt();
+  return {{"about_mm", vectorJson(spread->about)},
+          {"translation_mm", vectorJson(deviations.head<3>())},
+          {"rotation_deg", vectorJson(deviations.tail<3>() * (180.0 / 3.14159265358979323846))}};
+}
+
+} // namespace
+
 json registrationJson(const scene::ImagePart& mr)
 {
   if (!mr.registered || !mr.registration)
@@ -108,7 +158,8 @@ json registrationJson(const scene::ImagePart& mr)
              {"place", how.error->place},
              {"median", how.error->median},
              {"p95", how.error->p95},
-             {"max", how.error->max}};
+             {"max", how.error->max},
+             {"spread", spreadJson(how.error->spread)}};
   if (const scene::SignOff* signOff = scene::validSignOff(mr))
     signedOff = signOffJson(*signOff);
   return {{"method", nameOf(how.method)},
@@ -165,6 +216,14 @@ void addPlace(json& part, const scene::Placement& place)
     part["placed_reason"] = place.missing;
 }
 
+// Without a place it holds at the structure itself.
+json registrationErrorJson(const presenters::RegistrationErrorHere& error)
+{
+  return {{"p95", error.p95},
+          {"place", error.place.empty() ? json() : json(error.place)},
+          {"away_mm", error.away}};
+}
+
 } // namespace
 
 json descriptionJson(const scene::Description& description)
@@ -208,7 +267,7 @@ std::string descriptionLine(const scene::Description& description)
   return line;
 }
 
-json infoJson(const scene::Case& value, const std::vector<MeshFacts>& facts)
+json infoJson(const scene::Case& value, const CaseFacts& facts)
 {
   json ct = gridJson(value.ct.geometry);
   ct["min"] = value.ct.range.min;
@@ -245,19 +304,22 @@ json infoJson(const scene::Case& value, const std::vector<MeshFacts>& facts)
                          {{"assumed_axes", axesJson(part.provenance.assumedRas)},
                           {"frame_assumed", part.provenance.isFrameAssumed}}}});
       addPlace(labels.back(), place);
+      if (const auto error = facts.registrationErrors.find(s.name);
+          error != facts.registrationErrors.end())
+        labels.back()["registration_error_mm"] = registrationErrorJson(error->second);
     }
   }
   json meshes = json::array();
   for (std::size_t n = 0; n < value.meshes.size(); ++n)
   {
     const scene::MeshPart& mesh = value.meshes[n];
-    const std::string& refusal = facts[n].touchRefusal;
+    const std::string& refusal = facts.meshes[n].touchRefusal;
     meshes.push_back({{"name", mesh.name},
                       {"triangles", mesh.triangles},
                       {"flags", appearance::flagsOf(mesh.look)},
                       {"solid", mesh.look.solid},
                       {"touchable", refusal.empty()}});
-    if (const auto& measured = facts[n].measure)
+    if (const auto& measured = facts.meshes[n].measure)
     {
       meshes.back()["closed"] = measured->openEdges == 0;
       meshes.back()["open_edges"] = measured->openEdges;

@@ -8,6 +8,7 @@
 
 #include "Context.h"
 #include "petrous/Presenters/CaseTransfer.h"
+#include "petrous/Presenters/SurfaceUncertainty.h"
 #include "petrous/Scene/Case.h"
 #include "petrous/Volume/MeshMeasure.h"
 
@@ -37,8 +38,15 @@ struct MeshFacts
   std::string touchRefusal;                     ///< as the function says
   std::optional<volume::MeshMeasure> measure{}; ///< nothing if the mesh cannot be read
 };
-/// Of each of the case's meshes.
-std::vector<MeshFacts> meshFacts(const scene::Case& value);
+/// What is computed of a case.
+struct CaseFacts
+{
+  std::vector<MeshFacts> meshes; ///< of each of the case's meshes
+  /// By the name of a structure that was drawn on a registered MR; nothing where its labels cannot
+  /// be read, or the error is not known.
+  std::map<std::string, presenters::RegistrationErrorHere> registrationErrors;
+};
+CaseFacts factsOf(const scene::Case& value);
 
 /// 16 numbers, row-major.
 nlohmann::json transformJson(const core::RigidTransform& transform);
@@ -59,7 +67,7 @@ std::string indented(const std::string& note);
 std::string descriptionLine(const scene::Description& description);
 
 /// Output of `petrous info`.
-nlohmann::json infoJson(const scene::Case& value, const std::vector<MeshFacts>& meshes);
+nlohmann::json infoJson(const scene::Case& value, const CaseFacts& facts);
 
 /// [{"label", "volume_mm3"}].
 nlohmann::json touchedJson(const std::vector<dissection::TouchedStructure>& structures);

@@ -1584,6 +1584,10 @@
         <translation>der Fall wird mit der Aufzeichnung verglichen</translation>
     </message>
     <message>
+        <source>begins with a redo, and several strokes of this case may be what it redoes</source>
+        <translation>beginnt mit „Wiederholen“, und mehrere Bohrzüge dieses Falls können gemeint sein</translation>
+    </message>
+    <message>
         <source>playing the recording</source>
         <translation>die Aufzeichnung wird abgespielt</translation>
     </message>
@@ -1820,10 +1824,6 @@
         <translation>Fehler der Registrierung unbekannt</translation>
     </message>
     <message>
-        <source>registered to %#1 mm (p95) at %2, %#3 mm from here</source>
-        <translation>registriert auf %#1 mm (p95) an %2, %#3 mm von hier</translation>
-    </message>
-    <message>
         <source>points</source>
         <translation>Punkte</translation>
     </message>
@@ -2004,6 +2004,14 @@
         <translation>Fehler der Registrierung unbekannt</translation>
     </message>
     <message>
+        <source>registration %#1 mm (p95)</source>
+        <translation>Registrierung %#1 mm (p95)</translation>
+    </message>
+    <message>
+        <source>registration %#1 mm (p95), but %#2 mm from here</source>
+        <translation>Registrierung %#1 mm (p95), aber %#2 mm von hier</translation>
+    </message>
+    <message>
         <source>injured, %1</source>
         <translation>verletzt, %1</translation>
     </message>
@@ -2032,6 +2040,14 @@
         <translation>Strukturen werden vermessen</translation>
     </message>
     <message>
+        <source>registered to %#1 mm (p95) here</source>
+        <translation>registriert auf %#1 mm (p95) hier</translation>
+    </message>
+    <message>
+        <source>registered to %#1 mm (p95) at %2, %#3 mm from here, where it may be more</source>
+        <translation>registriert auf %#1 mm (p95) an %2, %#3 mm von hier, wo es mehr sein kann</translation>
+    </message>
+    <message>
         <source>voxels %#1 x %#2 x %#3 mm, slices %#4 mm apart</source>
         <translation>Voxel %#1 x %#2 x %#3 mm, Schichtabstand %#4 mm</translation>
     </message>
@@ -2040,12 +2056,8 @@
         <translation>gezeichnet auf dem MR „%1“</translation>
     </message>
     <message>
-        <source>%~1registered, its error unknown</source>
-        <translation>%~1registriert, Fehler unbekannt</translation>
-    </message>
-    <message>
-        <source>%~1registered to %#2 mm (p95) at %3, %#4 mm from here</source>
-        <translation>%~1registriert auf %#2 mm (p95) an %3, %#4 mm von hier</translation>
+        <source>%~1, registered, its error unknown</source>
+        <translation>%~1, registriert, Fehler unbekannt</translation>
     </message>
     <message>
         <source>case '%1' has no MR '%2'; it has none</source>
@@ -7915,6 +7927,10 @@
     <message>
         <source>a number is no integer, or out of its range</source>
         <translation>eine Zahl ist keine ganze oder außerhalb ihres Bereichs</translation>
+    </message>
+    <message>
+        <source>registration: moments that no error has</source>
+        <translation>Registrierung: Momente, die kein Fehler hat</translation>
     </message>
     <message>
         <source>registration: an error below 0 mm</source>

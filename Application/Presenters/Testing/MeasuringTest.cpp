@@ -210,6 +210,12 @@ TEST(Uncertainty, OfAMarkOnAnMrHasItsRegistration)
   EXPECT_NEAR(*known[1].uncertainty, std::hypot(0.6, 0.5), 1e-9);
   EXPECT_NEAR(*known[2].uncertainty, std::hypot(0.4, 0.5), 1e-9);
   EXPECT_NE(known[0].remark.find("10 mm from here"), std::string::npos) << known[0].remark;
+  // With its spread, 10 mm from where it is held, about the x axis alone: 1.96 deviations.
+  value.mr[0].registration->error->spread = core::RigidSpread{{1, 2, 13}};
+  value.mr[0].registration->error->spread->moments(3, 3) = 0.1 * 0.1;
+  const auto here = quantitiesOf(value, mark);
+  EXPECT_NEAR(*here[0].uncertainty, std::hypot(0.4, 1.96), 0.04);
+  EXPECT_NE(here[0].remark.find(" mm (p95) here"), std::string::npos) << here[0].remark;
   // Within one image its registration moves all alike.
   const auto distance = quantitiesOf(value, made(Kind::Distance, {{0, 0, 0}, {9, 0, 0}}, "T2"))[0];
   EXPECT_NEAR(*distance.uncertainty, std::sqrt(2.0) * 0.4, 1e-6);

@@ -1,10 +1,12 @@
 #include "petrous/Presenters/NearbyStructures.h"
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include "petrous/Core/NumberText.h"
 #include "petrous/Scene/ApplyRegistration.h"
 
 using namespace petrous;
@@ -157,6 +159,42 @@ TEST(NearbyStructures, LeaveOutWhatIsHiddenWithoutAWarningDistance)
   EXPECT_GT(resources.at("labels.distance.carotid"), 1000U);
 }
 
+TEST(NearbyStructures, MeasureInTheBackgroundWhatIsWarnedOfLater)
+{
+  scene::Case value = balls();
+  appearance::StructureAppearance& look = value.labels[0].structures[0].look;
+  look.shown = false;
+  look.warning = 0.0;
+  NearbyStructures nearby(value);
+  nearby.surfaces();
+  const Vector3d place = kNerve + Vector3d(-kRadius - 1.0 - 1.0, 0.0, 0.0);
+  const auto names = [&]
+  {
+    std::vector<std::string> all;
+    for (const NearbyStructure& one : nearby.around(value, place, 1.0, 50.0))
+      all.push_back(one.name);
+    return all;
+  };
+  const std::vector<std::string> vessel{"carotid"};
+  EXPECT_EQ(names(), vessel);
+  EXPECT_FALSE(nearby.measuring());
+  look.warning = 2.0;
+  EXPECT_EQ(names(), vessel) << "the others go on";
+  EXPECT_TRUE(nearby.measuring());
+  for (int n = 0; n < 1000 && nearby.measuring(); ++n)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    names();
+  }
+  ASSERT_FALSE(nearby.measuring());
+  const auto near = nearby.around(value, place, 1.0, 50.0);
+  ASSERT_EQ(near.size(), 2U);
+  EXPECT_EQ(near[0].name, "facial_nerve");
+  EXPECT_EQ(near[0].state, State::Warned);
+  EXPECT_NEAR(near[0].distance, 1.0, kBias);
+  EXPECT_EQ(nearby.surfaces().resources().size(), 2U);
+}
+
 TEST(NearbyStructures, KeepWhatIsInjuredHoweverFar)
 {
   scene::Case value = balls();
@@ -239,13 +277,72 @@ TEST(SurfaceUncertainty, KnowsTheMrThatAStructureWasDrawnOn)
   EXPECT_FALSE(found.incomplete());
   EXPECT_NEAR(found.millimetres(), 0.5, 1e-12);
   near.uncertainty = found;
-  EXPECT_EQ(toString(near), "facial nerve 1.8 mm ± 0.5");
-  EXPECT_NE(toString(found).find("'T2', registered to 0.30 mm (p95) at the incus, 14 mm from here"),
+  EXPECT_EQ(toString(near),
+            "facial nerve 1.8 mm ± 0.5; registration 0.3 mm (p95), but 14 mm from here");
+  EXPECT_NE(toString(found).find("'T2'; registered to 0.30 mm (p95) at the incus, 14 mm from here, "
+                                 "where it may be more"),
             std::string::npos)
       << toString(found);
 
   value.labels[0].drawnOn = ""; // declared to be the CT's
   EXPECT_TRUE(uncertainty().drawnOn.empty());
+}
+
+// Rotation about the x axis alone, through a place 60 mm away: 1.96 deviations at the corner of the
+// structure's box that is farthest from that axis.
+TEST(SurfaceUncertainty, IsTheRegistrationsWhereTheStructureLies)
+{
+  constexpr double kTurn = 0.01; // rad
+  scene::Case value = balls();
+  scene::ImagePart mr;
+  mr.name = "T2";
+  mr.geometry = value.labels[0].labels.get()->voxels->geometry();
+  value.mr.push_back(mr);
+  const auto p95At = [&value](const Vector3d& about)
+  {
+    scene::Registration how;
+    how.error = scene::RegistrationError{about, "the incus", 0.01, 0.02, 0.03};
+    how.error->spread = core::RigidSpread{about};
+    how.error->spread->moments(3, 3) = kTurn * kTurn;
+    scene::applyRegistration(value, "T2", {}, how);
+    const SurfaceUncertainty found = StructureSurfaces(value).uncertainty(0);
+    EXPECT_TRUE(found.registration && found.registration->place.empty());
+    EXPECT_NEAR(found.millimetres(), std::hypot(0.5 * kSlice, found.registration->p95), 1e-12);
+    return found.registration->p95;
+  };
+  for (const double away : {60.0, 120.0})
+  {
+    // The box reaches at least to the sphere, and no more than two voxels beyond it.
+    const double least = std::hypot(away + kRadius, kRadius);
+    const double most = std::hypot(away + kRadius + 2.0 * kVoxel, kRadius + 2.0 * kSlice);
+    const double found = p95At(kNerve + Vector3d(25.0, away, 0.0));
+    EXPECT_GT(found, 0.98 * 1.96 * kTurn * (least - kVoxel));
+    EXPECT_LT(found, 1.02 * 1.96 * kTurn * most);
+  }
+  EXPECT_GT(p95At(kNerve + Vector3d(0.0, 80.0, 0.0)), 1.5) << "not the 0.02 mm of the incus";
+
+  NearbyStructure near;
+  near.name = "facial_nerve";
+  near.distance = 1.84;
+  near.uncertainty = StructureSurfaces(value).uncertainty(0);
+  const std::string error = core::fixedText(near.uncertainty.registration->p95, 2);
+  EXPECT_NE(toString(near.uncertainty).find("'T2'; registered to " + error + " mm (p95) here"),
+            std::string::npos)
+      << toString(near.uncertainty);
+  EXPECT_NE(toString(near).find("; registration 1."), std::string::npos) << toString(near);
+
+  // 3.2 mm off the surface, and a warning distance of 2 mm: by more than 1.2 mm of uncertainty.
+  const auto state = [&]
+  {
+    NearbyStructures nearby(value);
+    nearby.surfaces();
+    return nearby.around(value, kNerve - Vector3d(0.0, 0.0, kRadius + 1.0 + 3.2), 1.0, 50.0)
+        .front()
+        .state;
+  };
+  EXPECT_EQ(state(), State::Warned);
+  p95At(kNerve);
+  EXPECT_EQ(state(), State::Clear);
 }
 
 TEST(NearbyStructures, AreWhereTheirMrLiesOnTheCt)

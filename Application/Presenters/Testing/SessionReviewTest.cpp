@@ -13,7 +13,9 @@
 #include "petrous/Core/CsvTable.h"
 #include "petrous/Presenters/Recordings.h"
 #include "petrous/Presenters/SessionReview.h"
+#include "petrous/Scene/Branches.h"
 #include "petrous/Session/PathDrill.h"
+#include "petrous/Session/RecordingWriter.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
@@ -83,6 +85,37 @@ protected:
       drill.cut(sample);
     }
     drill.end();
+  }
+
+  // An older stroke about a place, or one that the recording has.
+  static void cut(scene::Case& value, const Vector3d& at)
+  {
+    value.dissection.beginStroke({});
+    ASSERT_TRUE(value.dissection.cut({at, at, 1.5}));
+    value.dissection.endStroke();
+  }
+
+  // Redoes a stroke, if told so, and then cuts a new one.
+  void record(scene::Case& value, bool redo, const Vector3d& at)
+  {
+    session::TouchScene scene(value);
+    session::TouchTool tool;
+    tool.mode = session::TouchTool::Mode::ThreeDof;
+    session::RecordingWriter writer(file,
+                                    scene.recordingOf(tool, scene.servoOf(tool), "redo and cut"));
+    session::NoRemovalModel none;
+    auto hooks = scene.hooksOf(tool.burr, [] { return std::nullopt; });
+    hooks.edited = [&writer](const session::MaskEdit& edit) { writer.add(edit); };
+    session::DissectionLoop loop(value.dissection, *scene.mask(), none,
+                                 scene.drill().protectedTissue(), hooks);
+    if (redo)
+    {
+      ASSERT_TRUE(loop.redo());
+    }
+    ASSERT_TRUE(loop.sweep(tick(1.0, at, true), {at, at, 2.0}));
+    loop.endStroke();
+    writer.add(tick(1.0, at));
+    writer.close();
   }
 
   std::filesystem::path folder = std::filesystem::temp_directory_path() /
@@ -208,6 +241,66 @@ TEST_F(SessionReviewTest, OpensOnACopyThatWasDrilledAndChangedSince)
   ASSERT_TRUE(review.removed);
   EXPECT_DOUBLE_EQ(*review.removed, *first.removed);
   EXPECT_EQ(copy.applied(), value.applied());
+}
+
+// The new stroke overlaps the redone one: it removes less than on untouched bone.
+TEST_F(SessionReviewTest, MeasuresARecordingThatBeginsWithARedo)
+{
+  const Vector3d first(5.0, 6.0, kTop - 1.0), second(6.0, 6.0, kTop - 1.0);
+  scene::Case before = namedBlock();
+  cut(before, first);
+  ASSERT_EQ(before.dissection.undo(), 1u);
+  scene::Case value = before;
+  record(value, true, second);
+  ASSERT_EQ(value.dissection.strokes().size(), 2u);
+  const double removed = value.dissection.strokes()[1]->info.removed;
+  scene::Case alone = namedBlock();
+  const auto kept = file;
+  file = folder / "alone.ticks";
+  record(alone, false, second);
+  file = kept;
+  ASSERT_LT(removed, 0.95 * alone.dissection.strokes()[0]->info.removed);
+  for (const scene::Case& one : {before, value})
+  {
+    const SessionReview review = reviewRecording(file, one);
+    EXPECT_EQ(review.whyUnmeasured, "");
+    ASSERT_TRUE(review.removed);
+    EXPECT_DOUBLE_EQ(*review.removed, removed);
+    EXPECT_EQ(review.strokes, 1u) << "the redone one is older";
+  }
+
+  // Another approach goes on from the same state.
+  scene::startBranch(before, "other", 0);
+  cut(before, {8.0, 6.0, kTop - 1.0});
+  const SessionReview review = reviewRecording(file, before);
+  EXPECT_FALSE(review.removed);
+  EXPECT_NE(review.whyUnmeasured.find("several strokes"), std::string::npos)
+      << review.whyUnmeasured;
+}
+
+TEST_F(SessionReviewTest, FindsTheApproachOnWhichTheRecordingBegan)
+{
+  scene::Case value = namedBlock();
+  cut(value, {4.0, 4.0, kTop - 1.0});
+  for (const char* name : {"b", "c", "d"})
+  {
+    scene::startBranch(value, name, 0);
+    cut(value, {4.0 + (name[0] - 'a'), 7.0, kTop - 1.0});
+  }
+  scene::goToBranch(value, "c");
+  scene::Case elsewhere = value;
+  record(value, false, {6.5, 7.0, kTop - 1.0});
+  scene::goToBranch(elsewhere, "main");
+  const SessionReview review = reviewRecording(file, elsewhere);
+  EXPECT_EQ(review.whyUnmeasured, "");
+  ASSERT_TRUE(review.removed);
+  EXPECT_DOUBLE_EQ(*review.removed, value.dissection.strokes().back()->info.removed);
+
+  scene::removeBranch(elsewhere, "c");
+  const SessionReview gone = reviewRecording(file, elsewhere);
+  EXPECT_FALSE(gone.removed);
+  EXPECT_NE(gone.whyUnmeasured.find("began on another dissection"), std::string::npos)
+      << gone.whyUnmeasured;
 }
 
 TEST_F(SessionReviewTest, ShowsTheCourseWhereStructuresDifferAndSaysWhyNoVolumeIsKnown)

@@ -2,7 +2,6 @@
 
 #include <QBuffer>
 #include <QDir>
-#include <QFile>
 #include <QFileDialog>
 #include <QInputDialog>
 #include <QMessageBox>
@@ -12,6 +11,7 @@
 #include "CaseStamps.h"
 #include "Theme.h"
 #include "ThreeDView.h"
+#include "WindowTexts.h"
 #include "petrous/Library/Attachments.h"
 #include "petrous/Presenters/IdentityText.h"
 
@@ -20,11 +20,6 @@ namespace petrous::workstation
 
 namespace
 {
-
-std::filesystem::path pathOf(const QString& file)
-{
-  return QFile::encodeName(file).toStdString();
-}
 
 // The object of the stroke to which the case's present state belongs; empty: none, or not saved.
 std::string presentStroke(const scene::Case& value)

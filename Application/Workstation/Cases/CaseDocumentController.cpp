@@ -54,11 +54,6 @@ namespace
 constexpr int kShowLoading = 300;   // ms
 constexpr int kLookForDamage = 500; // ms; images are checked against their hash in another thread
 
-fs::path pathOf(const QString& text)
-{
-  return fs::path(QFile::encodeName(text).toStdString());
-}
-
 QString nameOf(const fs::path& path)
 {
   const auto plain = path.lexically_normal();

@@ -26,11 +26,6 @@ namespace
 
 constexpr int kFrame = 16; // ms
 
-std::filesystem::path pathOf(const QString& file)
-{
-  return QFile::encodeName(file).toStdString();
-}
-
 QString nameOf(const std::filesystem::path& file)
 {
   return QFile::decodeName(file.filename().c_str());

@@ -4,7 +4,6 @@
 
 #include <QApplication>
 #include <QDialogButtonBox>
-#include <QFile>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHBoxLayout>
@@ -360,7 +359,7 @@ void PseudonymsDialog::take()
            tr("The pseudonyms of another file of this kind come to this one; that stays as it is."),
            false, &file, secret))
     return;
-  const std::filesystem::path path = QFile::encodeName(file).toStdString();
+  const std::filesystem::path path = pathOf(file);
   m_entries.show(nullptr);
   work(tr("Opening…"),
        [this, path, secret](library::PseudonymMap& map) -> BackgroundWork::Reply
@@ -388,7 +387,7 @@ void PseudonymsDialog::copy()
               "own: a copy to keep, or for another computer of this house."),
            true, &file, secret))
     return;
-  const std::filesystem::path path = QFile::encodeName(file).toStdString();
+  const std::filesystem::path path = pathOf(file);
   work(tr("Writing…"),
        [this, path, secret, file](library::PseudonymMap& map) -> BackgroundWork::Reply
        {

@@ -3,7 +3,6 @@
 #include <QDialog>
 #include <QDialogButtonBox>
 #include <QDir>
-#include <QFile>
 #include <QFileDialog>
 #include <QFontDatabase>
 #include <QLabel>
@@ -13,6 +12,7 @@
 
 #include "Application.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/FolderIdentity.h"
@@ -48,28 +48,27 @@ void showReport(QWidget* parent, const QString& title, const QString& head, cons
   save->setObjectName("saveReport");
   save->setAutoDefault(false);
   QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
-  QObject::connect(
-      save, &QPushButton::clicked, dialog,
-      [dialog, whole, outcome, title, file, input]
-      {
-        const QString path = QFileDialog::getSaveFileName(
-            dialog, title, QDir::home().filePath(file), QObject::tr("Text (*.txt)"));
-        if (path.isEmpty())
-          return;
-        try
-        {
-          const std::filesystem::path from = QFile::encodeName(input).toStdString();
-          if (!input.isEmpty())
-            presenters::refuseWithin(QFile::encodeName(path).toStdString(), from, "report");
-          library::refuseOverwriting(QFile::encodeName(path).toStdString());
-          core::writeFile(QFile::encodeName(path).toStdString(), bytes(whole->toPlainText()));
-          outcome->setText(QObject::tr("Saved as %1").arg(path));
-        }
-        catch (const std::exception& error)
-        {
-          outcome->setText(toString(error));
-        }
-      });
+  QObject::connect(save, &QPushButton::clicked, dialog,
+                   [dialog, whole, outcome, title, file, input]
+                   {
+                     const QString path = QFileDialog::getSaveFileName(
+                         dialog, title, QDir::home().filePath(file), QObject::tr("Text (*.txt)"));
+                     if (path.isEmpty())
+                       return;
+                     try
+                     {
+                       const std::filesystem::path from = pathOf(input);
+                       if (!input.isEmpty())
+                         presenters::refuseWithin(pathOf(path), from, "report");
+                       library::refuseOverwriting(pathOf(path));
+                       core::writeFile(pathOf(path), bytes(whole->toPlainText()));
+                       outcome->setText(QObject::tr("Saved as %1").arg(path));
+                     }
+                     catch (const std::exception& error)
+                     {
+                       outcome->setText(toString(error));
+                     }
+                   });
   if (text.isEmpty())
   {
     whole->hide();

@@ -21,6 +21,7 @@
 #include "Language.h"
 #include "Theme.h"
 #include "WindowSettings.h"
+#include "WindowTexts.h"
 #include "petrous/Library/DefaultFolder.h"
 #include "petrous/Library/Library.h"
 
@@ -166,7 +167,7 @@ void SettingsDialog::changeLibrary()
       this, tr("Folder of the library"), QFile::decodeName(m_library.parent_path().c_str()));
   if (chosen.isEmpty())
     return;
-  const std::filesystem::path folder = QFile::encodeName(chosen).toStdString();
+  const std::filesystem::path folder = pathOf(chosen);
   try
   {
     std::error_code error;

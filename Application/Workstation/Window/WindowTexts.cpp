@@ -5,6 +5,7 @@
 
 #include <QCache>
 #include <QDate>
+#include <QFile>
 #include <QObject>
 #include <QRegularExpression>
 #include <QStringList>
@@ -212,6 +213,11 @@ QString dateText(const std::string& iso)
 {
   const QDate date = QDate::fromString(words(iso), Qt::ISODate);
   return date.isValid() ? date.toString(dateFormat()) : words(iso);
+}
+
+std::filesystem::path pathOf(const QString& file)
+{
+  return QFile::encodeName(file).toStdString();
 }
 
 QString capitalized(const QString& text)

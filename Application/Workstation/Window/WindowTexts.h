@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include <QString>
@@ -42,6 +43,9 @@ QString dateText(const std::string& iso);
 
 /// Name patterns of the files that hold such contents (imaging::kMesh, ...), for a file dialog.
 QString patternsOf(unsigned contents);
+
+/// A file or folder as Qt names it, for the file system.
+std::filesystem::path pathOf(const QString& file);
 
 /// With a capital letter at its beginning.
 QString capitalized(const QString& text);

@@ -1,9 +1,12 @@
 #include "petrous/Registration/Landmarks.h"
 
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "TestBodies.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Core/RigidSpread.h"
 
 namespace petrous::registration
 {
@@ -35,6 +38,47 @@ TEST(Landmarks, NeverMirror)
   for (LandmarkPair& pair : pairs)
     pair.mr[0] = -pair.mr[0];
   EXPECT_NEAR(fitLandmarks(pairs).mrFromCt.rotation().toRotationMatrix().determinant(), 1.0, 1e-9);
+}
+
+// Fitzpatrick, West and Maurer (1998): with an error of s along each axis of N landmarks, a target
+// lies off by TRE^2 = 3 s^2 / N (1 + 1/3 sum over the principal axes of d^2 / f^2), root mean
+// square; d is the target's distance from an axis, f the landmarks' root mean square one.
+TEST(Landmarks, SpreadAsFitzpatricksFormulaSays)
+{
+  constexpr double kError = 0.3; // mm
+  const Vector3d center(10.0, -20.0, 5.0);
+  const Vector3d reach(40.0, 25.0, 15.0);
+  const core::RigidTransform truth = motion(center, 12.0, 40.0);
+  std::vector<Vector3d> points;
+  for (Eigen::Index a = 0; a < 3; ++a)
+    for (const double sign : {-1.0, 1.0})
+      points.push_back(center + sign * reach[a] * Vector3d::Unit(a));
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0.0, kError);
+  std::vector<core::RigidTransform> repeats;
+  for (int n = 0; n < 20'000; ++n)
+  {
+    std::vector<LandmarkPair> pairs;
+    for (const Vector3d& p : points)
+      pairs.push_back({p, truth * p + Vector3d(normal(random), normal(random), normal(random))});
+    repeats.push_back(fitLandmarks(pairs).mrFromCt);
+  }
+  const core::RigidSpread spread = core::spreadOf(truth, repeats, {0.0, 0.0, 0.0});
+  const Vector3d squares = 2.0 * reach.cwiseAbs2() / 6.0; // mean along each axis
+  for (const Vector3d& target :
+       {center, Vector3d(24.0, 22.0, -13.0), Vector3d(-90.0, -20.0, 5.0), Vector3d(10, 40, 90)})
+  {
+    double sum = 0.0;
+    for (Eigen::Index a = 0; a < 3; ++a)
+    {
+      Vector3d off = target - center;
+      off[a] = 0.0;
+      sum += off.squaredNorm() / (squares.sum() - squares[a]);
+    }
+    const double square = 3.0 * kError * kError / 6.0 * (1.0 + sum / 3.0);
+    EXPECT_NEAR(core::displacementMoments(spread, target).trace(), square, 0.05 * square)
+        << target.transpose();
+  }
 }
 
 // No small motion about the fit reduces the sum of squares.

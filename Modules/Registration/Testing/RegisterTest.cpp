@@ -45,6 +45,14 @@ TEST(Register, StatesAnErrorThatCoversTheTruth)
   EXPECT_LE(result.error.p95, result.error.max);
   EXPECT_LT(result.error.p95, 1.0);
   EXPECT_EQ(result.error.point, kEar);
+  ASSERT_TRUE(result.error.spread);
+  const auto p95At = [&result](const Vector3d& point)
+  {
+    return core::lengthQuantile(core::displacementMoments(*result.error.spread, point),
+                                core::kNormal95);
+  };
+  EXPECT_NEAR(p95At(kEar), result.error.p95, 1e-9);
+  EXPECT_GT(p95At(kEar + Vector3d(0, 0, -300)), 1.5 * result.error.p95);
 }
 
 TEST(Register, ErrorGrowsAwayFromWhatIsSeen)
@@ -82,6 +90,7 @@ TEST(Register, ReachesAnEarThatLiesElsewhereThanTheHead)
     EXPECT_LE(error, result.error.p95);
     EXPECT_LT(result.error.p95, error + 1.5);
     EXPECT_NE(result.text.find("beside the rest"), std::string::npos) << result.text;
+    EXPECT_FALSE(result.error.spread) << "it does not describe the ear";
   }
 }
 
@@ -198,6 +207,34 @@ TEST(ErrorModel, CountsFromWhereThePointsSurroundingsLie)
   EXPECT_DOUBLE_EQ(error.p95, 3.4);
   EXPECT_DOUBLE_EQ(error.max, 3.6);
   EXPECT_GT(withDisplaced(rest, 3.0, 0.5).p95, 4.0);
+}
+
+// The error at a point is that at any other: both follow from the same repeats.
+TEST(ErrorModel, HoldsAtOtherPointsBySpread)
+{
+  std::mt19937 random(17);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vector3d(normal(random), normal(random), normal(random)); };
+  const core::RigidTransform fit = motion({3, -2, 8}, 20.0, 30.0);
+  std::vector<core::RigidTransform> repeats;
+  for (int n = 0; n < 24; ++n)
+  {
+    const Vector3d axis = 0.004 * vector();
+    const Eigen::Quaterniond by(Eigen::AngleAxisd(axis.norm(), axis.normalized()));
+    repeats.push_back(fit * core::RigidTransform(by, kEar - by * kEar + 0.1 * vector()));
+  }
+  const LocalError here = localError(fit, repeats, kEar, 0.8, 100.0);
+  ASSERT_TRUE(here.spread);
+  for (const Vector3d& point : {kEar, Vector3d(-30, 22, -13), Vector3d(24, -60, 40)})
+  {
+    const LocalError there = localError(fit, repeats, point, 0.8, 100.0);
+    const Eigen::Matrix3d moments = core::displacementMoments(*here.spread, point);
+    EXPECT_NEAR(core::lengthQuantile(moments, core::kNormal95), there.p95, 0.01 * there.p95);
+    EXPECT_NEAR(core::lengthQuantile(moments, core::kNormalMedian), there.median,
+                0.01 * there.median);
+  }
+  EXPECT_FALSE(localError(fit, repeats, kEar, 0.8, 1e-6).spread) << "all ended elsewhere";
+  EXPECT_FALSE(withDisplaced(here, 3.0, 0.5).spread);
 }
 
 TEST(ErrorModel, CountsAFitBesideItsRepeatsAsWrong)

@@ -18,6 +18,14 @@ using Eigen::Vector3d;
 namespace
 {
 
+core::RigidSpread someSpread()
+{
+  core::RigidSpread::Moments root = core::RigidSpread::Moments::Identity() / 3.0;
+  root(4, 1) = -0.1;
+  root(5, 0) = 0.2;
+  return {{1.0 / 7.0, 2.0, -3.0}, root * root.transpose()};
+}
+
 scene::Case fullCase()
 {
   scene::Case value;
@@ -45,6 +53,7 @@ scene::Case fullCase()
   how.text = "alle Starts enden am selben Ort";
   how.metric = 1.0 / 3.0;
   how.error = scene::RegistrationError{{1.0 / 7.0, 2.0, -3.0}, "incus", 0.1, 0.2, 0.3};
+  how.error->spread = someSpread();
   how.through = "flair";
   how.signOff = scene::SignOff{"A. Chirurgin ü", "2026-01-02T03:04:05Z", mr.mrFromCt};
   mr.registration = how;
@@ -125,6 +134,11 @@ TEST(Manifest, KeepsHowAnMrWasRegistered)
   EXPECT_EQ(mr.registration->error->point, Vector3d(1.0 / 7.0, 2.0, -3.0));
   EXPECT_EQ(mr.registration->error->place, "incus");
   EXPECT_EQ(mr.registration->error->p95, 0.2);
+  ASSERT_TRUE(mr.registration->error->spread);
+  EXPECT_TRUE(*mr.registration->error->spread == someSpread());
+  auto older = nlohmann::json::parse(scene::toManifest(fullCase()));
+  older["mr"][0]["registration"]["error"].erase("spread");
+  EXPECT_FALSE(scene::fromManifest(older.dump(), "m.json").mr[0].registration->error->spread);
   EXPECT_EQ(mr.registration->through, "flair");
   ASSERT_TRUE(scene::validSignOff(mr));
   EXPECT_EQ(scene::validSignOff(mr)->who, "A. Chirurgin ü");
@@ -176,6 +190,10 @@ TEST(Manifest, RefusesARecordOfRegistrationThatIsNone)
   refused("/verdict", "failed");
   refused("/error/p95_mm", -0.05);
   refused("/error/median_mm", -0.1);
+  refused("/error/spread/moments_mm_rad/0", -0.1);
+  refused("/error/spread/moments_mm_rad/1", 1e3); // more than both of its axes have
+  refused("/error/spread/moments_mm_rad", {1.0, 2.0});
+  refused("/error/spread", nlohmann::json::object());
   refused("/signed_off/mr_from_ct", nullptr);
 }
 
@@ -487,6 +505,9 @@ TEST(Manifest, NamesANumberThatIsNotFiniteAndWritesNothing)
     value = fullCase();
     value.mr[0].registration->error->p95 = number;
     refused(value, "mr.0.registration.error.p95_mm");
+    value = fullCase();
+    value.mr[0].registration->error->spread->moments(0, 1) = number;
+    refused(value, "mr.0.registration.error.spread.moments_mm_rad.1");
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include <Eigen/Eigenvalues>
 #include <nlohmann/json.hpp>
 
 #include "DissectionJson.h"
@@ -88,13 +89,45 @@ core::RigidTransform poseIn(const json& j)
 namespace
 {
 
+// The upper triangle, row by row.
+json spreadOut(const core::RigidSpread& spread)
+{
+  json moments = json::array();
+  for (Eigen::Index row = 0; row < 6; ++row)
+    for (Eigen::Index column = row; column < 6; ++column)
+      moments.push_back(spread.moments(row, column));
+  return {{"about_mm", vectorOut(spread.about)}, {"moments_mm_rad", std::move(moments)}};
+}
+
+core::RigidSpread spreadIn(const json& j)
+{
+  const auto moments = j.at("moments_mm_rad").get<std::array<double, 21>>();
+  core::RigidSpread spread;
+  spread.about = vectorIn(j.at("about_mm"));
+  std::size_t n = 0;
+  for (Eigen::Index row = 0; row < 6; ++row)
+    for (Eigen::Index column = row; column < 6; ++column)
+      spread.moments(row, column) = spread.moments(column, row) = moments[n++];
+  const auto& m = spread.moments;
+  const bool isValid =
+      (m.diagonal().array() >= 0.0).all() &&
+      Eigen::SelfAdjointEigenSolver<core::RigidSpread::Moments>(m).eigenvalues().minCoeff() >=
+          -1e-9 * m.trace();
+  if (!isValid)
+    throw core::InvalidParameter("registration: moments that no error has");
+  return spread;
+}
+
 json errorOut(const RegistrationError& error)
 {
-  return {{"point_mm", vectorOut(error.point)},
-          {"place", error.place},
-          {"median_mm", error.median},
-          {"p95_mm", error.p95},
-          {"max_mm", error.max}};
+  json j{{"point_mm", vectorOut(error.point)},
+         {"place", error.place},
+         {"median_mm", error.median},
+         {"p95_mm", error.p95},
+         {"max_mm", error.max}};
+  if (error.spread)
+    j["spread"] = spreadOut(*error.spread);
+  return j;
 }
 
 RegistrationError errorIn(const json& j)
@@ -107,6 +140,8 @@ RegistrationError errorIn(const json& j)
   error.max = j.at("max_mm").get<double>();
   if (!(error.median >= 0.0 && error.p95 >= 0.0 && error.max >= 0.0))
     throw core::InvalidParameter("registration: an error below 0 mm");
+  if (j.contains("spread"))
+    error.spread = spreadIn(j.at("spread"));
   return error;
 }
 

@@ -13,7 +13,7 @@ bool same(const std::optional<RegistrationError>& a, const std::optional<Registr
   if (!a || !b)
     return !a && !b;
   return a->point == b->point && a->place == b->place && a->median == b->median &&
-         a->p95 == b->p95 && a->max == b->max;
+         a->p95 == b->p95 && a->max == b->max && a->spread == b->spread;
 }
 
 // Ignores the sign-off.

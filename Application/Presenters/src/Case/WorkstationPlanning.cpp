@@ -27,7 +27,10 @@ std::optional<std::vector<NearbyStructure>> WorkstationModel::nearby(const Eigen
 {
   if (!measureNearby())
     return std::nullopt;
-  return m_nearby->around(*m_case, burr, radius, kNear, strokeSoFar());
+  auto near = m_nearby->around(*m_case, burr, radius, kNear, strokeSoFar());
+  if (near.empty() && m_nearby->measuring())
+    return std::nullopt;
+  return near;
 }
 
 std::optional<std::string> WorkstationModel::warnings(const Eigen::Vector3d& burr, double radius)
@@ -36,7 +39,10 @@ std::optional<std::string> WorkstationModel::warnings(const Eigen::Vector3d& bur
     return std::string();
   if (!measureNearby())
     return std::nullopt;
-  return warningsOf(m_nearby->around(*m_case, burr, radius, 0.0, strokeSoFar()));
+  std::string text = warningsOf(m_nearby->around(*m_case, burr, radius, 0.0, strokeSoFar()));
+  if (text.empty() && m_nearby->measuring()) // that there is nothing to warn of is not known
+    return std::nullopt;
+  return text;
 }
 
 const dissection::RemovedVolume& WorkstationModel::strokeSoFar()

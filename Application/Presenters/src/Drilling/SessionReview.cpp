@@ -45,6 +45,30 @@ std::vector<std::size_t> statesOf(const History& history, std::uint64_t applied)
   return states;
 }
 
+// Brings the case to the state in which the recording began, if it has that; else to the first that
+// has as many strokes. The masks tell, without a scene of each state.
+void goToBegin(scene::Case& value, const session::RecordedScene& then,
+               const core::Progress& progress)
+{
+  std::vector<std::size_t> states = statesOf(value.dissection.history(), then.applied);
+  if (states.empty())
+    states.push_back(value.dissection.history().position());
+  std::optional<dissection::Dissection> first;
+  for (const std::size_t state : states)
+  {
+    progress.check("comparing the case with the recording");
+    dissection::Dissection there = scene::dissectionAt(value, state);
+    if (session::fingerprintOf(there.mask()) == then.mask)
+    {
+      value.dissection = std::move(there);
+      return;
+    }
+    if (!first)
+      first = std::move(there);
+  }
+  value.dissection = std::move(*first);
+}
+
 // A touchable copy of the case in the state in which the recording began, if there is one.
 class State
 {
@@ -53,30 +77,12 @@ public:
         const core::Progress& progress)
   {
     value.iso = setup.scene.iso;
-    const dissection::Dissection whole = value.dissection;
-    std::vector<std::size_t> states = statesOf(whole.history(), setup.scene.applied);
-    if (states.empty())
-      states.push_back(whole.history().position());
-    for (std::size_t n = 0; n < states.size(); ++n)
-    {
-      progress.check("comparing the case with the recording");
-      value.dissection = whole;
-      value.dissection = scene::dissectionAt(value, states[n]);
-      m_scene.emplace(value, progress, setup.scene.firstState, true);
-      const session::RecordedScene now = m_scene->fingerprint();
-      if (now.ct != setup.scene.ct)
-        throw core::InvalidParameter(name + ": " + misfitOf(value, now, setup.scene));
-      const std::string misfit = misfitOf(value, now, setup.scene);
-      if (n == 0)
-        m_misfit = misfit;
-      if (misfit.empty())
-      {
-        m_misfit.clear();
-        return;
-      }
-      if (now.tissue != setup.scene.tissue) // no state has that
-        return;
-    }
+    goToBegin(value, setup.scene, progress.part(0.0, 0.3));
+    m_scene.emplace(value, progress.part(0.3, 1.0), setup.scene.firstState, true);
+    const session::RecordedScene now = m_scene->fingerprint();
+    m_misfit = misfitOf(value, now, setup.scene);
+    if (now.ct != setup.scene.ct)
+      throw core::InvalidParameter(name + ": " + m_misfit);
   }
 
   session::TouchScene& scene() { return *m_scene; }
@@ -86,6 +92,30 @@ private:
   std::optional<session::TouchScene> m_scene;
   std::string m_misfit;
 };
+
+// What a recorded redo finds to redo: at the recording's begin the case has strokes ahead, which
+// are on its tree, but not on the line to that state. Of those, only strokes before `before` were
+// there. Says why not, if several may be meant.
+std::string prepareRedo(dissection::Dissection& work, std::size_t before)
+{
+  const History& history = work.history();
+  if (work.strokeOpen() || history.next() != History::kStart)
+    return {};
+  std::vector<std::size_t> parents;
+  std::vector<std::size_t> ahead;
+  for (std::size_t n = 0; n < history.size(); ++n)
+  {
+    parents.push_back(history.parent(n));
+    if (n < before && parents[n] == history.position())
+      ahead.push_back(n);
+  }
+  if (ahead.size() > 1)
+    return "begins with a redo, and several strokes of this case may be what it redoes";
+  if (!ahead.empty())
+    work.follow(
+        {std::move(parents), {{History::kMain, ahead.front(), history.position(), false}}, 0});
+  return {};
+}
 
 // Of the strokes from `before` on that are applied.
 void addRemoved(const dissection::Dissection& work, std::size_t before, SessionReview& review,
@@ -228,11 +258,16 @@ SessionReview reviewRecording(const std::filesystem::path& file, scene::Case val
       if (course.add(record))
         distances.add(record.proxy.pose().position);
     for (const session::MaskEdit& edit : block.edits)
-      if (loop && !loop->apply(edit))
-      {
+    {
+      if (!loop)
+        break;
+      if (edit.kind == session::MaskEdit::Kind::Redo)
+        review.whyUnmeasured = prepareRedo(value.dissection, before);
+      if (review.whyUnmeasured.empty() && !loop->apply(edit))
         review.whyUnmeasured = "cuts another dissection here than where it was made";
+      if (!review.whyUnmeasured.empty())
         loop.reset();
-      }
+    }
   }
   review.warning = reader.warning();
   review.metrics = course.metrics();

@@ -92,17 +92,22 @@ struct RegistrationShare
   std::string text;
 };
 RegistrationShare registrationOf(const scene::Case& value, const std::string& image,
-                                 const Vector3d& at)
+                                 const core::PatientBox& box)
 {
   if (image.empty())
     return {0.0, {}};
-  const scene::ImagePart* mr = scene::findMr(value, image);
-  if (!mr || !mr->registration || !mr->registration->error)
+  const auto error = registrationErrorIn(value, image, box);
+  if (!error)
     return {std::nullopt, "its registration's error unknown"};
-  const scene::RegistrationError& error = *mr->registration->error;
-  return {error.p95, "registered to " + core::fixedText(error.p95, 2) + " mm (p95) at " +
-                         error.place + ", " + core::fixedText((error.point - at).norm(), 0) +
-                         " mm from here"};
+  return {error->p95, toString(*error)};
+}
+
+core::PatientBox boxOf(const std::vector<Vector3d>& points, const std::vector<std::size_t>& which)
+{
+  core::PatientBox box;
+  for (const std::size_t n : which)
+    box.extend(points[n]);
+  return box;
 }
 
 // Where the points were set: "points 1, 3 set on the CT, voxels ...; point 2 set on the MR ...".
@@ -117,7 +122,7 @@ std::string imagesOf(const scene::Case& value, const Measurement& one)
     for (std::size_t n = 0; n < points.size(); ++n)
       which += (n > 0 ? ", " : "") + std::to_string(points[n] + 1);
     phrases.push_back(which + " " + voxelsOf(value, image));
-    phrases.push_back(registrationOf(value, image, one.points[points.front()]).text);
+    phrases.push_back(registrationOf(value, image, boxOf(one.points, points)).text);
   }
   return joined(phrases);
 }
@@ -151,7 +156,8 @@ const char* nameOfValue(Kind kind)
 std::vector<Quantity> coordinatesOf(const scene::Case& value, const Measurement& mark)
 {
   const auto spread = spreadAt(value, mark.image);
-  const RegistrationShare share = registrationOf(value, mark.image, mark.points.front());
+  const RegistrationShare share =
+      registrationOf(value, mark.image, core::PatientBox(mark.points.front()));
   std::vector<Quantity> quantities;
   for (Eigen::Index a = 0; a < 3; ++a)
   {
@@ -312,8 +318,7 @@ std::optional<double> propagated(const scene::Case& value, const Measurement& me
     // Within one image a registration moves all alike.
     if (groups.size() == 1)
       continue;
-    const RegistrationShare share =
-        registrationOf(value, image, measurement.points[points.front()]);
+    const RegistrationShare share = registrationOf(value, image, boxOf(measurement.points, points));
     if (!share.millimetres)
       return std::nullopt;
     registrations += std::pow(*share.millimetres * together.norm(), 2);
@@ -572,7 +577,7 @@ Between distanceBetween(const scene::Case& value, const std::string& a, const st
     }
     if (one.image == other.image)
       continue;
-    const RegistrationShare share = registrationOf(value, side->image, at);
+    const RegistrationShare share = registrationOf(value, side->image, core::PatientBox(at));
     isKnown = isKnown && share.millimetres;
     square += share.millimetres.value_or(0.0) * share.millimetres.value_or(0.0);
   }

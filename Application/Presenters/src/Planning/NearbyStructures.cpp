@@ -57,6 +57,11 @@ std::string toString(const NearbyStructure& structure)
             " mm ± " + uncertainty;
   if (structure.uncertainty.incomplete())
     text += "; registration's error unknown";
+  else if (const auto& error = structure.uncertainty.registration)
+    text += error->place.empty()
+                ? "; registration " + core::fixedText(error->p95, 1) + " mm (p95)"
+                : "; registration " + core::fixedText(error->p95, 1) + " mm (p95), but " +
+                      core::fixedText(error->away, 0) + " mm from here";
   return text;
 }
 
@@ -127,6 +132,34 @@ StructureSurfaces& NearbyStructures::surfaces() const
   return *m_surfaces.get();
 }
 
+// Takes over what was measured, and begins with what is missing.
+void NearbyStructures::measureLater(const scene::Case& value)
+{
+  StructureSurfaces& surfaces = this->surfaces();
+  if (m_later.valid())
+  {
+    if (m_later.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+      return;
+    for (const auto& [structure, surface] : m_later.get())
+      surfaces.take(structure, surface);
+    m_later = {};
+  }
+  std::vector<std::pair<std::size_t, StructureSurfaces::Measurer>> missing;
+  for (std::size_t n = 0; n < surfaces.count(); ++n)
+    if (measured(value, surfaces.name(n)) && !surfaces.isMeasured(n))
+      missing.emplace_back(n, surfaces.measurer(n));
+  if (missing.empty())
+    return;
+  m_later = std::async(std::launch::async,
+                       [missing = std::move(missing), progress = core::Progress(nullptr, m_stop)]
+                       {
+                         Measured result;
+                         for (const auto& [structure, measurer] : missing)
+                           result.emplace_back(structure, measurer(progress));
+                         return result;
+                       });
+}
+
 std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
                                                       const Eigen::Vector3d& center, double radius,
                                                       double reach,
@@ -135,6 +168,7 @@ std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
   std::vector<NearbyStructure> near;
   if (!ready())
     return near;
+  measureLater(value);
   StructureSurfaces& surfaces = this->surfaces();
   const auto injured = injuredVolumes(value, open);
   for (std::size_t n = 0; n < surfaces.count(); ++n)
@@ -142,7 +176,7 @@ std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
     NearbyStructure structure;
     structure.name = surfaces.name(n);
     const auto* look = lookOf(value, structure.name);
-    if (!look || !measured(value, structure.name))
+    if (!look || !measured(value, structure.name) || !surfaces.isMeasured(n))
       continue;
     structure.uncertainty = surfaces.uncertainty(n);
     const double unsure = structure.uncertainty.millimetres();

@@ -21,17 +21,23 @@ struct StructureSurfaces::Structure
   const volume::SurfaceDistance& surface(const core::Progress& progress = {})
   {
     if (!measured)
+      measured = measurer()(progress);
+    return *measured;
+  }
+
+  Measurer measurer() const
+  {
+    return [make = occupancy.make](const core::Progress& progress)
     {
       progress.check("measuring structures");
-      measured = std::make_unique<const volume::SurfaceDistance>(occupancy.make(), progress);
-    }
-    return *measured;
+      return std::make_shared<const volume::SurfaceDistance>(make(), progress);
+    };
   }
 
   scene::StructureOccupancy occupancy;
   SurfaceUncertainty uncertainty;
   core::PatientBox box;
-  std::unique_ptr<const volume::SurfaceDistance> measured;
+  std::shared_ptr<const volume::SurfaceDistance> measured;
 };
 
 StructureSurfaces::StructureSurfaces(const scene::Case& value)
@@ -63,6 +69,22 @@ const SurfaceUncertainty& StructureSurfaces::uncertainty(std::size_t structure) 
 void StructureSurfaces::measure(std::size_t structure, const core::Progress& progress)
 {
   m_structures[structure]->surface(progress);
+}
+
+bool StructureSurfaces::isMeasured(std::size_t structure) const noexcept
+{
+  return m_structures[structure]->measured != nullptr;
+}
+
+StructureSurfaces::Measurer StructureSurfaces::measurer(std::size_t structure) const
+{
+  return m_structures[structure]->measurer();
+}
+
+void StructureSurfaces::take(std::size_t structure,
+                             std::shared_ptr<const volume::SurfaceDistance> measured)
+{
+  m_structures[structure]->measured = std::move(measured);
 }
 
 double StructureSurfaces::distance(std::size_t structure, const Eigen::Vector3d& patient,

@@ -7,9 +7,31 @@
 namespace petrous::presenters
 {
 
+using core::fixedText;
+
+std::optional<RegistrationErrorHere>
+registrationErrorIn(const scene::Case& value, const std::string& mr, const core::PatientBox& box)
+{
+  const scene::ImagePart* image = scene::findMr(value, mr);
+  if (!image || !image->registration || !image->registration->error)
+    return std::nullopt;
+  const scene::RegistrationError& error = *image->registration->error;
+  if (error.spread)
+    return RegistrationErrorHere{core::largestP95(*error.spread, box), {}, 0.0};
+  return RegistrationErrorHere{error.p95, error.place, (box.center() - error.point).norm()};
+}
+
+std::string toString(const RegistrationErrorHere& error)
+{
+  if (error.place.empty())
+    return "registered to " + fixedText(error.p95, 2) + " mm (p95) here";
+  return "registered to " + fixedText(error.p95, 2) + " mm (p95) at " + error.place + ", " +
+         fixedText(error.away, 0) + " mm from here, where it may be more";
+}
+
 double SurfaceUncertainty::millimetres() const
 {
-  return std::hypot(0.5 * sliceSpacing(), registration.value_or(0.0));
+  return std::hypot(0.5 * sliceSpacing(), registration ? registration->p95 : 0.0);
 }
 
 SurfaceUncertainty uncertaintyOf(const scene::Case& value,
@@ -18,31 +40,24 @@ SurfaceUncertainty uncertaintyOf(const scene::Case& value,
   SurfaceUncertainty result;
   result.voxel = structure.grid.spacing();
   result.drawnOn = structure.mr;
-  const scene::ImagePart* mr = scene::findMr(value, structure.mr);
-  if (mr && mr->registration && mr->registration->error)
-  {
-    const scene::RegistrationError& error = *mr->registration->error;
-    result.registration = error.p95;
-    result.place = error.place;
-    result.away = (structure.around.center() - error.point).norm();
-  }
+  if (!structure.mr.empty())
+    result.registration =
+        registrationErrorIn(value, structure.mr, structure.around.patientBounds());
   return result;
 }
 
 std::string toString(const SurfaceUncertainty& uncertainty)
 {
-  using core::fixedText;
   std::string words = "voxels " + fixedText(uncertainty.voxel[0], 2) + " x " +
                       fixedText(uncertainty.voxel[1], 2) + " x " +
                       fixedText(uncertainty.voxel[2], 2) + " mm, slices " +
                       fixedText(uncertainty.sliceSpacing(), 2) + " mm apart";
   if (uncertainty.drawnOn.empty())
     return words;
-  words += "; drawn on the MR '" + uncertainty.drawnOn + "', ";
+  words += "; drawn on the MR '" + uncertainty.drawnOn + "'";
   if (!uncertainty.registration)
-    return words + "registered, its error unknown";
-  return words + "registered to " + fixedText(*uncertainty.registration, 2) + " mm (p95) at " +
-         uncertainty.place + ", " + fixedText(uncertainty.away, 0) + " mm from here";
+    return words + ", registered, its error unknown";
+  return words + "; " + toString(*uncertainty.registration);
 }
 
 } // namespace petrous::presenters

@@ -171,10 +171,33 @@ std::optional<scene::RegistrationError> errorOf(const registration::LocalError& 
 {
   if (!std::isfinite(error.median + error.p95 + error.max))
     return std::nullopt;
-  return scene::RegistrationError{at.point, at.words, error.median, error.p95, error.max};
+  return scene::RegistrationError{at.point,  at.words,  error.median,
+                                  error.p95, error.max, error.spread};
 }
 
-// Combines both registrations; their errors are independent.
+// Adds the error of the registration that `error` goes on from; both are independent, and in CT
+// space.
+void add(scene::RegistrationError& error, const scene::RegistrationError& first,
+         const core::RigidTransform& fixedFromCt)
+{
+  if (!error.spread || !first.spread)
+  {
+    error.median = std::hypot(error.median, first.median);
+    error.p95 = std::hypot(error.p95, first.p95);
+    error.max += first.max;
+    error.spread.reset();
+    return;
+  }
+  error.spread =
+      core::takenAbout(core::chained(*error.spread, *first.spread, fixedFromCt), error.point);
+  const Eigen::Matrix3d both = error.spread->moments.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d ofFirst = core::displacementMoments(*first.spread, error.point);
+  error.median = core::lengthQuantile(both, core::kNormalMedian);
+  error.p95 = core::lengthQuantile(both, core::kNormal95);
+  error.max += std::max(first.max, core::lengthQuantile(ofFirst, core::kNormal999));
+}
+
+// Combines both registrations.
 void chain(const Task& task, scene::Registration& how)
 {
   const std::string& onto = task.fixed->name;
@@ -190,10 +213,7 @@ void chain(const Task& task, scene::Registration& how)
   }
   if (how.error)
   {
-    scene::RegistrationError& error = *how.error;
-    error.median = std::hypot(error.median, first->error->median);
-    error.p95 = std::hypot(error.p95, first->error->p95);
-    error.max += first->error->max;
+    add(*how.error, *first->error, task.fixedFromCt);
     add(how.text, "The error is that of both ways: to '" + onto + "', and from there to the CT (" +
                       millimetres(first->error->p95) + " (p95) at " + first->error->place + ").");
   }

@@ -29,7 +29,9 @@ void add(core::Fingerprint& print, const volume::Volume<Voxel>& volume)
   print.add(volume.data(), volume.size() * sizeof(Voxel));
 }
 
-std::uint64_t printOf(const volume::CutMask& mask)
+} // namespace
+
+std::uint64_t fingerprintOf(const volume::CutMask& mask)
 {
   core::Fingerprint print;
   add(print, mask.geometry());
@@ -45,8 +47,6 @@ std::uint64_t printOf(const volume::CutMask& mask)
   }
   return print.value();
 }
-
-} // namespace
 
 RecordedScene TouchScene::fingerprint() const
 {
@@ -70,7 +70,7 @@ RecordedScene TouchScene::fingerprint() const
   }
   result.tissue = tissue.value();
 
-  result.mask = printOf(m_case.dissection.mask());
+  result.mask = fingerprintOf(m_case.dissection.mask());
   result.applied = m_case.applied();
   result.firstState = m_mask->number();
   return result;

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "petrous/Dissection/RemovedVolume.h"
@@ -33,8 +34,9 @@ struct NearbyStructure
   double injured = 0.0; ///< volume removed from it, mm^3, including the open stroke as far as known
 };
 
-/// "facial nerve 1.8 mm ± 0.3", "facial nerve touched", with "; registration's error unknown" if
-/// the uncertainty is incomplete.
+/// "facial nerve 1.8 mm ± 0.3", "facial nerve touched", of a structure drawn on an MR with
+/// "; registration 0.4 mm (p95)", or "; registration's error unknown" if the uncertainty is
+/// incomplete.
 std::string toString(const NearbyStructure& structure);
 
 /// What the surgeon must see now: a line for each structure that is touched, injured or within its
@@ -54,7 +56,9 @@ std::map<std::string, double> injuredVolumes(const scene::Case& value,
 /// fast enough for every frame.
 ///
 /// The structures' distance fields are computed in a separate thread; until then there is no
-/// result. Not thread-safe; the case may change meanwhile, except its labels and meshes.
+/// result. One that is shown or gets a warning distance later is computed in such a thread, too,
+/// and left out until then. Not thread-safe; the case may change meanwhile, except its labels and
+/// meshes.
 class NearbyStructures
 {
 public:
@@ -76,12 +80,21 @@ public:
                                       double radius, double reach,
                                       const dissection::RemovedVolume& open = {});
 
+  /// Whether the last `around` left out structures that are still being measured.
+  bool measuring() const noexcept { return m_later.valid(); }
+
   /// The distance fields.
   StructureSurfaces& surfaces() const; ///< waits until they are computed
 
 private:
+  using Measured = std::vector<
+      std::pair<std::size_t, std::shared_ptr<const volume::SurfaceDistance>>>; // by structure
+
+  void measureLater(const scene::Case& value);
+
   std::shared_ptr<core::CancelToken> m_stop;
   std::shared_future<std::shared_ptr<StructureSurfaces>> m_surfaces;
+  std::shared_future<Measured> m_later; // not valid: nothing is missing
 };
 
 } // namespace petrous::presenters

@@ -80,16 +80,17 @@ struct SessionReview
   std::vector<RecordedTool> course;
   SessionMetrics metrics;
   std::vector<Structure> structures; ///< of the case, by name
-  std::optional<double> removed;     ///< mm^3, by all strokes that stayed
-  std::size_t strokes = 0;           ///< that stayed; only with `removed`
-  std::string whyUnmeasured;         ///< why the removed volumes are not known; empty: they are
-  std::string warning;               ///< what is missing of the recording, one sentence; or empty
+  std::optional<double> removed; ///< mm^3, by all strokes that stayed, without older ones redone
+  std::size_t strokes = 0;       ///< that stayed; only with `removed`
+  std::string whyUnmeasured;     ///< why the removed volumes are not known; empty: they are
+  std::string warning;           ///< what is missing of the recording, one sentence; or empty
 };
 
 /// Reads a recording that was made on that case, or on a copy of it: of another one with the same
 /// image. Volumes are measured by repeating the recorded cuts on the dissection as it was when the
-/// recording began, if the case has that state, at the threshold of that time. `value` is a copy,
-/// with its dissection loaded. Takes as long as the case takes to be prepared for a tool.
+/// recording began, if the case has that state, at the threshold of that time; what it redoes there
+/// is a stroke of the case, if only one can be meant. `value` is a copy, with its dissection
+/// loaded. Takes as long as the case takes to be prepared for a tool.
 ///
 /// Throws RecordingError; InvalidParameter if the recording was made on another image;
 /// CancelledError.

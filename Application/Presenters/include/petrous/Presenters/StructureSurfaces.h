@@ -13,6 +13,11 @@
 #include "petrous/Presenters/SurfaceUncertainty.h"
 #include "petrous/Scene/Case.h"
 
+namespace petrous::volume
+{
+class SurfaceDistance;
+}
+
 namespace petrous::presenters
 {
 
@@ -46,6 +51,14 @@ public:
 
   /// Computes its distance field now, if not yet done. Throws CancelledError.
   void measure(std::size_t structure, const core::Progress& progress = {});
+  bool isMeasured(std::size_t structure) const noexcept;
+
+  /// The same for another thread, apart from this, which may change or be gone meanwhile. `take`
+  /// receives the result.
+  using Measurer =
+      std::function<std::shared_ptr<const volume::SurfaceDistance>(const core::Progress&)>;
+  Measurer measurer(std::size_t structure) const;
+  void take(std::size_t structure, std::shared_ptr<const volume::SurfaceDistance> measured);
 
   /// Signed distance of a patient point from the structure's surface, mm, negative inside; clamped
   /// to ±`most`.

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "petrous/Core/RigidSpread.h"
 #include "petrous/Registration/Fit.h"
 
 namespace petrous::registration
@@ -25,6 +27,9 @@ struct LocalError
   double median = 0.0;
   double p95 = 0.0;
   double max = 0.0; ///< 99.9th percentile, or the largest deviation of the repeats if greater
+  /// Of mrFromCt, in CT space about `point`, for the error at other points; none where the
+  /// surroundings of the point are displaced, or no repeat counts.
+  std::optional<core::RigidSpread> spread;
 };
 
 struct Registration

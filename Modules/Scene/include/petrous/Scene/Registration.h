@@ -5,13 +5,14 @@
 
 #include <Eigen/Core>
 
+#include "petrous/Core/RigidSpread.h"
 #include "petrous/Core/RigidTransform.h"
 
 namespace petrous::scene
 {
 
 /// Target registration error at one point: distance between the true position of a CT point in the
-/// MR and where the registration maps it.
+/// MR and where the registration maps it. With a spread also that at any other point.
 struct RegistrationError
 {
   Eigen::Vector3d point{0.0, 0.0, 0.0}; ///< CT patient point, LPS mm
@@ -19,6 +20,8 @@ struct RegistrationError
   double median = 0.0;                  ///< mm
   double p95 = 0.0;                     ///< mm
   double max = 0.0;                     ///< mm
+  /// Of mrFromCt, in CT space; none: from an older program, or no rigid motion describes the error.
+  std::optional<core::RigidSpread> spread = {};
 };
 
 /// A surgeon's acceptance of a registration after inspection. Valid for one transform only.

@@ -71,6 +71,9 @@ FeltTissue feltTissue(const scene::Case& value, const volume::TissueField& whole
 std::shared_ptr<const haptics::PointShell> shellOf(const dissection::Burr& burr,
                                                    const core::GridGeometry& geometry);
 
+/// RecordedScene::mask of a mask.
+std::uint64_t fingerprintOf(const volume::CutMask& mask);
+
 /// A case prepared for touch: its tissue field as sampled by a servo, and the mask as seen by the
 /// servo. Made once for a case and its touchable structures; tools come and go.
 ///

@@ -40,9 +40,10 @@ const Texel& texelOf(const OccupancyGrid& grid, const Vector3d& voxel)
 bool same(const std::vector<Texel>& a, const std::vector<Texel>& b)
 {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const Texel& x, const Texel& y) {
+                    [](const Texel& x, const Texel& y)
+                    {
                       return x.toTissue == y.toTissue && x.toInside == y.toInside &&
-                             x.flags == y.flags;
+                             x.toSoft == y.toSoft && x.flags == y.flags;
                     });
 }
 
@@ -76,6 +77,9 @@ void expectNothingMissed(const OccupancyGrid& grid, const OccupancyGrid::Rules& 
     const double value = ct->sample(voxel);
     for (const volume::ValueRange& range : rules.opaque)
       announced(value >= range.min && value <= range.max, OccupancyGrid::Inside);
+    for (const volume::ValueRange& range : rules.softOpaque)
+      announced(value >= range.min && value <= range.max, OccupancyGrid::Soft);
+    announced(rules.soft && (f > 0.0 || (mask && mask->sample(voxel) <= 0.5)), OccupancyGrid::Soft);
     if (!labels)
       return;
     const Vector3d there = labels->occupancy->geometry().voxelFromPatient(patient);
@@ -165,6 +169,9 @@ TEST_P(OccupancyGridShapes, MissesNothingThatARayCanMeet)
       OccupancyGrid::Rules rules;
       rules.bone = bone;
       rules.opaque = {{-50.0, -20.0}, {1500.0, 1700.0}};
+      rules.soft = bone;
+      if (rules.soft)
+        rules.softOpaque = {{-200.0, -180.0}, {100.0, 110.0}};
       OccupancyGrid occupancy(*ct, edge);
       occupancy.rebuild(rules, &labels, mask.get());
       expectNothingMissed(occupancy, rules, ct, &labels, mask, random);
@@ -187,6 +194,8 @@ TEST_P(OccupancyGridShapes, FlagsNoBrickThatHoldsNothing)
   OccupancyGrid occupancy(*ct, edge);
   OccupancyGrid::Rules rules;
   rules.opaque = {{1500.0, 1700.0}};
+  rules.soft = true;
+  rules.softOpaque = {{-200.0, -100.0}};
   occupancy.rebuild(rules, &labels, &mask);
 
   int wrong = 0;
@@ -217,6 +226,9 @@ TEST_P(OccupancyGridShapes, FlagsNoBrickThatHoldsNothing)
               expected |= OccupancyGrid::Border | OccupancyGrid::Inside;
             if (low <= 1700.0 && high >= 1500.0)
               expected |= OccupancyGrid::Inside;
+            if ((expected & (OccupancyGrid::Tissue | OccupancyGrid::Mixed)) != 0 ||
+                (low <= -100.0 && high >= -200.0))
+              expected |= OccupancyGrid::Soft;
             wrong += texelAt(occupancy, i, j, k).flags != expected;
           });
   EXPECT_EQ(wrong, 0);
@@ -230,6 +242,8 @@ TEST_P(OccupancyGridShapes, IsAfterEveryCutAndUndoAsAfterARebuild)
   const auto ct = image(blobs<std::int16_t>(grid, random, 5));
   const volume::LabelField labels = sparseLabels(grid, random);
   OccupancyGrid::Rules rules;
+  rules.soft = true;
+  rules.softOpaque = {{-200.0, -100.0}};
   OccupancyGrid updated(*ct, edge);
   OccupancyGrid rebuilt(*ct, edge);
   volume::CutMask mask(grid);

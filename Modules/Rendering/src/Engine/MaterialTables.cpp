@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "OpticalModel.h"
 #include "SceneTextures.h"
 
 namespace petrous::rendering
@@ -72,6 +73,7 @@ void MaterialTables::upload(const std::vector<appearance::Material>& materials, 
     parameter[3] = tissue.shininess;
     parameter[4] = tissue.lumen ? 1.0F : 0.0F;
     parameter[5] = other ? 1.0F : 0.0F;
+    parameter[6] = static_cast<float>(optics::softEdge(tissue.transfer));
   }
   const int height = static_cast<int>(rows);
   look.create(texel::kColor, tableSize, height, looks.data(), GL_LINEAR);

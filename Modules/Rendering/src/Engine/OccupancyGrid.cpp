@@ -349,13 +349,19 @@ std::uint8_t OccupancyGrid::judge(std::size_t brick, const volume::CutMask* mask
   if (((m_rules.bone && max > m_rules.iso) || solidLabel) && left.max > kLastAir)
     flags |= Tissue;
   const bool solidBone = m_rules.bone && min > m_rules.iso && left.min > kLastAir;
-  const bool opaque =
-      std::any_of(m_rules.opaque.begin(), m_rules.opaque.end(),
-                  [&](const volume::ValueRange& r) { return min <= r.max && max >= r.min; });
+  const auto hasOpacity = [&](const std::vector<volume::ValueRange>& ranges)
+  {
+    return std::any_of(ranges.begin(), ranges.end(),
+                       [&](const volume::ValueRange& r) { return min <= r.max && max >= r.min; });
+  };
+  const bool opaque = hasOpacity(m_rules.opaque);
   if (!solidBone || solidLabel || opaque || !m_rules.interior || m_rules.interiorEverywhere)
     flags |= Inside;
   if (!solidBone || solidLabel)
     flags |= Border;
+  if (m_rules.soft &&
+      ((flags & (Tissue | Mixed)) || m_rules.softEverywhere || hasOpacity(m_rules.softOpaque)))
+    flags |= Soft;
   return static_cast<std::uint8_t>(flags);
 }
 
@@ -441,6 +447,11 @@ void OccupancyGrid::rebuild(const Rules& rules, const volume::LabelField* labels
   const core::IndexBox all{{0, 0, 0}, m_dims};
   measure(all, Tissue, &Texel::toTissue);
   measure(all, Inside, &Texel::toInside);
+  if (m_rules.soft)
+    measure(all, Soft, &Texel::toSoft);
+  else
+    for (Texel& texel : m_texels)
+      texel.toSoft = 0;
 }
 
 core::IndexBox OccupancyGrid::maskChanged(const volume::CutMask* mask, const core::IndexBox& voxels)
@@ -457,6 +468,7 @@ core::IndexBox OccupancyGrid::maskChanged(const volume::CutMask* mask, const cor
   core::IndexBox changed;
   Changes tissue;
   Changes seen;
+  Changes soft;
   for (int k = bricks.lower[2]; k < bricks.upper[2]; ++k)
     for (int j = bricks.lower[1]; j < bricks.upper[1]; ++j)
       for (int i = bricks.lower[0]; i < bricks.upper[0]; ++i)
@@ -478,6 +490,7 @@ core::IndexBox OccupancyGrid::maskChanged(const volume::CutMask* mask, const cor
         };
         note(Tissue, tissue);
         note(Inside, seen);
+        note(Soft, soft);
       }
   const core::IndexBox tissueBox = affected(tissue, &Texel::toTissue);
   if (!tissueBox.empty())
@@ -485,6 +498,9 @@ core::IndexBox OccupancyGrid::maskChanged(const volume::CutMask* mask, const cor
   const core::IndexBox seenBox = affected(seen, &Texel::toInside);
   if (!seenBox.empty())
     changed = changed.united(measure(seenBox, Inside, &Texel::toInside));
+  const core::IndexBox softBox = affected(soft, &Texel::toSoft);
+  if (!softBox.empty())
+    changed = changed.united(measure(softBox, Soft, &Texel::toSoft));
   return changed;
 }
 

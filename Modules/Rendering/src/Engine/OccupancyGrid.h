@@ -25,11 +25,12 @@ public:
 
   enum Flag : std::uint8_t
   {
-    Mixed = 1,  ///< the mask is not 1 throughout
-    Labels = 2, ///< a label's occupancy exceeds 0.499
-    Tissue = 4, ///< f may exceed 0
-    Inside = 8, ///< a ray inside tissue may see something: air, a label, or opacity
-    Border = 16 ///< a ray inside bone may leave it: air, or a label
+    Mixed = 1,   ///< the mask is not 1 throughout
+    Labels = 2,  ///< a label's occupancy exceeds 0.499
+    Tissue = 4,  ///< f may exceed 0
+    Inside = 8,  ///< a ray inside tissue may see something: air, a label, or opacity
+    Border = 16, ///< a ray inside bone may leave it: air, or a label
+    Soft = 32    ///< a ray in soft tissue may see something: opacity, tissue, or a cut
   };
 
   struct Texel
@@ -38,7 +39,7 @@ public:
         0; ///< Chebyshev distance in bricks to the next with Tissue; 0: this one
     std::uint8_t toInside = 0; ///< as toTissue, for Inside
     std::uint8_t flags = 0;
-    std::uint8_t unused = 0;
+    std::uint8_t toSoft = 0; ///< as toTissue, for Soft; without soft tissue 0
   };
 
   /// Parameters of the flags.
@@ -51,6 +52,9 @@ public:
     std::vector<volume::ValueRange> opaque;
     /// Bone's appearance does not depend on the CT: never skip inside.
     bool interiorEverywhere = false;
+    bool soft = false; ///< whether soft tissue is drawn; likewise its ranges
+    std::vector<volume::ValueRange> softOpaque;
+    bool softEverywhere = false;
   };
 
   /// Reads every voxel once (in parallel); the texels follow the default rules, without labels and

@@ -178,22 +178,25 @@ bool structuresTranslucent(const SceneContents& contents)
 
 bool readsSecond(const SceneContents& contents)
 {
+  const auto asks = [](const appearance::Material& m)
+  { return m.source == appearance::IntensitySource::Second; };
   return contents.second.volume &&
-         std::any_of(contents.materials.begin(), contents.materials.end(),
-                     [](const appearance::Material& m)
-                     { return m.source == appearance::IntensitySource::Second; });
+         (std::any_of(contents.materials.begin(), contents.materials.end(), asks) ||
+          (contents.softTissue && asks(*contents.softTissue)));
 }
 
-bool sameMaterials(const std::vector<appearance::Material>& a,
-                   const std::vector<appearance::Material>& b)
+bool sameMaterial(const appearance::Material& a, const appearance::Material& b)
 {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const appearance::Material& x, const appearance::Material& y)
-                    {
-                      return x.transfer == y.transfer && x.source == y.source &&
-                             x.surfaceOpacity == y.surfaceOpacity && x.shininess == y.shininess &&
-                             x.lumen == y.lumen;
-                    });
+  return a.transfer == b.transfer && a.source == b.source && a.surfaceOpacity == b.surfaceOpacity &&
+         a.shininess == b.shininess && a.lumen == b.lumen;
+}
+
+bool sameMaterials(const SceneContents& a, const SceneContents& b)
+{
+  return std::equal(a.materials.begin(), a.materials.end(), b.materials.begin(), b.materials.end(),
+                    sameMaterial) &&
+         a.softTissue.has_value() == b.softTissue.has_value() &&
+         (!a.softTissue || sameMaterial(*a.softTissue, *b.softTissue));
 }
 
 // The texels of a box, first axis fastest.
@@ -225,11 +228,14 @@ bool sameOpacities(const std::vector<appearance::Material>& a,
 
 bool sameRules(const OccupancyGrid::Rules& a, const OccupancyGrid::Rules& b)
 {
+  const auto same = [](const volume::ValueRange& x, const volume::ValueRange& y)
+  { return x.min == y.min && x.max == y.max; };
   return a.iso == b.iso && a.bone == b.bone && a.interior == b.interior &&
          a.interiorEverywhere == b.interiorEverywhere &&
-         std::equal(a.opaque.begin(), a.opaque.end(), b.opaque.begin(), b.opaque.end(),
-                    [](const volume::ValueRange& x, const volume::ValueRange& y)
-                    { return x.min == y.min && x.max == y.max; });
+         std::equal(a.opaque.begin(), a.opaque.end(), b.opaque.begin(), b.opaque.end(), same) &&
+         a.soft == b.soft && a.softEverywhere == b.softEverywhere &&
+         std::equal(a.softOpaque.begin(), a.softOpaque.end(), b.softOpaque.begin(),
+                    b.softOpaque.end(), same);
 }
 
 // Intensity ranges in which a transfer function has opacity.
@@ -274,7 +280,7 @@ void RayCaster::setContents(const SceneContents& contents)
                     contents.thickness.farthest != m_contents.thickness.farthest;
   const OccupancyGrid::Rules before =
       m_contents.materials.empty() ? OccupancyGrid::Rules{} : rules();
-  m_newMaterials |= !sameMaterials(contents.materials, m_contents.materials);
+  m_newMaterials |= !sameMaterials(contents, m_contents);
   m_newOpacities |= !sameOpacities(contents.materials, m_contents.materials);
   m_newRules |= mask != m_contents.mask || !sameCt || m_newLabels;
   if (mask != m_contents.mask || !sameCt)
@@ -349,6 +355,11 @@ std::shared_ptr<const volume::CutMask> RayCaster::maskInUse() const
   return m_givenMask && (m_cutExpected || !m_givenMask->untouched()) ? m_givenMask : nullptr;
 }
 
+bool RayCaster::softTissueSeen() const
+{
+  return m_contents.softTissue && !m_contents.softTissue->transfer.transparent();
+}
+
 RayFeatures RayCaster::features() const
 {
   RayFeatures features;
@@ -358,7 +369,8 @@ RayFeatures RayCaster::features() const
   features.nested = structuresTranslucent(m_contents);
   features.mask = m_mask.inUse();
   features.second = readsSecond(m_contents);
-  features.interior = translucent(m_contents.materials);
+  features.soft = softTissueSeen();
+  features.interior = features.soft || translucent(m_contents.materials);
   features.thickness = static_cast<bool>(m_contents.thickness.distance);
   features.clip = !m_contents.clipping.empty();
   features.shadows = m_contents.light.shadows;
@@ -373,11 +385,17 @@ OccupancyGrid::Rules RayCaster::rules() const
   OccupancyGrid::Rules rules;
   rules.iso = m_contents.iso;
   rules.bone = m_contents.boneShown;
-  rules.interior = translucent(m_contents.materials);
+  rules.soft = softTissueSeen();
+  rules.interior = rules.soft || translucent(m_contents.materials);
   rules.opaque = opaqueRanges(m_contents.materials.front().transfer);
   rules.interiorEverywhere =
       m_contents.materials.front().source == appearance::IntensitySource::Second &&
       !m_contents.materials.front().transfer.transparent();
+  if (rules.soft)
+  {
+    rules.softEverywhere = m_contents.softTissue->source == appearance::IntensitySource::Second;
+    rules.softOpaque = opaqueRanges(m_contents.softTissue->transfer);
+  }
   return rules;
 }
 
@@ -457,7 +475,12 @@ void RayCaster::upload()
   else if (m_newThickness || !m_thickness.texture)
     m_thickness.upload(m_contents.thickness);
   if (m_newMaterials || !m_materials.look)
-    m_materials.upload(m_contents.materials, m_quality.tableSize, m_ctRange, m_secondRange);
+  {
+    std::vector<appearance::Material> rows = m_contents.materials;
+    if (softTissueSeen())
+      rows.push_back(*m_contents.softTissue);
+    m_materials.upload(rows, m_quality.tableSize, m_ctRange, m_secondRange);
+  }
 
   const auto start = std::chrono::steady_clock::now();
   const bool edited = m_mask.pendingVoxels() > 0;

@@ -126,6 +126,7 @@ public:
 
 private:
   std::shared_ptr<const volume::CutMask> maskInUse() const;
+  bool softTissueSeen() const;
   RayFeatures features() const;
   OccupancyGrid::Rules rules() const;
   OpacityPyramid::Scene lightStoppers() const;

@@ -259,7 +259,7 @@ void RayCaster::findTissue(const core::IndexBox& bricks)
       int first = bricks.upper[0];
       int last = bricks.lower[0] - 1;
       for (int i = bricks.lower[0]; i < bricks.upper[0]; ++i)
-        if (row[i].flags & OccupancyGrid::Tissue)
+        if (row[i].flags & (OccupancyGrid::Tissue | OccupancyGrid::Soft))
         {
           first = std::min(first, i);
           last = i;

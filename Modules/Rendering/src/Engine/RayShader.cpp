@@ -36,6 +36,7 @@ constexpr Part kParts[] = {
     {&RayFeatures::mask, "PETROUS_MASK", "mask"},
     {&RayFeatures::second, "PETROUS_SECOND", "second"},
     {&RayFeatures::interior, "PETROUS_INTERIOR", "interior"},
+    {&RayFeatures::soft, "PETROUS_SOFT", "soft tissue"},
     {&RayFeatures::clip, "PETROUS_CLIP", "clipping"},
     {&RayFeatures::thickness, "PETROUS_THICKNESS", "thickness"},
     {&RayFeatures::shadows, "PETROUS_SHADOWS", "shadows"},

@@ -39,9 +39,14 @@ void checkContents(const SceneContents& contents)
   require(!contents.labels || contents.ct, "there are structures but no CT");
   if (contents.labels)
     checkLabels(*contents.labels);
-  for (const appearance::Material& material : contents.materials)
+  const auto checkSource = [&contents](const appearance::Material& material)
+  {
     require(material.source == appearance::IntensitySource::Ct || contents.second.volume,
             "a material reads a second image, and there is none");
+  };
+  std::for_each(contents.materials.begin(), contents.materials.end(), checkSource);
+  if (contents.softTissue)
+    checkSource(*contents.softTissue);
   require(!contents.section ||
               (contents.section->width > 0.0 && std::isfinite(contents.section->level)),
           "the sections' grey window must be wider than 0");

@@ -82,10 +82,25 @@ Lamp lampOf(const core::CameraPose& camera)
 }
 
 Eigen::Vector3d interiorColor(const Eigen::Vector3d& color, const LightSettings& light,
-                              double distance, double focus)
+                              double distance, double focus, double facing)
 {
-  const double diffuse = light.ambient + (1.0 - light.ambient) * kInteriorFacing;
+  const double diffuse = light.ambient + (1.0 - light.ambient) * facing;
   return displayed(lightAt(light, distance, focus) * diffuse * color, light);
+}
+
+double softEdge(const appearance::TransferFunction& transfer)
+{
+  constexpr double kThickness = 20.0; // mm
+  return (transfer.points().back().value - transfer.points().front().value) / kThickness;
+}
+
+double softFacing(const Eigen::Vector3d& gradient, const Eigen::Vector3d& ray, double edge)
+{
+  const double size = gradient.norm();
+  if (!(size > 0.0 && edge > 0.0))
+    return kInteriorFacing;
+  const double facing = std::min(std::abs(gradient.dot(ray)) / size, 1.0);
+  return kInteriorFacing + size / (size + edge) * (facing - kInteriorFacing);
 }
 
 } // namespace petrous::rendering::optics

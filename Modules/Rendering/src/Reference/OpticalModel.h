@@ -15,16 +15,23 @@ namespace petrous::rendering
 /// At a point x the ray is in one of these states; f is the tissue field of the scene:
 ///   air              f <= 0, or outside the hull of the CT's voxel centres, of those in the crop
 ///                    box or of a clipping plane; a hull of zero thickness is air
+///   soft tissue      f <= 0 inside all of these, where max(c_CT, c_L) <= 0 and nothing is cut away
+///                    (mask > 0.5), if SceneContents::softTissue has any opacity; else air, too
 ///   bone             f > 0 and occupancy <= 0.5
 ///   structure i      f > 0 and occupancy > 0.5, i = volume::structureAt(x): the label index of the
 ///                    voxel nearest to x and, where two structures meet, the one with the greatest
 ///                    weight among the eight voxels around x (Volume/LabelBorders.h)
-/// There is a surface where the state changes from air to anything else, or from anything to a
-/// structure; all other changes only change the material. A surface adds its lit colour weighted by
-/// the material's surface opacity; inside tissue the colour and extinction of the material's
-/// transfer function are integrated:
+/// There is a surface where the state changes from air or soft tissue to bone or a structure, or
+/// from anything to a structure; all other changes only change the material. A surface adds its lit
+/// colour weighted by the material's surface opacity; inside tissue the colour and extinction of
+/// the material's transfer function are integrated:
 ///   C = sum_surfaces T a_s c_s + integral T sigma(v) c(v) l ds,  T the transmittance so far
 /// A ray ends at opaque polygons; the remaining T weights what is behind.
+///
+/// Inside tissue no normal is computed, but in soft tissue, whose own surfaces (skin, fat on
+/// muscle) are such changes of intensity: its cosine is softFacing, with the gradient of what it
+/// reads by central differences over +-1 voxel of the CT's grid. The tissue that is left stays soft
+/// tissue where bone is not drawn.
 ///
 /// Surface at x, unit normal n (out of the tissue), from -grad of the deciding operand (c_CT,
 /// occupancy or mask), by central differences over +-1 voxel of its grid; for bone -> structure
@@ -48,7 +55,8 @@ namespace petrous::rendering
 /// `farthest`, thicknessColor(d / farthest) replaces the transfer function's colour; light and
 /// highlight stay.
 ///
-/// Shadows (LightSettings::shadows; record 33): a surface that a ray in air meets, and that is not
+/// Shadows (LightSettings::shadows; record 33): a surface that a ray in air or soft tissue meets,
+/// which stops no light on its way to it, and that is not
 /// such a face, with the normal n towards the camera, sees
 ///   sky     1 - 1/pi integral over the hemisphere of n of (n . w) b(w) (1 - (d / r)^2) dw
 ///   lamp    1 - mean over the lamp's disc of b(w)
@@ -141,9 +149,17 @@ Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics,
                              double cosine, const LightSettings& light, double distance,
                              const Seen& seen = {}, double focus = 0.0);
 
-/// light c (ambient + (1 - ambient) kInteriorFacing), as displayed.
+/// light c (ambient + (1 - ambient) facing), as displayed.
 Eigen::Vector3d interiorColor(const Eigen::Vector3d& color, const LightSettings& light,
-                              double distance, double focus = 0.0);
+                              double distance, double focus = 0.0, double facing = kInteriorFacing);
+
+/// Slope, intensity per mm, at which soft tissue is lit half as a surface: the range of its
+/// transfer function's points over 20 mm.
+double softEdge(const appearance::TransferFunction& transfer);
+
+/// Cosine of soft tissue: kInteriorFacing + w (|g . ray| / |g| - kInteriorFacing) with w = |g| /
+/// (|g| + softEdge); gradient g, intensity per mm.
+double softFacing(const Eigen::Vector3d& gradient, const Eigen::Vector3d& ray, double edge);
 
 /// Background; RGB, 0 to 1.
 constexpr double kBackground[3] = {0.105, 0.115, 0.130};

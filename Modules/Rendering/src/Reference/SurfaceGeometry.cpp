@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "DrilledMesh.h"
 #include "OpticalModel.h"
 #include "SurfaceActor.h"
 #include "petrous/Rendering/RenderingError.h"
@@ -176,9 +177,15 @@ SurfaceGeometry::SurfaceGeometry(const SceneContents& contents)
     if (!mesh.mesh)
       throw RenderingError(RenderingError::Reason::BadContents,
                            "picture: mesh " + mesh.name + " has no triangles");
-    if (mesh.look.shown && mesh.look.opacity > 0.0F)
-      m_meshes.push_back(
-          {volume::MeshTree(*mesh.mesh), mesh.mesh, vertexNormals(*mesh.mesh), mesh.look});
+    if (!mesh.look.shown || !(mesh.look.opacity > 0.0F))
+      continue;
+    std::optional<ShadedMesh> drilled;
+    if (contents.mask && DrilledMesh::isDrilled(mesh.look))
+      drilled = DrilledMesh(mesh.mesh).surface(*contents.mask);
+    const auto shape =
+        drilled ? std::make_shared<const core::TriangleMesh>(std::move(drilled->mesh)) : mesh.mesh;
+    m_meshes.push_back({volume::MeshTree(*shape), shape,
+                        drilled ? std::move(drilled->normals) : vertexNormals(*shape), mesh.look});
   }
   if (contents.tool && tool::isShown(*contents.tool))
     m_tool = contents.tool;

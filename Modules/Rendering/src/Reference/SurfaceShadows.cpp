@@ -61,7 +61,7 @@ double SurfaceShadows::stopped(const PixelRay& ray, double reach, const Weight& 
   for (double t = span.first; t < last && left > kNothing; t += m_step)
   {
     const TissueOptics::State state = m_optics.at(ray.origin + t * ray.direction).state;
-    if (before == TissueOptics::kAir && state != TissueOptics::kAir)
+    if (!TissueOptics::isSolid(before) && TissueOptics::isSolid(state))
     {
       const double stops = left * static_cast<double>(m_optics.materialOf(state).surfaceOpacity);
       sum += stops * weight(t);

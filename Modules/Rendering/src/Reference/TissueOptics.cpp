@@ -46,6 +46,10 @@ TissueOptics::TissueOptics(const SceneContents& contents)
   , m_borders(contents.labels ? contents.labels->borders : nullptr)
   , m_second(contents.second)
   , m_materials(contents.materials)
+  , m_softTissue(contents.softTissue && !contents.softTissue->transfer.transparent()
+                     ? contents.softTissue
+                     : std::nullopt)
+  , m_mask(contents.mask)
   , m_light(contents.light)
   , m_thickness(contents.thickness)
   , m_section(contents.section)
@@ -109,7 +113,14 @@ TissueOptics::Place TissueOptics::at(const Eigen::Vector3d& patient) const
 {
   const double f = m_field.value(patient);
   if (!(f > 0.0))
-    return {kAir, -f};
+  {
+    if (!m_softTissue)
+      return {kAir, -f};
+    const double left =
+        m_mask ? m_mask->sample(m_mask->geometry().voxelFromPatient(patient)) - 0.5 : 0.5;
+    const bool isSoft = left > 0.0 && !(m_field.uncut(patient) > 0.0);
+    return isSoft ? Place{kSoft, std::min(-f, left)} : Place{kAir, std::max(-left, 0.0)};
+  }
   const double inside = occupancyAt(patient) - 0.5;
   if (inside > 0.0)
   {
@@ -122,12 +133,27 @@ TissueOptics::Place TissueOptics::at(const Eigen::Vector3d& patient) const
 
 bool TissueOptics::isSurface(State from, State to)
 {
-  return from != to && to != kAir && (from == kAir || to > kBone);
+  return from != to && isSolid(to) && (!isSolid(from) || to > kBone);
 }
 
 const appearance::Material& TissueOptics::materialOf(State state) const
 {
+  if (state == kSoft)
+    return *m_softTissue;
   return m_materials[state == kBone ? 0 : static_cast<std::size_t>(state - kBone - 1)];
+}
+
+double TissueOptics::facingIn(State state, const Eigen::Vector3d& patient,
+                              const Eigen::Vector3d& ray) const
+{
+  if (state != kSoft)
+    return optics::kInteriorFacing;
+  const core::GridGeometry& grid = m_ct->geometry();
+  const Eigen::Vector3d gradient =
+      volume::gradientInPatient(grid, grid.voxelFromPatient(patient), 1.0,
+                                [&](const Eigen::Vector3d& voxel)
+                                { return intensity(*m_softTissue, grid.patientFromVoxel(voxel)); });
+  return optics::softFacing(gradient, ray, optics::softEdge(m_softTissue->transfer));
 }
 
 const appearance::Material& TissueOptics::surfaceMaterial(const Eigen::Vector3d& patient) const

@@ -18,8 +18,9 @@ namespace petrous::rendering
 class TissueOptics
 {
 public:
-  /// Air, bone, or structure i as kBone + 1 + i.
+  /// Air, soft tissue, bone, or structure i as kBone + 1 + i.
   using State = int;
+  static constexpr State kSoft = -2;
   static constexpr State kAir = -1;
   static constexpr State kBone = 0;
 
@@ -41,11 +42,17 @@ public:
 
   Place at(const Eigen::Vector3d& patient) const;
 
+  /// Bone or a structure.
+  static bool isSolid(State state) { return state >= kBone; }
+
   /// Whether the transition between two states is a surface.
   static bool isSurface(State from, State to);
 
   /// Material of a state; not for air.
   const appearance::Material& materialOf(State state) const;
+
+  /// Cosine of the light inside the tissue of a state; `ray`: unit.
+  double facingIn(State state, const Eigen::Vector3d& patient, const Eigen::Vector3d& ray) const;
 
   /// Input of a material's transfer function at a point.
   double intensity(const appearance::Material& material, const Eigen::Vector3d& patient) const;
@@ -81,6 +88,8 @@ private:
   std::shared_ptr<const volume::Volume<std::uint8_t>> m_borders;
   SecondImage m_second;
   std::vector<appearance::Material> m_materials;
+  std::optional<appearance::Material> m_softTissue; ///< if it has any opacity
+  std::shared_ptr<const volume::CutMask> m_mask;
   LightSettings m_light;
   ThicknessOverlay m_thickness;
   std::optional<SectionWindow> m_section;

@@ -55,13 +55,11 @@ GatheredLight TissueRay::cast(const PixelRay& ray, double end, const optics::Lam
   const auto sample = [&](long i)
   { return sampleAt(ray, std::min(span.first + static_cast<double>(i) * m_step, last)); };
   Sample before = sample(0);
-  if (before.place.state != TissueOptics::kAir)
-  {
+  if (TissueOptics::isSolid(before.place.state))
     // Tissue that contains the camera is cut off there by a face towards the camera.
     addSurface(walk, span.first, before.place.state,
                span.face ? *span.face : Eigen::Vector3d::Zero().eval());
-    walk.state = before.place.state;
-  }
+  walk.state = before.place.state;
   Sample here = sample(1);
   for (long i = 1; i <= steps && walk.light.transmittance > kNothingVisible; ++i)
   {
@@ -147,7 +145,7 @@ void TissueRay::addSurface(Walk& walk, double t, TissueOptics::State to,
                            const std::optional<Eigen::Vector3d>& face) const
 {
   optics::Seen seen;
-  if (m_optics.light().shadows && !face && walk.state == TissueOptics::kAir)
+  if (m_optics.light().shadows && !face && !TissueOptics::isSolid(walk.state))
   {
     const Eigen::Vector3d point = walk.at(t);
     const Eigen::Vector3d normal = m_optics.normalAt(point, walk.state, to);
@@ -181,11 +179,15 @@ void TissueRay::gather(Walk& walk, double to) const
   const auto add = [&](double fraction, double length)
   {
     const auto optics = transfer.at(a + (b - a) * fraction);
+    if (!(optics.extinction > 0.0))
+      return;
     const double opacity = -std::expm1(-optics.extinction * length);
     const Eigen::Vector3d color(optics.color[0], optics.color[1], optics.color[2]);
-    walk.light.color += walk.light.transmittance * opacity *
-                        optics::interiorColor(color, m_optics.light(),
-                                              from + (to - from) * fraction, walk.lamp.focus);
+    const double at = from + (to - from) * fraction;
+    walk.light.color +=
+        walk.light.transmittance * opacity *
+        optics::interiorColor(color, m_optics.light(), at, walk.lamp.focus,
+                              m_optics.facingIn(walk.state, walk.at(at), walk.ray.direction));
     walk.light.transmittance *= 1.0 - opacity;
   };
   const auto addPiece = [&](double first, double last)

@@ -23,9 +23,9 @@
 #include <vtk_glew.h>
 
 #include "CameraPlacement.h"
+#include "DrilledMesh.h"
 #include "OpticalModel.h"
 #include "SceneCheck.h"
-#include "ShadedMesh.h"
 #include "SurfaceActor.h"
 #include "petrous/Rendering/PixelSamples.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
@@ -200,10 +200,67 @@ struct MeshActor
     , mesh(contents.mesh)
     , actor(pattern)
   {
-    const auto surface = toPolyData(*mesh, vertexNormals(*mesh));
+    show(*mesh, vertexNormals(*mesh));
+  }
+
+  void setMask(std::shared_ptr<const volume::CutMask> next, bool isDrilled)
+  {
+    m_isDrilled = isDrilled;
+    m_mask = isDrilled ? std::move(next) : nullptr;
+    m_isOld = true;
+  }
+
+  /// The mask's voxels of a box changed.
+  void cut(const std::shared_ptr<const volume::CutMask>& next, const core::IndexBox& box)
+  {
+    if (!m_isDrilled)
+      return;
+    m_isOld =
+        m_isOld || !next || !m_shape || !m_shape->reach(next->geometry()).intersected(box).empty();
+    m_mask = next;
+  }
+
+  /// Before a frame. `sparing`: not if it took a large part of the time since it was last done.
+  void update(bool sparing)
+  {
+    using Clock = std::chrono::steady_clock;
+    constexpr int kShare = 5;
+    if (!m_isOld || (sparing && Clock::now() - m_done < kShare * m_took))
+      return;
+    m_isOld = false;
+    const bool mayBeCut = m_mask && !m_mask->untouched();
+    if (!mayBeCut && !m_isCut)
+      return;
+    const auto start = Clock::now();
+    std::optional<ShadedMesh> left;
+    if (mayBeCut && !m_shape)
+      m_shape.emplace(mesh);
+    if (mayBeCut)
+      left = m_shape->surface(*m_mask);
+    if (left)
+      show(left->mesh, left->normals);
+    else if (m_isCut)
+      show(*mesh, vertexNormals(*mesh));
+    m_isCut = left.has_value();
+    m_done = Clock::now();
+    m_took = m_done - start;
+  }
+
+private:
+  void show(const core::TriangleMesh& shape, const std::vector<Eigen::Vector3f>& normals)
+  {
+    const auto surface = toPolyData(shape, normals);
     bytes = static_cast<std::size_t>(surface->GetActualMemorySize()) * 1024;
     actor.setSurface(surface);
   }
+
+  std::shared_ptr<const volume::CutMask> m_mask; // null: nothing cuts it
+  std::optional<DrilledMesh> m_shape;
+  bool m_isDrilled = false;
+  bool m_isOld = false; // what is shown
+  bool m_isCut = false; // likewise
+  std::chrono::steady_clock::time_point m_done;
+  std::chrono::steady_clock::duration m_took{};
 };
 
 } // namespace
@@ -286,6 +343,8 @@ void ScenePicture::Implementation::startFrame()
                                m_falloff > 0.0 ? 1.0 / (atLamp * m_falloff * m_falloff) : 0.0);
   foveated.reset();
   drawn = quality;
+  for (const auto& mesh : meshes)
+    mesh->update(interactive || progressive);
   if (interactive || progressive)
     coarsen();
   mapper->SetQuality(drawn);
@@ -441,6 +500,7 @@ void ScenePicture::Implementation::setMeshes(const SceneContents& contents)
     ++pattern;
     appearance::StructureAppearance look = wanted.look;
     actor->actor.setLook(look, contents.light);
+    actor->setMask(contents.mask, DrilledMesh::isDrilled(look));
     next.push_back(std::move(actor));
   }
   if (renderer)
@@ -481,6 +541,8 @@ void ScenePicture::setContents(const SceneContents& contents)
 void ScenePicture::maskChanged(std::shared_ptr<const volume::CutMask> mask,
                                const core::IndexBox& box)
 {
+  for (const auto& each : m_implementation->meshes)
+    each->cut(mask, box);
   m_implementation->mapper->MaskChanged(std::move(mask), box);
 }
 

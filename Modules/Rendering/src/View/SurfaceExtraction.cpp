@@ -26,10 +26,6 @@
 namespace petrous::rendering
 {
 
-/// Isosurface 0 of a field by flying edges, patient LPS mm, counter-clockwise seen from the
-/// negative side, on left-handed grids too.
-core::TriangleMesh isoTriangles(const volume::Volume<float>& field);
-
 core::TriangleMesh isoTriangles(const volume::Volume<float>& field)
 {
   const core::GridGeometry& grid = field.geometry();

@@ -1,4 +1,4 @@
-#include "MeshInside.h"
+#include "petrous/Volume/MeshInside.h"
 
 #include <algorithm>
 #include <cmath>

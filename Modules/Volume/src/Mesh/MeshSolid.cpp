@@ -8,8 +8,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "MeshInside.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Volume/MeshInside.h"
 #include "petrous/Volume/MeshMeasure.h"
 #include "petrous/Volume/Sampling.h"
 

@@ -10,6 +10,10 @@
 namespace petrous::rendering
 {
 
+/// Isosurface 0 of a field by flying edges, patient LPS mm, counter-clockwise seen from the
+/// negative side, on left-handed grids too; open at the grid's border.
+core::TriangleMesh isoTriangles(const volume::Volume<float>& field);
+
 /// Isosurface f = 0 in a box of CT voxels, patient LPS mm; triangles are counter-clockwise seen
 /// from air. f is sampled at the voxel centres; tissue is capped at the border of box and grid, so
 /// the mesh is closed. Throws CancelledError.

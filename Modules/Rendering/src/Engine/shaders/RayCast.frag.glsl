@@ -26,7 +26,11 @@ struct Bracket
 // Operand at an end that decides between the ray's state and the next.
 float deciding(Ray ray, vec3 operands)
 {
-  return ray.state != kAir && ray.next != kAir ? operands.y : fieldOf(operands);
+#ifdef PETROUS_SOFT
+  if (ray.state <= kAir && ray.next <= kAir)
+    return operands.z;
+#endif
+  return ray.state > kAir && ray.next > kAir ? operands.y : fieldOf(operands);
 }
 
 // A few steps of false position with the Illinois modification, then bisection: where false
@@ -96,7 +100,7 @@ float changePoint(inout Ray ray, const bool plain)
 #if defined(PETROUS_LABELS) && defined(PETROUS_INTERIOR)
   // The operands just in front of the surface determine what begins there; it may end before
   // `high`.
-  if (!plain && bracket.state == ray.state && ray.next != kAir && ray.state <= kBone)
+  if (!plain && bracket.state == ray.state && ray.next > kAir && ray.state <= kBone)
   {
     bool structure = ray.state == kBone || ray.at.occupancy > kOccupancyThreshold;
 #ifdef PETROUS_NESTED
@@ -196,7 +200,7 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   bool isGrey = isSection && ray.material == 0;
   Seen seen = Seen(1.0, 1.0);
 #ifdef PETROUS_SHADOWS
-  bool shadowed = facing < 0.0 && ray.state == kAir && size > 1e-12;
+  bool shadowed = facing < 0.0 && ray.state <= kAir && size > 1e-12;
   vec3 normal = shadowed ? slopeMm / (along > 0.0 ? -size : size) : -ray.unit;
   seen = seenAt(v, normal, ray.unit, hit, shadowed);
 #endif
@@ -229,7 +233,7 @@ int pass(inout Ray ray, float hit, float facing, inout float depth)
   if (ray.state != kAir)
     passTissue(ray, hit, ray.at.value, 0.0);
 #endif
-  if (ray.next != kAir && (ray.state == kAir || ray.next >= kStructure))
+  if (ray.next > kAir && (ray.state <= kAir || ray.next >= kStructure))
   {
     setMaterial(ray, materialAt(v, ray.at, ray.state, ray.next));
     shade(ray, v, mmOf(ray, hit), facing);
@@ -242,6 +246,10 @@ int pass(inout Ray ray, float hit, float facing, inout float depth)
   // The state determines the material inside, not the surface: a lumen's material applies to its
   // wall only, and between two structures the voxels of the other may begin just behind the hit.
   int inside = max(ray.next - kStructure, 0);
+#ifdef PETROUS_SOFT
+  if (ray.next == kSoft)
+    inside = textureSize(materialTexture, 0).y - 1;
+#endif
   if (ray.next != kAir && ray.material != inside)
     setMaterial(ray, inside);
   ray.value = valueAt(ray, hit, ray.at.value);

@@ -71,8 +71,15 @@ vec3 operandsOf(Operands at)
 float nearness(int state, vec3 at, float margin, const bool plain)
 {
   float field = plain ? at.x : fieldOf(at);
+#ifdef PETROUS_SOFT
+  if (state == kAir)
+    return at.z;
+  if (state == kSoft)
+    return plain ? field : max(field, -at.z);
+#else
   if (state == kAir)
     return field;
+#endif
   return plain ? -field : max(-field, state == kBone ? at.y : -min(at.y, margin));
 }
 
@@ -106,9 +113,18 @@ void passTissue(inout Ray ray, float to, float value, float bulge)
 {
   float reads = valueAt(ray, to, value);
   bulge = ray.more.y > 0.5 ? 0.0 : bulge; // the second image is not sampled half way
-  gather(ray.material, ray.row, ray.gathering, max(to - ray.before, 0.0),
-         ray.nearest + 0.5 * (ray.before + to), vec2(ray.value, reads) + 0.66666667 * bulge,
-         ray.color, ray.lit, ray.transmittance);
+  Segment segment = segmentOf(ray.material, ray.row, ray.gathering, max(to - ray.before, 0.0),
+                              vec2(ray.value, reads) + 0.66666667 * bulge);
+  float middle = 0.5 * (ray.before + to);
+  float lamp = ray.gathering.lamp;
+#ifdef PETROUS_SOFT
+  bool isSoft = ray.state == kSoft;
+  float own = softLamp(positionOf(ray, middle), ray.direction, ray.more,
+                       isSoft && segment.opacity > kLeastLit);
+  lamp = isSoft ? own : lamp;
+#endif
+  gather(segment, ray.gathering, lamp, ray.nearest + middle, ray.color, ray.lit,
+         ray.transmittance);
   ray.value = reads;
 }
 #endif
@@ -131,7 +147,7 @@ struct Run
 int seek(inout Ray ray, out Run run, const bool plain)
 {
   vec3 lastBrick = vec3(textureSize(brickTexture, 0) - 1);
-  bool inAir = ray.state == kAir;
+  bool inAir = ray.state <= kAir;
   float next = ray.number + 1.0;
   float leave;
   bool leaps;
@@ -143,7 +159,11 @@ int seek(inout Ray ray, out Run run, const bool plain)
     uvec4 texel = texelFetch(brickTexture, ivec3(corner), 0);
     COUNT(1);
     flags = texel.b;
+#ifdef PETROUS_SOFT
+    float away = float(inAir ? texel.a : texel.g);
+#else
     float away = float(inAir ? texel.r : texel.g);
+#endif
     vec3 wall = corner + ray.behind + ray.ahead * max(away, 1.0);
     vec3 crossed = (wall - ray.brick.from) * ray.perBrick + ray.never;
     leave = min(min(crossed.x, crossed.y), crossed.z);
@@ -157,6 +177,10 @@ int seek(inout Ray ray, out Run run, const bool plain)
     ray.before = ray.number;
     ray.passed = kUnknown;
     ray.height = vec2(kNever);
+#ifdef PETROUS_SOFT
+    if (ray.state == kSoft)
+      ray.value = intensityAt(positionOf(ray, ray.number), ray.more);
+#endif
   }
   run.last = max(next, floor(leave - 1e-3));
   run.stride = 1.0;
@@ -178,7 +202,7 @@ int seek(inout Ray ray, out Run run, const bool plain)
 // the best so far. `from`: where bricks of this kind begin.
 int takeSamples(inout Ray ray, Run run, float from, const bool plain)
 {
-  bool inAir = ray.state == kAir;
+  bool inAir = ray.state == kAir; // nothing to accumulate
   bool quiet = run.stride > 1.0;
   int outcome;
   do
@@ -259,7 +283,7 @@ int marchIn(inout Ray ray, const bool plain)
 #endif
   if (plain) // only the height was kept
     ray.passed = ray.height.y < kNever
-                     ? vec3(ray.state == kAir ? ray.height.y : -ray.height.y, -0.5, 0.5)
+                     ? vec3(ray.state <= kAir ? ray.height.y : -ray.height.y, -0.5, 0.5)
                      : kUnknown;
   return outcome;
 }

@@ -114,12 +114,17 @@ float entryOf(vec4 row, Gathering g, float value)
   return floor(clamp((value - row.x) * (row.y * g.lastEntry), 0.0, g.lastEntry) + 0.5);
 }
 
-// Accumulates a segment of one tissue, `steps` long and centred at `middle` steps from the light,
-// over which the intensity changes from values.x to values.y. `lit` accumulates the opacity
-// weighted by the light's attenuation. The mean over the intensities in between is a difference of
-// cumulative integrals, over at least one entry.
-void gather(int material, vec4 row, Gathering g, float steps, float middle, vec2 values,
-            inout vec3 color, inout float lit, inout float transmittance)
+// A segment of one tissue.
+struct Segment
+{
+  float opacity;
+  vec3 color; // times `share`: colour
+  float share;
+};
+
+// `steps` long, over which the intensity changes from values.x to values.y. The mean over the
+// intensities in between is a difference of cumulative integrals, over at least one entry.
+Segment segmentOf(int material, vec4 row, Gathering g, float steps, vec2 values)
 {
   float first = entryOf(row, g, values.x);
   float last = entryOf(row, g, values.y);
@@ -129,10 +134,49 @@ void gather(int material, vec4 row, Gathering g, float steps, float middle, vec2
   float run = last - first;
   float inverse = 1.0 / max(rise.a * run, 1e-24);
   float opacity = 1.0 - exp2(rise.a * rise.a * inverse * g.exponent * steps);
-  float reached = reaches(g, middle);
-  vec3 shade = displayed(rise.rgb * (run * inverse * g.lamp * reached));
-  color += transmittance * opacity * shade;
-  lit += transmittance * opacity * reached;
-  transmittance -= transmittance * opacity;
+  return Segment(opacity, rise.rgb, run * inverse);
 }
+
+// Accumulates a segment centred at `middle` steps from the light, which is `lamp` near the camera.
+// `lit` accumulates the opacity weighted by the light's attenuation.
+void gather(Segment segment, Gathering g, float lamp, float middle, inout vec3 color,
+            inout float lit, inout float transmittance)
+{
+  float reached = reaches(g, middle);
+  vec3 shade = displayed(segment.color * (segment.share * lamp * reached));
+  color += transmittance * segment.opacity * shade;
+  lit += transmittance * segment.opacity * reached;
+  transmittance -= transmittance * segment.opacity;
+}
+
+#ifdef PETROUS_SOFT
+// Gradient over the CT's voxels of what a material reads; see GRADIENT.
+vec3 intensityGradient(vec3 v, vec4 more, bool wanted)
+{
+  vec3 low = max(v - 1.0, vec3(0.0));
+  vec3 high = min(v + 1.0, hullUpper);
+  vec3 run = high - low;
+  vec3 rise = vec3(0.0);
+  int turns = wanted ? 6 : 0;
+  for (int i = 0; i < turns; ++i)
+  {
+    bvec3 axis = equal(ivec3(i >> 1), ivec3(0, 1, 2));
+    bool ahead = (i & 1) != 0;
+    float value = intensityAt(mix(v, ahead ? high : low, axis), more);
+    rise += mix(vec3(0.0), vec3(ahead ? value : -value), axis);
+  }
+  return mix(vec3(0.0), rise / max(run, vec3(1e-6)), greaterThan(run, vec3(0.0)));
+}
+
+// Light inside soft tissue, near the camera: of a surface where the intensity changes within a few
+// voxels, as at the skin. `direction`: of the ray, voxels per mm.
+float softLamp(vec3 v, vec3 direction, vec4 more, bool wanted)
+{
+  vec3 slope = intensityGradient(v, more, wanted);
+  float size = length(normalFromVoxel * slope);
+  float facing = min(abs(dot(slope, direction)) / max(size, 1e-12), 1.0);
+  float weight = more.z > 0.0 ? size / (size + more.z) : 0.0;
+  return light.x * (light.y + (1.0 - light.y) * mix(kInteriorFacing, facing, weight));
+}
+#endif
 #endif

@@ -7,6 +7,7 @@
 //   BORDERS    touching structures            NESTED   translucent structures
 //   INTERIOR   translucent tissue             CLIP     clipping planes
 //   THICKNESS  bone is coloured by its distance to a structure
+//   SOFT       soft tissue (with INTERIOR)
 //   SHADOWS    surfaces see less of the sky and of the lamp where tissue is in the way
 //   TONE       lit colours go through the tone curve
 //   COUNT      fetches and samples are counted
@@ -25,12 +26,14 @@
 //   indexTexture   R8UI, nearest, grid of occupancyTexture: row of the material; with BORDERS
 //                  RG8UI, the second channel as LabelField::borders
 //   secondTexture  as ctTexture, own grid
-//   brickTexture   RGBA8UI, nearest, one texel per brick: distances to tissue, inside; flags
+//   brickTexture   RGBA8UI, nearest, one texel per brick: distances to tissue, inside; flags;
+//                  distance to soft tissue
 //   lookTexture    RGBA16F, row = material, over its intensities: colour, specular
 //   depthTexture   RGBA32F, nearest, row = material: integrals over its intensities of
 //                  extinction * colour and of extinction (1/mm)
 //   materialTexture RGBA32F, nearest, 2 x rows: (first intensity, 1 / range, surface opacity,
-//                  shininess), (lumen, reads the second image, -, -)
+//                  shininess), (lumen, reads the second image, edge of soft tissue per mm, -); the
+//                  last row is that of soft tissue, with SOFT
 //   thicknessTexture R16_SNORM, mm to a structure = texel * thicknessUnit, own grid
 //   opaqueTexture  window depth of opaque polygons
 
@@ -114,6 +117,9 @@ uniform int planeCount;
 uniform vec4 planes[kMaxPlanes]; // mm on the side that is kept, over voxels
 #endif
 
+#ifdef PETROUS_SOFT
+const int kSoft = -1; // then air is only what was cut away
+#endif
 const int kAir = 0;
 const int kBone = 1;
 const int kStructure = 2; // + index
@@ -127,6 +133,7 @@ const float kFirstAside = 0.3;
 const float kNextAside = 0.6;
 const float kLastAside = 0.02;
 const float kLongSteps = 4.0; // where only the density varies
+const float kLeastLit = 1e-4; // opacity of soft tissue below which nobody sees how it is lit
 
 #ifdef PETROUS_COUNT
 float fetches = 0.0;
@@ -364,7 +371,11 @@ int stateOf(inout Operands at, Ways ways, float s, const bool plain)
   float f = min(max(at.ct, at.occupancy - 0.5), at.left - 0.5);
   // Written so that NaN is air.
   if (!(f > 0.0))
+#ifdef PETROUS_SOFT
+    return at.left > 0.5 && !(max(at.ct, at.occupancy - 0.5) > 0.0) ? kSoft : kAir;
+#else
     return kAir;
+#endif
 #ifdef PETROUS_NESTED
   if (!plain && at.occupancy > 0.5)
   {

@@ -1,0 +1,192 @@
+#include "DrilledMesh.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "PictureComparison.h"
+#include "PictureScenes.h"
+
+using namespace petrous;
+using namespace petrous::rendering;
+using namespace petrous::rendering::synthetic;
+
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// A ball by rings and sectors.
+std::shared_ptr<const core::TriangleMesh> ballMesh(const Vector& center, double radius,
+                                                   int rings = 48)
+{
+  auto mesh = std::make_shared<core::TriangleMesh>();
+  const int sectors = 2 * rings;
+  const auto at = [&](int ring, int sector)
+  {
+    const double polar = kPi * ring / rings;
+    const double around = 2.0 * kPi * (sector % sectors) / sectors;
+    return (center + radius * Vector(std::sin(polar) * std::cos(around),
+                                     std::sin(polar) * std::sin(around), std::cos(polar)))
+        .cast<float>()
+        .eval();
+  };
+  mesh->vertices.push_back(at(0, 0));
+  for (int ring = 1; ring < rings; ++ring)
+    for (int sector = 0; sector < sectors; ++sector)
+      mesh->vertices.push_back(at(ring, sector));
+  mesh->vertices.push_back(at(rings, 0));
+  const auto index = [&](int ring, int sector) -> std::uint32_t
+  {
+    if (ring == 0)
+      return 0;
+    if (ring == rings)
+      return static_cast<std::uint32_t>(mesh->vertices.size() - 1);
+    return static_cast<std::uint32_t>(1 + (ring - 1) * sectors + sector % sectors);
+  };
+  for (int ring = 0; ring < rings; ++ring)
+    for (int sector = 0; sector < sectors; ++sector)
+    {
+      if (ring > 0)
+        mesh->triangles.push_back(
+            {index(ring, sector), index(ring + 1, sector), index(ring, sector + 1)});
+      if (ring < rings - 1)
+        mesh->triangles.push_back(
+            {index(ring, sector + 1), index(ring + 1, sector), index(ring + 1, sector + 1)});
+    }
+  return mesh;
+}
+
+/// Two triangles a side, far longer than a voxel.
+std::shared_ptr<const core::TriangleMesh> boxMesh(const Vector& lower, const Vector& upper)
+{
+  auto mesh = std::make_shared<core::TriangleMesh>();
+  for (int corner = 0; corner < 8; ++corner)
+    mesh->vertices.emplace_back(static_cast<float>((corner & 1) != 0 ? upper.x() : lower.x()),
+                                static_cast<float>((corner & 2) != 0 ? upper.y() : lower.y()),
+                                static_cast<float>((corner & 4) != 0 ? upper.z() : lower.z()));
+  mesh->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+double areaOf(const core::TriangleMesh& mesh)
+{
+  double area = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    area += 0.5 * static_cast<double>((mesh.vertices[b] - mesh.vertices[a])
+                                          .cross(mesh.vertices[c] - mesh.vertices[a])
+                                          .norm());
+  return area;
+}
+
+} // namespace
+
+// A ball of 6 mm less a cap: what is left below a plane 2 mm off its centre.
+TEST(DrilledMesh, IsWhatTheDrillLeft)
+{
+  constexpr double kRadius = 6.0, kOff = 2.0;
+  const auto mesh = ballMesh(Vector(0.3, -0.2, 0.1), kRadius, 96);
+  const Vector normal = Vector(1.0, 2.0, -0.5).normalized();
+  for (const auto& direction : {Eigen::Matrix3d::Identity().eval(), obliqueMirrored()})
+  {
+    const core::GridGeometry grid = cube(64, 0.4, direction);
+    const auto mask =
+        cut(grid, [&](const Vector& p) { return kOff - (p - Vector(0.3, -0.2, 0.1)).dot(normal); });
+    const auto left = DrilledMesh(mesh).surface(*mask);
+    ASSERT_TRUE(left);
+    const double height = kRadius - kOff; // of the cap that is gone
+    const double volume = 4.0 / 3.0 * kPi * std::pow(kRadius, 3) -
+                          kPi * height * height / 3.0 * (3.0 * kRadius - height);
+    const double area = 4.0 * kPi * kRadius * kRadius - 2.0 * kPi * kRadius * height +
+                        kPi * (kRadius * kRadius - kOff * kOff);
+    EXPECT_NEAR(left->mesh.signedVolume(), volume, 0.005 * volume) << "it is closed";
+    EXPECT_NEAR(areaOf(left->mesh), area, 0.005 * area);
+    ASSERT_EQ(left->normals.size(), left->mesh.vertices.size());
+    for (const auto& triangle : left->mesh.triangles)
+      for (const std::uint32_t vertex : triangle)
+      {
+        const Vector at = left->mesh.vertices[vertex].cast<double>() - Vector(0.3, -0.2, 0.1);
+        EXPECT_LE(at.norm(), kRadius + 0.02);
+        EXPECT_LE(at.dot(normal), kOff + 0.02);
+        EXPECT_NEAR(left->normals[vertex].norm(), 1.0F, 0.05F); // interpolated
+      }
+  }
+}
+
+// A hole in the middle of large triangles, all of whose corners stay.
+TEST(DrilledMesh, IsCutWithinItsTriangles)
+{
+  const auto mesh = boxMesh(Vector(-6.0, -6.0, -6.0), Vector(6.0, 6.0, 6.0));
+  const core::GridGeometry grid = cube(64, 0.4);
+  const auto mask =
+      cut(grid, [](const Vector& p) { return (p - Vector(0.0, -6.0, 0.0)).norm() - 3.0; });
+  const auto left = DrilledMesh(mesh).surface(*mask);
+  ASSERT_TRUE(left);
+  const double gone = 0.5 * 4.0 / 3.0 * kPi * 27.0;
+  EXPECT_NEAR(mesh->signedVolume() - left->mesh.signedVolume(), gone, 0.02 * gone);
+  const double area = 6.0 * 144.0 - kPi * 9.0 + 2.0 * kPi * 9.0;
+  EXPECT_NEAR(areaOf(left->mesh), area, 0.005 * area);
+}
+
+TEST(DrilledMesh, IsWholeWhereNothingWasCut)
+{
+  const core::GridGeometry grid = cube(64, 0.4);
+  const DrilledMesh mesh(ballMesh(Vector::Zero(), 4.0));
+  EXPECT_FALSE(mesh.surface(volume::CutMask(grid)));
+  EXPECT_FALSE(mesh.surface(
+      *cut(grid, [](const Vector& p) { return (p - Vector(9.0, 9.0, 9.0)).norm() - 2.0; })));
+  core::TriangleMesh open = *ballMesh(Vector::Zero(), 4.0);
+  open.triangles.pop_back();
+  EXPECT_FALSE(DrilledMesh(std::make_shared<const core::TriangleMesh>(open))
+                   .surface(*cut(grid, [](const Vector& p) { return p.x(); })));
+  EXPECT_FALSE(mesh.reach(grid).empty());
+  EXPECT_TRUE(
+      mesh.reach(cube(8, 0.4, Eigen::Matrix3d::Identity(), Vector(50.0, 0.0, 0.0))).empty());
+  // All of it is gone.
+  const auto nothing = mesh.surface(*cut(grid, [](const Vector& p) { return p.norm() - 8.0; }));
+  ASSERT_TRUE(nothing);
+  EXPECT_TRUE(nothing->mesh.triangles.empty());
+}
+
+namespace
+{
+
+SceneContents drilledScene(bool drillable = true)
+{
+  SceneContents contents = cutBall();
+  MeshContents mesh;
+  mesh.name = "ossicle";
+  mesh.mesh = ballMesh(Vector(1.0, -9.0, 2.0), 3.0);
+  mesh.look.color = {0.1F, 0.15F, 0.9F};
+  mesh.look.drillable = drillable;
+  contents.meshes = {mesh};
+  return contents;
+}
+
+} // namespace
+
+TEST(DrilledMeshPicture, FollowsTheCutAndItsUndo)
+{
+  ScenePicture scene;
+  scene.setCamera(slanting());
+  OffscreenView view(kWidth, kHeight);
+  SceneContents contents = drilledScene();
+  const auto mask = contents.mask;
+  contents.mask = nullptr;
+  scene.setContents(contents);
+  const int whole = countBlue(view.render(scene));
+  scene.maskChanged(mask, mask->geometry().fullBox());
+  const Picture drilled = view.render(scene);
+  EXPECT_LT(countBlue(drilled), 0.9 * whole);
+  EXPECT_GT(countBlue(drilled), 0);
+  EXPECT_EQ(drilled.rgb, draw(drilledScene(), slanting()).rgb) << "as from the start";
+  scene.maskChanged(nullptr, mask->geometry().fullBox());
+  EXPECT_EQ(countBlue(view.render(scene)), whole);
+  EXPECT_EQ(countBlue(draw(drilledScene(false), slanting())), whole) << "the drill leaves it";
+  const ReferencePicture truth = truthOf(drilledScene(), slanting());
+  double squares = 0.0;
+  for (std::size_t n = 0; n < truth.rgb.size(); ++n)
+    squares += std::pow(drilled.rgb[n] - 255.0 * static_cast<double>(truth.rgb[n]), 2);
+  EXPECT_LE(std::sqrt(squares / static_cast<double>(truth.rgb.size())), 4.0); // edges of polygons
+}

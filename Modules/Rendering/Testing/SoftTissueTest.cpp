@@ -1,0 +1,251 @@
+#include <cmath>
+
+#include "PictureComparison.h"
+#include "PictureScenes.h"
+
+using namespace petrous;
+using namespace petrous::rendering;
+using namespace petrous::rendering::synthetic;
+
+namespace
+{
+
+/// Skin, fat and muscle over the intensities that the shells of the scenes' bones have.
+appearance::Material shells(double scale = 1.0)
+{
+  const auto opacity = [scale](double of) { return static_cast<float>(of * scale); };
+  return {appearance::TransferFunction({{-900.0, {0.9F, 0.7F, 0.6F}, 0.0F},
+                                        {-500.0, {0.9F, 0.7F, 0.6F}, opacity(0.3)},
+                                        {-300.0, {0.9F, 0.85F, 0.5F}, opacity(0.02)},
+                                        {0.0, {0.6F, 0.2F, 0.15F}, opacity(0.2)},
+                                        {200.0, {0.5F, 0.15F, 0.1F}, opacity(0.25)}})};
+}
+
+SceneContents withShells(SceneContents contents)
+{
+  contents.softTissue = shells();
+  return contents;
+}
+
+/// All of one intensity, 16 mm wide.
+SceneContents block(double value, float opacity, const core::GridGeometry& grid)
+{
+  SceneContents contents;
+  contents.ct = image(grid, [value](const Vector&) { return value; });
+  contents.softTissue =
+      appearance::Material{appearance::TransferFunction::constant({0.8F, 0.4F, 0.2F}, opacity)};
+  return contents;
+}
+
+/// RMS of all pixels, 1/255, and the largest difference of a channel.
+struct Error
+{
+  double rms = 0.0;
+  double most = 0.0;
+};
+
+Error errorOf(const Picture& picture, const ReferencePicture& truth)
+{
+  Error error;
+  for (std::size_t n = 0; n < truth.rgb.size(); ++n)
+  {
+    const double off = std::abs(picture.rgb[n] - 255.0 * static_cast<double>(truth.rgb[n]));
+    error.rms += off * off;
+    error.most = std::max(error.most, off);
+  }
+  error.rms = std::sqrt(error.rms / static_cast<double>(truth.rgb.size()));
+  return error;
+}
+
+struct Named
+{
+  const char* name;
+  SceneContents contents;
+};
+
+SceneContents softSecond()
+{
+  SceneContents contents = hollowBall(oblique());
+  contents.second = movedWaves();
+  contents.softTissue = waveMaterial(0.0F);
+  contents.softTissue->transfer =
+      appearance::TransferFunction({{200.0, {0.1F, 0.1F, 0.9F}, 0.0F},
+                                    {500.0, {0.2F, 0.9F, 0.3F}, 0.05F},
+                                    {800.0, {0.9F, 0.9F, 0.2F}, 0.15F}});
+  return contents;
+}
+
+SceneContents clipped()
+{
+  SceneContents contents = cutBall(0.35F);
+  contents.clipping = {{Vector(0.0, 0.0, 2.0), Vector(0.2, -0.3, -1.0).normalized()}};
+  contents.crop = core::IndexBox{{4, 0, 0}, {44, 48, 48}};
+  return contents;
+}
+
+SceneContents shadowed()
+{
+  SceneContents contents = cutBall();
+  contents.light.setShadows(true);
+  return contents;
+}
+
+SceneContents withoutBone()
+{
+  SceneContents contents = labelledBall(cube(48, 0.5));
+  contents.boneShown = false;
+  return contents;
+}
+
+std::vector<Named> scenes()
+{
+  return {{"opaque", withShells(hollowBall())},
+          {"translucent", withShells(translucentBall())},
+          {"structures", withShells(labelledBall(cube(48, 0.5), 1.0F))},
+          {"cut", withShells(cutBall())},
+          {"all", withShells(fullScene())},
+          {"clipped", withShells(clipped())},
+          {"shadows", withShells(shadowed())},
+          {"noBone", withShells(withoutBone())},
+          {"secondImage", softSecond()}};
+}
+
+} // namespace
+
+class SoftTissue : public ::testing::TestWithParam<Named>
+{
+};
+
+TEST_P(SoftTissue, KeepsToTheReference)
+{
+  const SceneContents& contents = GetParam().contents;
+  const ReferencePicture truth = truthOf(contents, slanting());
+  const Shot shot = shoot(contents, slanting());
+  const Error error = errorOf(shot.picture, truth);
+  RecordProperty("rms", std::to_string(error.rms));
+  RecordProperty("most", std::to_string(error.most));
+  SceneContents without = contents;
+  without.softTissue.reset();
+  const ReferencePicture surfacesAlone = truthOf(without, slanting());
+  // Shadows have an error of their own (record 33).
+  const double shadows =
+      contents.light.shadows ? errorOf(shoot(without, slanting()).picture, surfacesAlone).rms : 0.0;
+  EXPECT_LE(error.rms, 1.0 + shadows) << "largest " << error.most;
+  const Agreement agreement = compare(shot, truth, contents.ct->geometry().minSpacing());
+  EXPECT_LE(agreement.others, 0.2);
+  // It is there, and hides no surface from the depth.
+  EXPECT_GT(errorOf(shot.picture, surfacesAlone).rms, 5.0);
+  const Agreement surfaces = compare(shot, surfacesAlone, contents.ct->geometry().minSpacing());
+  EXPECT_LE(surfaces.others, 0.2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SoftTissue, ::testing::ValuesIn(scenes()),
+                         [](const auto& named) { return std::string(named.param.name); });
+
+// Uniform tissue of extinction s: the light of it and what it lets through, 1 - exp(-s d).
+TEST(SoftTissueBlock, IsTheIntegralOfItsTransferFunction)
+{
+  constexpr float kOpacity = 0.08F;
+  const SceneContents contents = block(40.0, kOpacity, cube(33, 0.5));
+  core::CameraPose ahead;
+  ahead.position = {0.0, -200.0, 0.0};
+  ahead.focalPoint = {0.0, 0.0, 0.0};
+  ahead.viewUp = {0.0, 0.0, 1.0};
+  ahead.viewAngle = 2.0; // all rays are through both faces
+  const double opacity = 1.0 - std::pow(1.0 - static_cast<double>(kOpacity), 16.0);
+  const LightSettings light;
+  const double lamp = light.ambient + (1.0 - light.ambient) * optics::kInteriorFacing;
+  const Picture picture = draw(contents, ahead);
+  const ReferencePicture truth = truthOf(contents, ahead);
+  const double color[] = {0.8, 0.4, 0.2};
+  for (std::size_t c = 0; c < 3; ++c)
+  {
+    const double expected = opacity * lamp * color[c] + (1.0 - opacity) * optics::kBackground[c];
+    const std::size_t middle =
+        3 * (static_cast<std::size_t>(kHeight / 2) * kWidth + kWidth / 2) + c;
+    EXPECT_NEAR(static_cast<double>(truth.rgb[middle]), expected, 1e-3);
+    EXPECT_NEAR(picture.rgb[middle], 255.0 * expected, 1.0);
+  }
+}
+
+// A half of the block is cut away: rays pass through the other 8 mm.
+TEST(SoftTissueBlock, IsNotWhereItWasCutAway)
+{
+  SceneContents contents = block(40.0, 0.08F, cube(33, 0.5));
+  contents.mask = cut(contents.ct->geometry(), [](const Vector& p) { return p.y(); });
+  core::CameraPose ahead;
+  ahead.position = {0.0, -200.0, 0.0};
+  ahead.focalPoint = {0.0, 0.0, 0.0};
+  ahead.viewUp = {0.0, 0.0, 1.0};
+  ahead.viewAngle = 2.0;
+  const double opacity = 1.0 - std::pow(1.0 - 0.08, 8.0);
+  const LightSettings light;
+  const double lamp = light.ambient + (1.0 - light.ambient) * optics::kInteriorFacing;
+  const double expected = opacity * lamp * 0.8 + (1.0 - opacity) * optics::kBackground[0];
+  const std::size_t middle = 3 * (static_cast<std::size_t>(kHeight / 2) * kWidth + kWidth / 2);
+  EXPECT_NEAR(static_cast<double>(truthOf(contents, ahead).rgb[middle]), expected, 2e-3);
+  EXPECT_NEAR(draw(contents, ahead).rgb[middle], 255.0 * expected, 1.5);
+}
+
+// Skin is lit as a surface: brighter where it faces the lamp than at its silhouette.
+TEST(SoftTissueBlock, ASteepChangeIsLitAsASurface)
+{
+  const appearance::TransferFunction& transfer = shells().transfer;
+  const double edge = optics::softEdge(transfer);
+  EXPECT_DOUBLE_EQ(edge, 1100.0 / 20.0);
+  const Vector ray(0.0, 1.0, 0.0);
+  EXPECT_DOUBLE_EQ(optics::softFacing(Vector::Zero(), ray, edge), optics::kInteriorFacing);
+  EXPECT_DOUBLE_EQ(optics::softFacing(Vector(0.0, edge, 0.0), ray, edge),
+                   0.5 * (optics::kInteriorFacing + 1.0));
+  EXPECT_NEAR(optics::softFacing(Vector(1e6, 0.0, 0.0), ray, edge), 0.0, 1e-4);
+  EXPECT_NEAR(optics::softFacing(Vector(0.0, -1e6, 0.0), ray, edge), 1.0, 1e-4);
+  EXPECT_DOUBLE_EQ(optics::softFacing(Vector(1e6, 0.0, 0.0), ray, 0.0), optics::kInteriorFacing);
+}
+
+TEST(SoftTissueVariant, CostsNothingWhereItHasNoOpacity)
+{
+  SceneContents contents = hollowBall();
+  const Shot without = shoot(contents, slanting());
+  contents.softTissue = shells(0.0);
+  const Shot transparent = shoot(contents, slanting());
+  EXPECT_EQ(transparent.statistics.variant, without.statistics.variant);
+  EXPECT_EQ(transparent.picture.rgb, without.picture.rgb);
+  contents.softTissue = shells();
+  EXPECT_EQ(shoot(contents, slanting()).statistics.variant,
+            (std::vector<std::string>{"ct", "bone", "interior", "soft tissue"}));
+}
+
+// Between the skin and a far bone is nothing to see: it is leapt over.
+TEST(SoftTissueVariant, IsLeaptOverWhereItIsTransparent)
+{
+  const core::GridGeometry grid = cube(96, 0.5);
+  const auto counted = [&](const appearance::Material& soft)
+  {
+    SceneContents contents;
+    contents.ct = image(grid,
+                        [](const Vector& p)
+                        {
+                          const double r = p.norm();
+                          return r < 4.0 ? 1000.0 : r < 20.0 ? 40.0 : -1000.0;
+                        });
+    contents.iso = kIso;
+    contents.materials = {boneMaterial()};
+    contents.softTissue = soft;
+    RenderQuality exact;
+    exact.filterBits = RenderQuality::kExactFilterBits;
+    ScenePicture scene;
+    scene.setContents(contents);
+    scene.setCamera(slanting());
+    scene.setQuality(exact);
+    scene.setCounting(true);
+    OffscreenView view(kWidth, kHeight);
+    view.render(scene);
+    return scene.statistics().samplesPerPixel;
+  };
+  const double everywhere = counted({appearance::TransferFunction(
+      {{-900.0, {1.0F, 1.0F, 1.0F}, 0.0F}, {40.0, {1.0F, 1.0F, 1.0F}, 0.01F}})});
+  const double skin = counted({appearance::TransferFunction({{-900.0, {1.0F, 1.0F, 1.0F}, 0.0F},
+                                                             {-500.0, {1.0F, 1.0F, 1.0F}, 0.02F},
+                                                             {0.0, {1.0F, 1.0F, 1.0F}, 0.0F}})});
+  EXPECT_LT(skin, 0.5 * everywhere);
+}

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "ShadedMesh.h"
+#include "petrous/Appearance/StructureAppearance.h"
+#include "petrous/Volume/CutMask.h"
+#include "petrous/Volume/MeshInside.h"
+#include "petrous/Volume/MeshTree.h"
+
+namespace petrous::rendering
+{
+
+/// What the drill leaves of a closed mesh, patient LPS mm: its surface where the mask exceeds one
+/// half, and the wall of the cut, the mask's level one half, inside it. So it is drawn as it is
+/// felt (Volume/TissueField.h).
+///
+/// The mesh's own triangles are exact but for the line along which they are cut; there, and on the
+/// wall, edges are no longer than half of the smallest voxel edge, and linear between vertices that
+/// lie on the level. Immutable.
+class DrilledMesh
+{
+public:
+  /// Throws InvalidParameter for vertices that do not exist or are not finite.
+  explicit DrilledMesh(std::shared_ptr<const core::TriangleMesh> mesh);
+
+  /// Whether drill and hand meet a mesh of this look; it must be closed, too.
+  static bool isDrilled(const appearance::StructureAppearance& look);
+
+  bool closed() const noexcept { return m_inside.openEdges() == 0; }
+
+  /// Voxels of the mask that can cut the mesh.
+  core::IndexBox reach(const core::GridGeometry& grid) const;
+
+  /// nullopt: it is not cut, or not closed.
+  std::optional<ShadedMesh> surface(const volume::CutMask& mask) const;
+
+private:
+  std::shared_ptr<const core::TriangleMesh> m_mesh;
+  volume::MeshTree m_tree;
+  volume::MeshInside m_inside;
+};
+
+} // namespace petrous::rendering

@@ -7693,8 +7693,8 @@
         <translation>der Name eines Zugangs muss 1 bis 100 Byte UTF-8 sein, ohne Steuerzeichen, unsichtbare Zeichen oder Strich am Anfang</translation>
     </message>
     <message>
-        <source>the name of a part must be 1 to 200 bytes of UTF-8 without control characters or characters that are not seen, and not 'ct'; give one with NAME=FILE</source>
-        <translation>der Name eines Teils muss 1 bis 200 Byte UTF-8 sein, ohne Steuerzeichen oder unsichtbare Zeichen, und nicht „ct“</translation>
+        <source>the name of a part must be 1 to 200 bytes of UTF-8 without control characters or characters that are not seen, and not 'ct' or 'ct:soft-tissue'; give one with NAME=FILE</source>
+        <translation>der Name eines Teils muss 1 bis 200 Byte UTF-8 sein, ohne Steuerzeichen oder unsichtbare Zeichen, und nicht „ct“ oder „ct:soft-tissue“</translation>
     </message>
     <message>
         <source>the name of who signs must be 1 to 100 bytes of UTF-8 without control characters or characters that are not seen</source>

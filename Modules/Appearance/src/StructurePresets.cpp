@@ -373,4 +373,23 @@ StructureAppearance boneLook()
   return StructurePresets::builtIn().preset("bone");
 }
 
+StructureAppearance softTissueLook()
+{
+  StructureAppearance look = StructurePresets::builtIn().preset("soft-tissue");
+  look.shown = false;
+  makeUntouchable(look);
+  return look;
+}
+
+void readPrimaryImage(StructureAppearance& softTissue)
+{
+  if (softTissue.sourceImage.empty())
+    return;
+  const StructureAppearance usual = softTissueLook();
+  softTissue.sourceImage.clear();
+  softTissue.preset = usual.preset;
+  softTissue.transfer = usual.transfer;
+  softTissue.relative = usual.relative;
+}
+
 } // namespace petrous::appearance

@@ -106,6 +106,9 @@ struct SceneContents
   bool boneShown = true;                             ///< false: the CT's surface is not drawn
   std::shared_ptr<const volume::LabelField> labels;  ///< null: none
   std::vector<appearance::Material> materials;       ///< row 0: bone; row i: label index i
+  /// What is neither bone nor a structure nor cut away, drawn by a transfer function of its own; its
+  /// surface opacity and whether it is a lumen do not count. nullopt: it is air to a ray.
+  std::optional<appearance::Material> softTissue;
   SecondImage second;
   std::vector<ClippingPlane> clipping;
   std::optional<core::IndexBox> crop; ///< drawn CT voxels; nullopt: all

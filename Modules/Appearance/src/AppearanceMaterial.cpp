@@ -79,8 +79,7 @@ std::optional<Material> softTissueMaterial(const StructureAppearance& look,
   if (!look.transfer || look.transfer->points().size() < 2 ||
       (look.relative && !look.sourceImage.empty()))
     return std::nullopt;
-  const volume::IntensityScale hounsfield;
-  Material material = materialOf(look, scale.calibrated ? hounsfield : scale);
+  Material material = materialOf(look, scale);
   std::vector<ControlPoint> points = material.transfer.points();
   for (ControlPoint& point : points)
     point.opacity *= look.opacity;

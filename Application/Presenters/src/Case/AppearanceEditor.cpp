@@ -48,9 +48,7 @@ AppearanceEditor::Part partOf(const std::string& name, const StructureAppearance
 // As it is edited: without the factor and the foot of softTissueMaterial.
 AppearanceEditor::Part softTissueOf(const scene::Case& value)
 {
-  const volume::IntensityScale scale = calibratedScale(value);
-  auto part = partOf(AppearanceEditor::kSoftTissue, value.softTissue,
-                     scale.calibrated ? volume::IntensityScale() : scale);
+  auto part = partOf(AppearanceEditor::kSoftTissue, value.softTissue, softTissueScale(value));
   if (part.points.empty())
     part.transfer = TransferFunction::constant(value.softTissue.color, 0.0F); // not drawn
   return part;
@@ -682,8 +680,8 @@ StructureAppearance fitted(const scene::Case& value, const std::string& part,
   AppearanceHistograms histograms;
   if (const auto counting = histograms.counting(value))
     histograms.take(counting(progress));
-  const auto histogram = isBone || isSoftTissue ? histograms.image(look->sourceImage)
-                                                : histograms.within(value, part);
+  const auto histogram =
+      isBone || isSoftTissue ? histograms.image(look->sourceImage) : histograms.within(value, part);
   if (!histogram || histogram->count() == 0)
     throw core::InvalidParameter("'" + part + "' has no voxel in the image that it reads");
   if (isSoftTissue)

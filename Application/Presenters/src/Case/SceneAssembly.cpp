@@ -60,7 +60,7 @@ SoftTissue softTissueOf(const scene::Case& value)
   const scene::ImagePart* mr = scene::findMr(value, look.sourceImage);
   if (!look.sourceImage.empty() && !(mr && mr->registered))
     return {{}, "'" + look.sourceImage + "' is not registered with the CT"};
-  auto material = softTissueMaterial(look, calibratedScale(value));
+  auto material = softTissueMaterial(look, softTissueScale(value));
   std::string why = material ? "" : "it is transparent at every intensity";
   return {std::move(material), std::move(why)};
 }

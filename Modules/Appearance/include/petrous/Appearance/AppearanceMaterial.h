@@ -37,8 +37,8 @@ Material lumenMaterial(const StructureAppearance& look, const Material& bone,
 ///
 /// The opacity of the look is a factor of that of its transfer function, as there is no surface.
 /// Below its first point it is transparent, falling to it over a twentieth of the function's width,
-/// so that air is not drawn. Preset values are HU: unchanged if `scale` is calibrated, whatever its
-/// iso value, else mapped to it.
+/// so that air is not drawn. `scale`: as for materialOf, but Hounsfield units where the image has
+/// them, whatever the threshold of bone.
 ///
 /// nullopt, as there is nothing to draw: no transfer function or one with a single point, which
 /// would fill air too; a preset's over an MR; transparent at every intensity.

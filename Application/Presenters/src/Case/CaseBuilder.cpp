@@ -843,8 +843,10 @@ std::string validName(const std::string& name, const IsTaken& isTaken,
   std::string valid = core::utf8Prefix(scene::withoutInvisible(name), kLongest);
   if (valid.empty())
     valid = "structure";
-  if (valid == "ct" || valid == scene::kSoftTissue)
-    valid = "structure " + valid;
+  if (valid == "ct")
+    valid = "structure ct";
+  if (valid == scene::kSoftTissue)
+    valid = "structure soft-tissue";
   if (isTaken(valid))
     valid = scene::freeName(core::utf8Prefix(valid, kLongest - 8), isTaken);
   if (valid != name)

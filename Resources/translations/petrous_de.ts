@@ -7488,7 +7488,7 @@ Nichts verlässt diesen Rechner.</translation>
     </message>
     <message>
         <source>Opacity; of a lumen, how much it tints what is around it; of soft tissue, a factor of that of its function</source>
-        <translation>Deckkraft; eines Hohlraums: wie stark er tönt, was um ihn ist; des Weichgewebes: ein Faktor der Deckkraft seiner Funktion</translation>
+        <translation>Deckkraft; eines Lumens: wie sehr es tönt, was um es ist; des Weichgewebes: ein Faktor der Deckkraft seiner Funktion</translation>
     </message>
 </context>
 <context>

@@ -233,11 +233,11 @@
     </message>
     <message>
         <source>structure ct</source>
-        <translation type="unfinished"></translation>
+        <translation>Struktur ct</translation>
     </message>
     <message>
         <source>structure soft-tissue</source>
-        <translation type="unfinished"></translation>
+        <translation>Struktur soft-tissue</translation>
     </message>
     <message>
         <source>structure '%1' has this name since its own is too long, taken or reserved, or has characters that are not seen</source>
@@ -1245,7 +1245,7 @@
     </message>
     <message>
         <source>'%1' is not registered with the CT</source>
-        <translation>„%1“ ist nicht auf das CT registriert</translation>
+        <translation>„%1“ ist nicht mit dem CT registriert</translation>
     </message>
     <message>
         <source>it is transparent at every intensity</source>

@@ -375,10 +375,15 @@ StructureAppearance boneLook()
 
 StructureAppearance softTissueLook()
 {
-  StructureAppearance look = StructurePresets::builtIn().preset("soft-tissue");
-  look.shown = false;
-  makeUntouchable(look);
-  return look;
+  // Each case has one, and the catalogue is long.
+  static const StructureAppearance kLook = []
+  {
+    StructureAppearance look = StructurePresets::builtIn().preset("soft-tissue");
+    look.shown = false;
+    makeUntouchable(look);
+    return look;
+  }();
+  return kLook;
 }
 
 void readPrimaryImage(StructureAppearance& softTissue)

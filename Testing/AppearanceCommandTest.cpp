@@ -86,7 +86,9 @@ protected:
     for (const auto& entry : list["parts"])
       if (entry["name"] == name)
         return entry;
-    return name == "ct" ? list["bone"] : nlohmann::json();
+    return name == "ct"                          ? list["bone"]
+           : name == list["soft_tissue"]["name"] ? list["soft_tissue"]
+                                                 : nlohmann::json();
   }
 };
 
@@ -116,7 +118,7 @@ TEST_F(AppearanceCommand, PresetsReplaceALookAndKeepItsFlags)
   EXPECT_EQ(json("info ear")["bone"]["preset"], "bone-translucent");
   json("appearance ear --set cochlea=vessel");
   EXPECT_EQ(part("cochlea")["preset"], "artery");
-  EXPECT_EQ(json("appearance --presets")["presets"].size(), 14u);
+  EXPECT_EQ(json("appearance --presets")["presets"].size(), 16u);
 }
 
 TEST_F(AppearanceCommand, ATransferFunctionIsKeptAsItWasGiven)
@@ -136,9 +138,9 @@ TEST_F(AppearanceCommand, PresetsOfTheLibraryAreSavedListedSetAndDeleted)
   json("appearance ear --tf cochlea=" + file("f.json", kTransfer) + " --opacity cochlea=0.5");
   json("appearance ear --save-preset 'cochlea=our cochlea'");
   const auto presets = json("appearance --presets")["presets"];
-  ASSERT_EQ(presets.size(), 15u);
-  EXPECT_EQ(presets[14]["name"], "our cochlea");
-  EXPECT_EQ(presets[14]["own"], true);
+  ASSERT_EQ(presets.size(), 17u);
+  EXPECT_EQ(presets[16]["name"], "our cochlea");
+  EXPECT_EQ(presets[16]["own"], true);
   EXPECT_EQ(presets[0]["own"], false);
   json("appearance ear --set 'ct=our cochlea'");
   EXPECT_EQ(part("ct")["preset"], "our cochlea");
@@ -147,7 +149,7 @@ TEST_F(AppearanceCommand, PresetsOfTheLibraryAreSavedListedSetAndDeleted)
   EXPECT_NE(run("appearance ear --save-preset cochlea=bone").code, 0);
   EXPECT_NE(run("appearance --delete-preset nerve").code, 0);
   EXPECT_NE(run("appearance --delete-preset xyzzy").code, 0);
-  EXPECT_EQ(json("appearance --delete-preset 'our cochlea'")["presets"].size(), 14u);
+  EXPECT_EQ(json("appearance --delete-preset 'our cochlea'")["presets"].size(), 16u);
   EXPECT_EQ(part("ct")["preset"], "our cochlea") << "a case keeps what it has";
 }
 
@@ -290,6 +292,64 @@ TEST_F(AppearanceCommand, BoneCanBeHiddenButStaysTissue)
   EXPECT_EQ(part("ct")["flags"], "touchable,drillable");
   EXPECT_TRUE(run("appearance ear --flags ct=shown,touchable,drillable").err.empty());
   EXPECT_EQ(part("ct")["flags"], "shown,touchable,drillable");
+}
+
+TEST_F(AppearanceCommand, SoftTissueIsAPartThatIsDrawnOnly)
+{
+  EXPECT_EQ(part("soft-tissue")["flags"], "none") << "not shown at first";
+  EXPECT_EQ(part("soft-tissue")["preset"], "soft-tissue");
+  EXPECT_TRUE(part("soft-tissue")["not_drawn"].is_null());
+  EXPECT_TRUE(run("appearance ear --flags soft-tissue=shown").err.empty());
+  EXPECT_EQ(json("info ear")["soft_tissue"]["flags"], "shown");
+  const auto outcome = run("appearance ear --flags ct:soft-tissue=shown,touchable");
+  EXPECT_NE(outcome.err.find("air to hand and drill"), std::string::npos) << outcome.err;
+  EXPECT_EQ(part("soft-tissue")["flags"], "shown");
+  expectRefused("appearance ear --warn soft-tissue=2", 3, "air to hand and drill");
+  expectRefused("appearance ear --set soft-tissue=air-cells", 3, "lumen");
+  expectRefused("appearance ear --fit soft-tissue", 3, "preset");
+
+  json("appearance ear --set soft-tissue=skin --opacity soft-tissue=0.5");
+  EXPECT_EQ(part("soft-tissue")["preset"], "skin");
+  EXPECT_EQ(part("soft-tissue")["opacity"], 0.5);
+  EXPECT_EQ(part("soft-tissue")["flags"], "shown");
+  EXPECT_NE(run("appearance ear --tf soft-tissue=none").err.find("not drawn"), std::string::npos);
+  EXPECT_NE(part("soft-tissue")["not_drawn"].get<std::string>().find("fill air"),
+            std::string::npos);
+  EXPECT_EQ(run("appearance ear --list").code, 0);
+}
+
+TEST_F(AppearanceCommand, SoftTissueOfAnMrHasAFunctionOfItsValues)
+{
+  const auto outcome = run("appearance ear --flags soft-tissue=shown --source soft-tissue=t2");
+  EXPECT_NE(outcome.err.find("not registered"), std::string::npos) << outcome.err;
+  const auto ofMr = part("soft-tissue");
+  EXPECT_EQ(ofMr["source"], "t2");
+  EXPECT_EQ(ofMr["transfer"]["relative"], false);
+  EXPECT_EQ(ofMr["transfer"]["points"][0]["opacity"], 0.0);
+  EXPECT_GT(ofMr["transfer"]["points"][0]["value"], -950.0) << "air is transparent";
+  EXPECT_LT(ofMr["transfer"]["points"][0]["value"], 0.0);
+  json("appearance ear --source soft-tissue=ct");
+  EXPECT_EQ(part("soft-tissue")["transfer"]["relative"], true);
+  json("appearance ear --source soft-tissue=t2 --tf soft-tissue=" + file("f.json", kTransfer));
+  EXPECT_EQ(part("soft-tissue")["source"], "t2");
+  EXPECT_EQ(part("soft-tissue")["transfer"]["points"].size(), 2u) << "what was given";
+  json("appearance ear --fit soft-tissue");
+  EXPECT_EQ(part("soft-tissue")["transfer"]["points"], ofMr["transfer"]["points"]);
+  json("remove ear --part t2");
+  EXPECT_EQ(part("soft-tissue")["source"], "ct");
+  EXPECT_EQ(part("soft-tissue")["transfer"]["relative"], true);
+}
+
+TEST_F(AppearanceCommand, AStructureMayBeCalledSoftTissue)
+{
+  json("new other --ct " + quoted(m_folder / "head.nrrd") +
+       " --labels soft-tissue=" + quoted(m_folder / "cochlea.nrrd"));
+  json("appearance other --warn soft-tissue=1.5 --flags ct:soft-tissue=shown");
+  const auto list = json("appearance other --list");
+  EXPECT_EQ(list["soft_tissue"]["name"], "ct:soft-tissue");
+  EXPECT_EQ(list["soft_tissue"]["flags"], "shown");
+  ASSERT_EQ(list["parts"][0]["name"], "soft-tissue");
+  EXPECT_EQ(list["parts"][0]["warn_mm"], 1.5);
 }
 
 TEST_F(AppearanceCommand, PartsThatAreNoKnownStructureDifferInColour)

@@ -246,6 +246,34 @@ TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
   expectRefused(render("--light-falloff nan"), 2, "--light-falloff");
 }
 
+TEST_F(RenderCommand, SoftTissueOfOnePictureLeavesTheCase)
+{
+  const auto drawn = [this](const std::string& options)
+  {
+    json(render("--camera " + quoted(fromTheRight()) + " " + options));
+    return textOf(m_folder / "p.png");
+  };
+  const std::string plain = drawn("");
+  EXPECT_EQ(drawn("--no-soft-tissue"), plain);
+  for (const char* good : {"--soft-tissue", "--soft-tissue=skin"})
+  {
+    const auto outcome = run(render(good));
+    EXPECT_EQ(outcome.code, 0) << good;
+    EXPECT_EQ(outcome.err.find("soft tissue"), std::string::npos) << outcome.err;
+  }
+  // One colour would fill air too.
+  const auto outcome = run(render("--soft-tissue=other"));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("soft tissue is not drawn"), std::string::npos) << outcome.err;
+  EXPECT_EQ(drawn("--soft-tissue=other"), plain);
+  EXPECT_EQ(json("info ball")["soft_tissue"]["flags"], "none");
+  json("appearance ball --flags soft-tissue=shown --tf soft-tissue=none");
+  EXPECT_NE(run(render("")).err.find("soft tissue is not drawn"), std::string::npos);
+  EXPECT_EQ(run(render("--no-soft-tissue")).err.find("soft tissue"), std::string::npos);
+  expectRefused(render("--soft-tissue=zebra"), 3, "zebra");
+  expectRefused(render("--soft-tissue=air-cells"), 3, "lumen");
+}
+
 TEST_F(RenderCommand, ColorsBoneByItsThicknessOverAStructure)
 {
   addNerve();

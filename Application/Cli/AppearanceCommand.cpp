@@ -4,6 +4,7 @@
 #include <map>
 
 #include "CaseJson.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
 #include "Context.h"
 #include "Numbers.h"
@@ -16,6 +17,7 @@
 #include "petrous/Dissection/Catalogues.h"
 #include "petrous/Presenters/AppearanceEditor.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Scene/Case.h"
 #include "petrous/Volume/IntensityScale.h"
 
@@ -29,6 +31,13 @@ using appearance::StructureAppearance;
 using appearance::StructureProperty;
 
 using appearance::StructureAppearance;
+
+// What of the case is called soft tissue, as an option takes it.
+std::string softTissueName(const scene::Case& value)
+{
+  constexpr const char* kPlain = "soft-tissue";
+  return scene::meansSoftTissue(value, kPlain) ? kPlain : scene::kSoftTissue;
+}
 
 /// The control points in the intensities of an image.
 std::string valuesOf(const StructureAppearance& look, const volume::IntensityScale& scale)
@@ -73,9 +82,9 @@ std::string describe(const StructureAppearance& look, const volume::IntensitySca
 void listAppearance(const Context& context, const scene::Case& value)
 {
   const bool isMr = value.ct.modality == scene::Modality::Mr;
-  const auto entry =
-      [&context, isMr, scale = value.intensityScale()](
-          const std::string& name, const std::string& kind, const StructureAppearance& look)
+  const auto entry = [&context, isMr](const std::string& name, const std::string& kind,
+                                      const StructureAppearance& look,
+                                      const volume::IntensityScale& scale)
   {
     nlohmann::json j = lookJson(look);
     j["name"] = name;
@@ -92,18 +101,24 @@ void listAppearance(const Context& context, const scene::Case& value)
                 (isMr ? ", bright tissue at " : ", dense bone at ") +
                 display.text(value.denseBone) +
                 (display.hounsfield ? "" : " (not in Hounsfield units)"));
-  nlohmann::json bone = entry("ct", "bone", value.boneLook);
+  const volume::IntensityScale scale = value.intensityScale();
+  nlohmann::json bone = entry("ct", "bone", value.boneLook, scale);
+  nlohmann::json softTissue = entry(softTissueName(value), "soft tissue", value.softTissue,
+                                    presenters::softTissueScale(value));
+  const std::string missing = presenters::softTissueMissing(value);
+  softTissue["not_drawn"] = missing.empty() ? nlohmann::json() : nlohmann::json(missing);
   nlohmann::json parts = nlohmann::json::array();
   for (const auto& part : value.labels)
     for (const auto& structure : part.structures)
-      parts.push_back(entry(structure.name, "structure", structure.look));
+      parts.push_back(entry(structure.name, "structure", structure.look, scale));
   for (const auto& mesh : value.meshes)
-    parts.push_back(entry(mesh.name, "mesh", mesh.look));
+    parts.push_back(entry(mesh.name, "mesh", mesh.look, scale));
   context.printJson({{"case", value.name},
                      {"iso_hu", value.iso},
                      {"dense_bone_hu", value.denseBone},
                      {"hounsfield", display.hounsfield},
                      {"bone", std::move(bone)},
+                     {"soft_tissue", std::move(softTissue)},
                      {"parts", std::move(parts)}});
 }
 
@@ -156,12 +171,13 @@ std::string typeName(const StructureProperty& property)
          (property.off ? "|" + std::string(property.off) : "");
 }
 
-/// Everything of one name in the case: a structure, a mesh, both, or bone.
+/// Everything of one name in the case: a structure, a mesh, both, bone, or soft tissue.
 struct Part
 {
   std::string name;
   std::vector<StructureAppearance*> looks;
   bool bone = false;
+  bool softTissue = false;
   bool meshOnly = false;
 };
 
@@ -175,6 +191,12 @@ std::optional<Part> findPart(scene::Case& value, const std::string& name)
     part.looks = {&value.boneLook};
     return part;
   }
+  if (scene::meansSoftTissue(value, name))
+  {
+    part.softTissue = true;
+    part.looks = {&value.softTissue};
+    return part;
+  }
   if (auto* structure = scene::findStructure(value, name))
     part.looks.push_back(&structure->look);
   part.meshOnly = part.looks.empty();
@@ -185,7 +207,7 @@ std::optional<Part> findPart(scene::Case& value, const std::string& name)
 
 std::string lookedAtParts(const scene::Case& value)
 {
-  std::string there = "ct";
+  std::string there = std::string("ct, ") + softTissueName(value);
   for (const auto& labels : value.labels)
     for (const auto& structure : labels.structures)
       there += ", " + structure.name;
@@ -242,8 +264,12 @@ void setPreset(const library::Library& library, scene::Case& value, const std::s
 {
   const auto [part, name] = split(value, assignment, "--set PART=PRESET");
   const auto preset = appearance::OwnPresets(library.folder()).preset(name);
-  const StructureAppearance set =
-      presenters::withPreset(value, part.bone ? "ct" : part.name, preset);
+  const StructureAppearance set = presenters::withPreset(value, part.name, preset);
+  if (part.softTissue)
+  {
+    value.softTissue = set;
+    return;
+  }
   for (StructureAppearance* look : part.looks)
   {
     appearance::applyPreset(*look, preset);
@@ -258,8 +284,7 @@ void fit(const Context& context, scene::Case& value, const std::string& name)
   if (!part)
     throw core::InvalidParameter("case '" + value.name + "' has no structure or mesh '" + name +
                                  "'; it has " + lookedAtParts(value));
-  *part->looks.front() =
-      presenters::fitted(value, part->bone ? "ct" : part->name, context.progress());
+  *part->looks.front() = presenters::fitted(value, part->name, context.progress());
 }
 
 void savePreset(const library::Library& library, scene::Case& value, const std::string& assignment)
@@ -273,9 +298,12 @@ void saveFunction(scene::Case& value, const std::string& assignment)
   const auto [part, path] = split(value, assignment, "--save-tf PART=F.json");
   if (part.meshOnly)
     throw core::InvalidParameter("'" + part.name + "' is a mesh and has no transfer function");
-  core::writeFile(
-      path,
-      appearance::materialOf(*part.looks.front(), value.intensityScale()).transfer.toJson() + "\n");
+  const StructureAppearance& look = *part.looks.front();
+  if (part.softTissue && (!look.transfer || (look.relative && !look.sourceImage.empty())))
+    throw core::InvalidParameter("soft tissue has no transfer function");
+  const volume::IntensityScale scale =
+      part.softTissue ? presenters::softTissueScale(value) : value.intensityScale();
+  core::writeFile(path, appearance::materialOf(look, scale).transfer.toJson() + "\n");
 }
 
 // Sets a property of `part` from the text of its option.
@@ -356,7 +384,9 @@ void setSource(const Context& context, scene::Case& value, const StructureProper
     throw core::InvalidParameter("'" + part.name + "' is a mesh and reads no image");
   StructureAppearance& look = *part.looks.front();
   const scene::ImagePart* mr = scene::findMr(value, name);
-  if (name == property.off)
+  if (name == property.off && part.softTissue)
+    appearance::readPrimaryImage(look);
+  else if (name == property.off)
     look.sourceImage.clear();
   else if (!mr)
   {
@@ -369,6 +399,8 @@ void setSource(const Context& context, scene::Case& value, const StructureProper
   else if (!look.solid)
     throw core::InvalidParameter("'" + part.name +
                                  "' is a lumen: it tints the bone around it and reads the CT");
+  else if (part.softTissue)
+    look = presenters::softTissueReading(value, name);
   else
   {
     look.sourceImage = name;
@@ -386,6 +418,11 @@ void setPartFlags(const Context& context, scene::Case& value, const std::string&
   const auto [part, flags] = split(value, assignment, "--flags PART=shown,touchable,drillable");
   for (StructureAppearance* look : part.looks)
     appearance::setFlags(*look, flags);
+  if (part.softTissue && (value.softTissue.touchable || value.softTissue.drillable))
+  {
+    appearance::makeUntouchable(value.softTissue);
+    context.warn("soft tissue is air to hand and drill; of its flags only 'shown' can be changed");
+  }
   if (!part.bone || (value.boneLook.touchable && value.boneLook.drillable))
     return;
   value.boneLook.touchable = value.boneLook.drillable = true;
@@ -430,6 +467,10 @@ void setProperty(const Context& context, scene::Case& value, const StructureProp
   const auto [part, text] = split(value, assignment, option + " " + typeName(property));
   if (part.bone && property.option.notOfBone)
     throw core::InvalidParameter(property.option.notOfBone);
+  if (part.softTissue && property.option.notOfBone)
+    throw core::InvalidParameter("soft tissue is air to hand and drill; only structures and meshes "
+                                 "have " +
+                                 std::string(property.option.name));
   const auto own = kOwn.find(option);
   (own != kOwn.end() ? own->second : &setNumber)(context, value, property, part, text);
 }
@@ -462,12 +503,20 @@ void run(const Context& context, const Options& options)
     setPreset(library, value, assignment);
   for (const std::string& assignment : options.flags)
     setPartFlags(context, value, assignment);
+  // Soft tissue gets a function with another image: one that is given replaces it.
+  for (const StructureProperty& property : appearance::kStructureProperties)
+    if (property.member == StructureProperty::Member(&StructureAppearance::sourceImage))
+      for (const std::string& assignment : options.values.at(property.option.name))
+        if (split(value, assignment, property.option.name).first.softTissue)
+          setProperty(context, value, property, assignment);
   for (const StructureProperty& property : appearance::kStructureProperties)
     if (property.option.name)
       for (const std::string& assignment : options.values.at(property.option.name))
         setProperty(context, value, property, assignment);
   for (const std::string& part : options.fit)
     fit(context, value, part);
+  if (value.softTissue.shown)
+    warnOfSoftTissue(context, value);
   for (const std::string& assignment : options.savedPresets)
     appearance::OwnPresets::checkName(split(value, assignment, "--save-preset PART=NAME").second);
   std::vector<std::string> files;
@@ -515,7 +564,9 @@ void addAppearanceCommand(CLI::App& app, Context& context)
   perPart("--delete-preset", options->deletedPresets, "Delete a preset of the library", "NAME");
   perPart("--save-tf", options->savedFunctions, "Write the transfer function, as --tf reads it",
           "PART=F.json");
-  command->add_flag("--list", options->list, "List all parts; PART 'ct' is bone");
+  command->add_flag("--list", options->list,
+                    "List all parts; PART 'ct' is bone, 'soft-tissue' what is neither bone nor a "
+                    "structure");
   command->add_flag("--presets", options->presets,
                     "List the presets of the catalogue and of the library");
 }

@@ -338,6 +338,7 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
           {"dense_bone_hu", value.denseBone},
           {"hounsfield", presenters::calibratedScale(value).calibrated},
           {"bone", lookJson(value.boneLook)},
+          {"soft_tissue", lookJson(value.softTissue)},
           {"ct", std::move(ct)},
           {"mr", std::move(mr)},
           {"labels", std::move(labels)},

@@ -2,6 +2,7 @@
 
 #include "petrous/Presenters/CaseStamp.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/SceneAssembly.h"
 
 namespace petrous::cli
 {
@@ -58,6 +59,12 @@ void warnMissingPlaces(const Context& context, const scene::Case& value)
   const std::string primary = presenters::primaryName(value);
   for (const auto& [name, why] : missingPlaces(value))
     context.warn("'" + name + "' is left out, as it is nowhere on the " + primary + ": " + why);
+}
+
+void warnOfSoftTissue(const Context& context, const scene::Case& value)
+{
+  if (const std::string why = presenters::softTissueMissing(value); !why.empty())
+    context.warn("soft tissue is not drawn: " + why);
 }
 
 nlohmann::json missingPlacesJson(const scene::Case& value)

@@ -16,6 +16,9 @@ std::string placeText(const scene::Case& value, const scene::Placement& placemen
 /// Warns of parts that cannot be placed on the CT and are therefore ignored.
 void warnMissingPlaces(const Context& context, const scene::Case& value);
 
+/// If soft tissue would not be drawn, why.
+void warnOfSoftTissue(const Context& context, const scene::Case& value);
+
 /// Warns of an ear that the case does not have by its side or by the place of its images;
 /// Unknown: none is meant.
 void warnOfEar(const Context& context, const scene::Case& value, scene::Side ear);

@@ -16,9 +16,11 @@
 #include "Context.h"
 #include "Numbers.h"
 #include "ViewOptions.h"
+#include "petrous/Appearance/OwnPresets.h"
 #include "petrous/Core/CameraPose.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Presenters/AppearanceEditor.h"
 #include "petrous/Presenters/BoneThickness.h"
 #include "petrous/Presenters/CameraPaths.h"
 #include "petrous/Presenters/CasePicture.h"
@@ -56,6 +58,7 @@ struct RenderOptions
   std::optional<double> eyeSeparation, convergence;
   std::optional<double> falloff, wetness, exposure;
   std::optional<bool> shadows, toneCurve;
+  std::string softTissue; ///< a preset, "true" or "false"; empty: as saved
   std::optional<double> widthMillimetres, dotsPerInch;
   std::string along;
   int turntable = 0, frames = 0; ///< 0: not given
@@ -172,6 +175,19 @@ scene::ViewState::Clipping clippingOf(const RenderOptions& options, const scene:
   return options.plain ? scene::ViewState::Clipping() : value.view.clipping;
 }
 
+// Soft tissue as the option has it, in place of the case's.
+void takeSoftTissue(const RenderOptions& options, const library::Library& library,
+                    scene::Case& value)
+{
+  if (options.softTissue.empty())
+    return;
+  if (options.softTissue != "true" && options.softTissue != "false")
+    value.softTissue =
+        presenters::withPreset(value, scene::kSoftTissue,
+                               appearance::OwnPresets(library.folder()).preset(options.softTissue));
+  value.softTissue.shown = options.softTissue != "false";
+}
+
 // The case's scene, with the options' lamp.
 rendering::SceneContents renderContents(const RenderOptions& options, const scene::Case& value)
 {
@@ -274,6 +290,9 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
       "--tone-curve,!--no-tone-curve",
       [&options](std::int64_t times) { options.toneCurve = times > 0; },
       "Roll highlights off above 80 % instead of clipping them (as saved)");
+  command.add_flag("--soft-tissue,!--no-soft-tissue", options.softTissue,
+                   "Draw what is neither bone nor a structure (as saved); --soft-tissue=PRESET: by "
+                   "this preset (soft-tissue, skin)");
   command
       .add_option("--thickness", options.thickness,
                   "Colour bone by its thickness over a structure, 0 to 5 mm")
@@ -593,6 +612,7 @@ void render(const Context& context, RenderOptions options)
   scene::Case value = library.open(options.caseName);
   takeView(options, shot, value.view);
   shot.camera = chooseCamera(options, value);
+  takeSoftTissue(options, library, value);
   value.view.clipping = clippingOf(options, value); // what is drawn is what the picture says
   warnOfView(context, value, options.view);
   nlohmann::json stereo = nullptr;
@@ -610,6 +630,8 @@ void render(const Context& context, RenderOptions options)
   const presenters::LeftOut leftOut =
       leaveOutDamaged(context, library, value, options.withoutDamaged);
   warnMissingPlaces(context, value);
+  if (value.softTissue.shown)
+    warnOfSoftTissue(context, value);
   if (options.maskFace)
   {
     scene::ImageMask mask;

@@ -610,6 +610,22 @@
         <source>other</source>
         <translation>Sonstiges</translation>
     </message>
+    <message>
+        <source>Soft tissue</source>
+        <translation>Weichgewebe</translation>
+    </message>
+    <message>
+        <source>It has no surface: colours and opacities of the points are seen, these times the opacity of the whole. Below its first point it is transparent, as air must be.</source>
+        <translation>Es hat keine Oberfläche: Zu sehen sind Farben und Deckkräfte der Punkte, diese mal der Deckkraft des Ganzen. Unterhalb des ersten Punkts ist es durchsichtig, wie Luft es sein muss.</translation>
+    </message>
+    <message>
+        <source>soft-tissue</source>
+        <translation>Weichgewebe</translation>
+    </message>
+    <message>
+        <source>skin</source>
+        <translation>Haut</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ApproachPanel</name>
@@ -4823,6 +4839,18 @@ Verletzt: %1, %2</translation>
         <translation>&amp;Weiche Glanzlichter</translation>
     </message>
     <message>
+        <source>So&amp;ft tissue</source>
+        <translation>Weich&amp;gewebe</translation>
+    </message>
+    <message>
+        <source>Skin, fat and muscle are drawn, translucent: what is neither bone nor a structure. The Appearance panel has their colours and opacities</source>
+        <translation>Haut, Fett und Muskeln werden durchscheinend dargestellt: was weder Knochen noch eine Struktur ist. Farben und Deckkräfte stehen in der Leiste Darstellung</translation>
+    </message>
+    <message>
+        <source>Not drawn: %1</source>
+        <translation>Nicht dargestellt: %1</translation>
+    </message>
+    <message>
         <source>What is brighter than 80 % rolls off towards white instead of burning out; bright colours of structures become a little darker than in their list</source>
         <translation>Was heller als 80 % ist, geht sanft in Weiß über, statt auszubrennen; helle Farben von Strukturen werden etwas dunkler als in ihrer Liste</translation>
     </message>
@@ -7491,10 +7519,6 @@ Nichts verlässt diesen Rechner.</translation>
         <translation>Vo&amp;rrang</translation>
     </message>
     <message>
-        <source>Opacity; of a lumen, how much it tints what is around it</source>
-        <translation>Deckkraft; bei einem Lumen, wie sehr es tönt, was um es ist</translation>
-    </message>
-    <message>
         <source> %</source>
         <translation> %</translation>
     </message>
@@ -7521,6 +7545,10 @@ Nichts verlässt diesen Rechner.</translation>
     <message>
         <source>Soft tissue, as where nothing is drawn</source>
         <translation>Weichgewebe, wie wo nichts gezeichnet ist</translation>
+    </message>
+    <message>
+        <source>Opacity; of a lumen, how much it tints what is around it; of soft tissue, a factor of that of its function</source>
+        <translation>Deckkraft; eines Lumens: wie sehr es tönt, was um es ist; des Weichgewebes: ein Faktor der Deckkraft seiner Funktion</translation>
     </message>
 </context>
 <context>
@@ -7709,6 +7737,22 @@ Nichts verlässt diesen Rechner.</translation>
         <source>How near a burr may come before it is warned of, mm; 0: no warning. Double click to change</source>
         <translation>Wie nahe eine Fräse kommen darf, bevor gewarnt wird, mm; 0: keine Warnung. Doppelklick zum Ändern</translation>
     </message>
+    <message>
+        <source>Soft tissue</source>
+        <translation>Weichgewebe</translation>
+    </message>
+    <message>
+        <source>%1 (not drawn)</source>
+        <translation>%1 (nicht dargestellt)</translation>
+    </message>
+    <message>
+        <source>What is neither bone nor a structure, in 3D alone: it is air to the hand and the drill</source>
+        <translation>Was weder Knochen noch eine Struktur ist, nur in 3D: Für Hand und Fräse ist es Luft</translation>
+    </message>
+    <message>
+        <source>Not drawn: %1</source>
+        <translation>Nicht dargestellt: %1</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::StructuresPanel</name>
@@ -7892,6 +7936,14 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>Transfer function of %1</source>
         <translation>Transferfunktion von %1</translation>
+    </message>
+    <message>
+        <source>Soft tissue</source>
+        <translation>Weichgewebe</translation>
+    </message>
+    <message>
+        <source>soft tissue</source>
+        <translation>Weichgewebe</translation>
     </message>
 </context>
 <context>

@@ -8,6 +8,10 @@
         <translation>Ein Hohlraum tönt den Knochen um ihn und liest das %~1</translation>
     </message>
     <message>
+        <source>Soft tissue is not drawn: %~1</source>
+        <translation>Weichgewebe wird nicht dargestellt: %~1</translation>
+    </message>
+    <message>
         <source>'%1' is not registered: drawn in one colour until it is</source>
         <translation>„%1“ ist nicht registriert: bis dahin einfarbig dargestellt</translation>
     </message>
@@ -16,8 +20,16 @@
         <translation>Vorgaben sind für CT gemacht: einfarbig dargestellt, bis Punkte in Werten von „%1“ gesetzt sind</translation>
     </message>
     <message>
+        <source>the case has no MR '%1'</source>
+        <translation>der Fall hat kein MR „%1“</translation>
+    </message>
+    <message>
         <source>preset '%1' is that of a lumen and cannot be the look of bone</source>
         <translation>die Vorgabe „%1“ gehört zu einem Hohlraum und kann nicht die Darstellung des Knochens sein</translation>
+    </message>
+    <message>
+        <source>preset '%1' is that of a lumen and cannot be the look of soft tissue</source>
+        <translation>die Vorgabe „%1“ gehört zu einem Hohlraum und kann nicht die Darstellung des Weichgewebes sein</translation>
     </message>
     <message>
         <source>the image has no values there</source>
@@ -30,6 +42,10 @@
     <message>
         <source>'%1' is a lumen and reads the bone around it</source>
         <translation>„%1“ ist ein Hohlraum und liest den Knochen um ihn</translation>
+    </message>
+    <message>
+        <source>soft tissue of a CT is not fitted; apply a preset, whose values follow the image's scale</source>
+        <translation>Weichgewebe eines CT wird nicht angepasst; eine Vorgabe wählen, deren Werte der Skala des Bildes folgen</translation>
     </message>
     <message>
         <source>'%1' has no voxel in the image that it reads</source>
@@ -218,6 +234,10 @@
     <message>
         <source>structure ct</source>
         <translation>Struktur ct</translation>
+    </message>
+    <message>
+        <source>structure soft-tissue</source>
+        <translation>Struktur soft-tissue</translation>
     </message>
     <message>
         <source>structure '%1' has this name since its own is too long, taken or reserved, or has characters that are not seen</source>
@@ -1212,6 +1232,30 @@
         <translation>Umgerechnet aus einem Bild, für das gilt</translation>
     </message>
     <message>
+        <source>it has no transfer function of several points, and one colour would fill air too</source>
+        <translation>es hat keine Transferfunktion aus mehreren Punkten, und eine einzige Farbe füllte auch Luft</translation>
+    </message>
+    <message>
+        <source>presets are made for CT; it is drawn once it has points in values of '%1'</source>
+        <translation>Vorgaben sind für CT gemacht; es wird dargestellt, sobald es Punkte in Werten von „%1“ hat</translation>
+    </message>
+    <message>
+        <source>presets are made for CT; it is drawn once it has points in values of the MR</source>
+        <translation>Vorgaben sind für CT gemacht; es wird dargestellt, sobald es Punkte in Werten des MR hat</translation>
+    </message>
+    <message>
+        <source>'%1' is not registered with the CT</source>
+        <translation>„%1“ ist nicht mit dem CT registriert</translation>
+    </message>
+    <message>
+        <source>it is transparent at every intensity</source>
+        <translation>es ist bei jeder Intensität durchsichtig</translation>
+    </message>
+    <message>
+        <source>it reads '%1', but bone or a structure reads '%2', and a picture shows one MR</source>
+        <translation>es liest „%1“, aber Knochen oder eine Struktur liest „%2“, und ein Bild zeigt ein MR</translation>
+    </message>
+    <message>
         <source>says no modality</source>
         <translation>nennt keine Modalität</translation>
     </message>
@@ -1282,6 +1326,10 @@
     <message>
         <source>appearance</source>
         <translation>Darstellung</translation>
+    </message>
+    <message>
+        <source>soft tissue</source>
+        <translation>Weichgewebe</translation>
     </message>
     <message>
         <source>opacity</source>
@@ -1606,6 +1654,10 @@
     <message>
         <source>only bone</source>
         <translation>nur Knochen</translation>
+    </message>
+    <message>
+        <source>only soft tissue</source>
+        <translation>nur Weichgewebe</translation>
     </message>
     <message>
         <source>only %1</source>
@@ -7761,8 +7813,8 @@
         <translation>der Name eines Zugangs muss 1 bis 100 Byte UTF-8 sein, ohne Steuerzeichen, unsichtbare Zeichen oder Strich am Anfang</translation>
     </message>
     <message>
-        <source>the name of a part must be 1 to 200 bytes of UTF-8 without control characters or characters that are not seen, and not 'ct'; give one with NAME=FILE</source>
-        <translation>der Name eines Teils muss 1 bis 200 Byte UTF-8 sein, ohne Steuerzeichen oder unsichtbare Zeichen, und nicht „ct“</translation>
+        <source>the name of a part must be 1 to 200 bytes of UTF-8 without control characters or characters that are not seen, and not 'ct' or 'ct:soft-tissue'; give one with NAME=FILE</source>
+        <translation>der Name eines Teils muss 1 bis 200 Byte UTF-8 sein, ohne Steuerzeichen oder unsichtbare Zeichen, und nicht „ct“ oder „ct:soft-tissue“</translation>
     </message>
     <message>
         <source>the name of who signs must be 1 to 100 bytes of UTF-8 without control characters or characters that are not seen</source>

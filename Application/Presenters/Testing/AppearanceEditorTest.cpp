@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 
 using namespace petrous;
@@ -175,12 +176,13 @@ TEST(HistogramsWithin, ReadTheImageWhereTheLabelsLie)
       << "the second one lies beyond the image";
 }
 
-TEST_F(AppearanceEditorTest, HasBoneAndEachStructure)
+TEST_F(AppearanceEditorTest, HasBoneSoftTissueAndEachStructure)
 {
-  ASSERT_EQ(m_editor->parts().size(), 3u);
+  ASSERT_EQ(m_editor->parts().size(), 4u);
   EXPECT_EQ(m_editor->parts()[0].name, "ct");
-  EXPECT_EQ(m_editor->parts()[1].name, "nerve");
-  EXPECT_EQ(m_editor->parts()[2].name, "canal");
+  EXPECT_EQ(m_editor->parts()[1].name, scene::kSoftTissue);
+  EXPECT_EQ(m_editor->parts()[2].name, "nerve");
+  EXPECT_EQ(m_editor->parts()[3].name, "canal");
   EXPECT_EQ(m_editor->selected()->name, "ct");
   const auto axis = m_editor->axis();
   EXPECT_EQ(axis.image, "CT");
@@ -328,6 +330,64 @@ TEST_F(AppearanceEditorTest, APartsOfOtherImagesAreNotOnTheAxis)
   m_model->setLook("canal", hidden);
   m_editor->refresh();
   EXPECT_EQ(m_editor->onAxis().size(), 1u);
+}
+
+TEST_F(AppearanceEditorTest, SoftTissueIsEditedInHounsfieldUnits)
+{
+  m_model->setIso(700.0);
+  m_editor->select(AppearanceEditor::kSoftTissue);
+  ASSERT_FALSE(points().empty());
+  EXPECT_EQ(points().front().value, -700.0) << "whatever the threshold";
+  EXPECT_EQ(m_editor->notice(), "");
+  EXPECT_FALSE(m_editor->canFit());
+  EXPECT_EQ(m_editor->insideHistogram(), nullptr);
+  const auto before = m_model->value().softTissue;
+  m_editor->selectPoint(1);
+  auto point = points()[1];
+  point.opacity = 0.3F;
+  m_editor->setPoint(point);
+  EXPECT_FALSE(m_model->value().softTissue.relative);
+  EXPECT_EQ(m_model->value().softTissue.transfer->points()[1].opacity, 0.3F);
+  EXPECT_EQ(m_model->value().softTissue.transfer->points()[1].value, -400.0);
+  m_model->undo();
+  EXPECT_TRUE(m_model->value().softTissue == before);
+  m_editor->refresh();
+  m_editor->setSurfaceOpacity(0.5);
+  EXPECT_EQ(m_model->value().softTissue.opacity, 0.5F);
+  EXPECT_EQ(points()[1].opacity, 0.12F) << "a factor, and not of what is edited";
+  m_editor->applyPreset("skin");
+  EXPECT_EQ(m_model->value().softTissue.preset, "skin");
+  EXPECT_EQ(appearance::flagsOf(m_model->value().softTissue), "none") << "nothing to touch";
+  EXPECT_EQ(m_model->value().softTissue.tissue, "");
+  EXPECT_THROW(m_editor->applyPreset("air-cells"), core::InvalidParameter);
+  m_editor->clearPoints();
+  EXPECT_NE(m_editor->notice().find("not drawn"), std::string::npos);
+  EXPECT_TRUE(m_editor->selected()->transfer.transparent());
+}
+
+TEST_F(AppearanceEditorTest, SoftTissueOfAnMrBeginsWithAFunctionOfItsValues)
+{
+  m_editor->select(AppearanceEditor::kSoftTissue);
+  const auto before = m_model->value().softTissue;
+  m_editor->setSource("t2");
+  const auto ofMr = m_model->value().softTissue;
+  EXPECT_EQ(ofMr.sourceImage, "t2");
+  EXPECT_FALSE(ofMr.relative);
+  ASSERT_FALSE(points().empty());
+  EXPECT_EQ(points().front().opacity, 0.0F) << "dark air";
+  EXPECT_GT(points().front().value, 0.0);
+  EXPECT_LE(points().back().value, 81.0) << "the brightest value";
+  EXPECT_EQ(m_editor->notice(), "");
+  EXPECT_EQ(m_editor->axis().image, "t2");
+  count();
+  m_editor->clearPoints();
+  ASSERT_TRUE(m_editor->canFit());
+  m_editor->fit();
+  EXPECT_TRUE(m_model->value().softTissue == ofMr);
+  m_editor->setSource("");
+  EXPECT_TRUE(m_model->value().softTissue == before);
+  m_model->undo();
+  EXPECT_TRUE(m_model->value().softTissue == ofMr);
 }
 
 TEST_F(AppearanceEditorTest, ALumenReadsTheCt)

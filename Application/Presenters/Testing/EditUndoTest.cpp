@@ -239,6 +239,25 @@ TEST_F(EditUndoTest, BonesOpacityIsOneStepAlsoThroughItsOtherPreset)
   EXPECT_FALSE(model->canUndo());
 }
 
+TEST_F(EditUndoTest, SoftTissueIsAPartOfItsOwn)
+{
+  open();
+  const auto before = model->value().softTissue;
+  auto next = before;
+  next.shown = true;
+  model->setLook(scene::kSoftTissue, next);
+  EXPECT_TRUE(model->value().softTissue.shown);
+  EXPECT_TRUE(model->drawable()) << "nothing has to be prepared";
+  EXPECT_EQ(model->undoText(), "show soft tissue");
+  next.opacity = 0.5F;
+  model->setLook(scene::kSoftTissue, next);
+  EXPECT_EQ(model->undoText(), "opacity of soft tissue");
+  model->undo();
+  model->undo();
+  EXPECT_TRUE(model->value().softTissue == before);
+  EXPECT_FALSE(model->canUndo());
+}
+
 TEST_F(EditUndoTest, AMarkThatIsSetTwiceIsTwoSteps)
 {
   open();

@@ -203,6 +203,80 @@ TEST(SceneAssembly, AHiddenStructureAsksForNoMr)
   EXPECT_FALSE(loaded);
 }
 
+TEST(SceneAssembly, DrawsSoftTissueWhereItIsShown)
+{
+  scene::Case value = slabs();
+  EXPECT_FALSE(sceneContents(value).softTissue) << "at first";
+  EXPECT_EQ(softTissueMissing(value), "");
+  value.softTissue.shown = true;
+  value.iso = 500.0; // of bone; Hounsfield units stay what they are
+  const auto material = sceneContents(value).softTissue;
+  ASSERT_TRUE(material);
+  EXPECT_EQ(material->source, appearance::IntensitySource::Ct);
+  EXPECT_DOUBLE_EQ(material->transfer.points().front().value, -700.0);
+  EXPECT_EQ(softTissueMissing(value), "");
+  value.denseBone = 2000.0; // not in Hounsfield units
+  EXPECT_NE(sceneContents(value).softTissue->transfer.points().front().value, -700.0);
+  EXPECT_FALSE(sceneContents(thumbnailCase(value)).softTissue) << "a face is recognised";
+}
+
+TEST(SceneAssembly, SaysWhySoftTissueIsNotDrawn)
+{
+  scene::Case value = slabs();
+  value.softTissue.shown = true;
+  const auto expectMissing = [&value](const char* why)
+  {
+    EXPECT_FALSE(sceneContents(value).softTissue) << why;
+    EXPECT_NE(softTissueMissing(value).find(why), std::string::npos) << softTissueMissing(value);
+  };
+  const auto usual = value.softTissue;
+  value.softTissue.transfer.reset();
+  expectMissing("fill air");
+  value.softTissue.transfer = appearance::TransferFunction::constant({1, 1, 1}, 0.1F);
+  expectMissing("fill air");
+  value.softTissue = usual;
+  value.softTissue.opacity = 0.0F;
+  expectMissing("transparent");
+  value.softTissue = usual;
+  value.ct.modality = scene::Modality::Mr;
+  expectMissing("values of the MR");
+  value.ct.modality = scene::Modality::Ct;
+  value.softTissue.sourceImage = "t1";
+  expectMissing("values of 't1'");
+  value.softTissue.relative = false;
+  expectMissing("not registered");
+}
+
+TEST(SceneAssembly, DrawsTheMrOfSoftTissueUnlessAnotherIsDrawn)
+{
+  scene::Case value = slabs();
+  bool t1 = false;
+  bool t2 = false;
+  value.mr = {mr("t1", true, t1), mr("t2", true, t2)};
+  value.softTissue.sourceImage = "t2";
+  value.softTissue.relative = false;
+  EXPECT_EQ(sceneContents(value).second.volume, nullptr) << "not shown";
+  value.softTissue.shown = true;
+  auto contents = sceneContents(value);
+  EXPECT_TRUE(t2);
+  EXPECT_FALSE(t1);
+  EXPECT_NE(contents.second.volume, nullptr);
+  ASSERT_TRUE(contents.softTissue);
+  EXPECT_EQ(contents.softTissue->source, appearance::IntensitySource::Second);
+
+  look(value, "low").transfer = appearance::TransferFunction::constant({1, 1, 1}, 0.1F);
+  look(value, "low").sourceImage = "t2"; // the same
+  EXPECT_TRUE(sceneContents(value).softTissue);
+  EXPECT_EQ(softTissueMissing(value), "");
+  look(value, "low").sourceImage = "t1";
+  EXPECT_FALSE(sceneContents(value).softTissue);
+  EXPECT_NE(softTissueMissing(value).find("reads 't1'"), std::string::npos);
+  EXPECT_TRUE(t1);
+  look(value, "low").shown = false;
+  EXPECT_TRUE(sceneContents(value).softTissue);
+  EXPECT_EQ(softTissueMissing(value), "");
+}
+
 TEST(SceneAssembly, ALumenTintsBone)
 {
   scene::Case value = slabs();

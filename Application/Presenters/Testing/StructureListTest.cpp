@@ -84,7 +84,7 @@ protected:
 
 } // namespace
 
-TEST_F(StructureListTest, HasBoneFirstAndThenTheKinds)
+TEST_F(StructureListTest, HasBoneAndSoftTissueFirstAndThenTheKinds)
 {
   open({{"masseter", "muscle"},
         {"antrum", "air-cells"},
@@ -103,11 +103,12 @@ TEST_F(StructureListTest, HasBoneFirstAndThenTheKinds)
     kinds.push_back(row.kind);
   }
   EXPECT_EQ(parts,
-            (std::vector<std::string>{"ct", "facial nerve", "sigmoid sinus", "carotid", "stapes",
-                                      "cochlea", "dura", "antrum", "masseter", "implant"}));
+            (std::vector<std::string>{"ct", scene::kSoftTissue, "facial nerve", "sigmoid sinus",
+                                      "carotid", "stapes", "cochlea", "dura", "antrum", "masseter",
+                                      "implant"}));
   using Kind = StructureKind;
   EXPECT_EQ(kinds,
-            (std::vector<Kind>{Kind::Bone, Kind::Nerve, Kind::Vessel, Kind::Vessel, Kind::Ossicle,
+            (std::vector<Kind>{Kind::Bone, Kind::SoftTissue, Kind::Nerve, Kind::Vessel, Kind::Vessel, Kind::Ossicle,
                                Kind::InnerEar, Kind::Dura, Kind::Lumen, Kind::Other, Kind::Mesh}));
 }
 
@@ -119,9 +120,12 @@ TEST_F(StructureListTest, ShowsOneAloneAndAgainWhatWasShownBefore)
   OnlyThese only(model);
   EXPECT_FALSE(only.isOn({"c"}));
   only.toggle({"c"});
-  EXPECT_EQ(shown(),
-            (std::map<std::string, bool>{
-                {"ct", true}, {"a", false}, {"b", false}, {"c", true}, {"implant", false}}));
+  EXPECT_EQ(shown(), (std::map<std::string, bool>{{"ct", true},
+                                                  {scene::kSoftTissue, false},
+                                                  {"a", false},
+                                                  {"b", false},
+                                                  {"c", true},
+                                                  {"implant", false}}));
   EXPECT_TRUE(only.isOn({"c"}));
   EXPECT_FALSE(only.isOn({"a"}));
   EXPECT_EQ(model.undoText(), "only c");
@@ -142,7 +146,26 @@ TEST_F(StructureListTest, WhatTheUserDidSinceIsNotOverwritten)
   only.toggle({"c"});
   only.toggle({"c"});
   EXPECT_EQ(shown(),
-            (std::map<std::string, bool>{{"ct", true}, {"a", true}, {"b", true}, {"c", false}}));
+            (std::map<std::string, bool>{{"ct", true},
+                                         {scene::kSoftTissue, false},
+                                         {"a", true},
+                                         {"b", true},
+                                         {"c", false}}));
+}
+
+TEST_F(StructureListTest, SoftTissueThatIsShownIsHiddenByOthersAlone)
+{
+  open({{"a", "nerve"}});
+  setShown(scene::kSoftTissue, true);
+  OnlyThese only(model);
+  only.toggle({"a"});
+  EXPECT_FALSE(shown().at(scene::kSoftTissue)) << "it would veil what is shown alone";
+  only.toggle({"a"});
+  EXPECT_TRUE(shown().at(scene::kSoftTissue));
+  only.toggle({scene::kSoftTissue});
+  EXPECT_EQ(model.undoText(), "only soft tissue");
+  EXPECT_TRUE(shown().at("ct"));
+  EXPECT_FALSE(shown().at("a"));
 }
 
 TEST_F(StructureListTest, OnlyThisIsOneStep)
@@ -172,6 +195,11 @@ TEST_F(StructureListTest, APresetKeepsFlagsAndBoneTakesNoLumen)
   EXPECT_GT(nerve.warning, 0.0);
   EXPECT_EQ(withPreset(model.value(), "ct", model.value().boneLook, "air-cells").preset,
             model.value().boneLook.preset);
+  const auto& soft = model.value().softTissue;
+  EXPECT_EQ(withPreset(model.value(), scene::kSoftTissue, soft, "air-cells").preset, soft.preset);
+  const auto muscle = withPreset(model.value(), scene::kSoftTissue, soft, "muscle");
+  EXPECT_EQ(muscle.preset, "muscle");
+  EXPECT_EQ(muscle.tissue, "") << "air to the drill";
   const auto other = withPreset(model.value(), "a", nerve, "other");
   EXPECT_NE(other.color, model.lookOf("b")->color) << "no other has it";
   EXPECT_THROW(withPreset(model.value(), "a", look, "no such preset"), core::InvalidParameter);

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "HeldTool.h"
+#include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/LibraryError.h"
 #include "petrous/Library/OpenMark.h"
@@ -1239,6 +1240,7 @@ TEST_F(WorkstationModelTest, ANewNameHoldsWhereverThePartIsNamed)
   mr.name = "T2";
   value.mr = {mr};
   value.boneLook.sourceImage = "T2";
+  value.softTissue.sourceImage = "T2";
   WorkstationModel model{library};
   model.adopt(std::move(value));
   model.prepareNow();
@@ -1246,6 +1248,7 @@ TEST_F(WorkstationModelTest, ANewNameHoldsWhereverThePartIsNamed)
   EXPECT_EQ(model.value().mr[0].name, "T2 CISS");
   EXPECT_EQ(model.value().labels[0].drawnOn, "T2 CISS");
   EXPECT_EQ(model.value().boneLook.sourceImage, "T2 CISS");
+  EXPECT_EQ(model.value().softTissue.sourceImage, "T2 CISS");
   EXPECT_THROW(model.renamePart("a1", "a2"), core::InvalidParameter);
   EXPECT_THROW(model.renamePart("a1", "ct"), core::InvalidParameter);
   EXPECT_THROW(model.renamePart("ct", "scan"), core::InvalidParameter);
@@ -1295,15 +1298,22 @@ TEST_F(WorkstationModelTest, AnMrThatComesBackColorsWhatItColored)
   mr.name = "T2";
   value.mr = {mr};
   value.boneLook.sourceImage = "T2";
+  value.softTissue.sourceImage = "T2";
+  value.softTissue.relative = false;
+  value.softTissue.transfer = appearance::TransferFunction(
+      {{100.0, {0.2F, 0.2F, 0.2F}, 0.0F}, {900.0, {0.9F, 0.9F, 0.9F}, 0.1F}});
+  const auto ofMr = value.softTissue;
   WorkstationModel model{library};
   model.adopt(std::move(value));
   model.prepareNow();
   model.removePart("T2");
   EXPECT_EQ(model.value().boneLook.sourceImage, "");
+  EXPECT_TRUE(model.value().softTissue == appearance::softTissueLook());
   EXPECT_EQ(model.value().labels[0].structures[1].look.sourceImage, "");
   model.renamePart("a2", "facial nerve");
   model.restorePart();
   EXPECT_EQ(model.value().boneLook.sourceImage, "T2");
+  EXPECT_TRUE(model.value().softTissue == ofMr);
   EXPECT_EQ(model.value().labels[0].structures[1].look.sourceImage, "T2");
   EXPECT_EQ(model.value().labels[0].structures[0].look.sourceImage, "");
 }

@@ -8,7 +8,9 @@
 #include <QLabel>
 #include <QSlider>
 
+#include "WindowTexts.h"
 #include "petrous/Presenters/BoneOpacity.h"
+#include "petrous/Presenters/SceneAssembly.h"
 
 namespace petrous::workstation
 {
@@ -86,7 +88,22 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
          "bright colours of structures become a little darker than in their list"),
       [this] { return m_settings.light().toneCurve; },
       [this](bool on) { m_settings.setToneCurve(on); });
+  m_softTissue = new QCheckBox(tr("So&ft tissue"));
+  m_softTissue->setObjectName("softTissue");
+  m_bound.add(
+      m_softTissue, [this] { return m_model.hasCase() && m_model.value().softTissue.shown; },
+      [this](bool on)
+      {
+        if (!m_model.hasCase())
+          return;
+        appearance::StructureAppearance look = m_model.value().softTissue;
+        look.shown = on;
+        m_model.setLook(scene::kSoftTissue, look);
+        m_bound.refresh(); // not while drilling
+      });
+  form->addRow(QString(), m_softTissue);
   addStereo(form, quadBuffer);
+  showSoftTissue();
   settingsChanged();
 }
 
@@ -183,10 +200,23 @@ void PicturePanel::showNames()
                                  "shine through"));
 }
 
+void PicturePanel::showSoftTissue()
+{
+  m_softTissue->setEnabled(m_model.hasCase());
+  const std::string missing = m_model.hasCase() && m_model.value().softTissue.shown
+                                  ? presenters::softTissueMissing(m_model.value())
+                                  : std::string();
+  m_softTissue->setToolTip(
+      tr("Skin, fat and muscle are drawn, translucent: what is neither bone nor "
+         "a structure. The Appearance panel has their colours and opacities") +
+      (missing.empty() ? QString() : '\n' + tr("Not drawn: %1").arg(phrase(missing))));
+}
+
 void PicturePanel::appearanceChanged()
 {
   showNames();
   m_bone->setEnabled(m_model.hasCase());
+  showSoftTissue();
   m_bound.refresh();
 }
 

@@ -5,6 +5,7 @@
 #include "petrous/Presenters/ViewSettings.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
+class QCheckBox;
 class QFormLayout;
 class QLabel;
 class QSlider;
@@ -35,9 +36,11 @@ private:
   presenters::WorkstationModel& m_model;
   presenters::ViewSettings& m_settings;
   void showNames();
+  void showSoftTissue();
 
   QSlider* m_bone;
   QLabel* m_boneName;
+  QCheckBox* m_softTissue;
   Bindings m_bound;
 };
 

@@ -329,9 +329,10 @@ void AppearancePanel::showParts()
         for (int row = 0; row < static_cast<int>(parts.size()); ++row)
         {
           const AppearanceEditor::Part& part = parts[static_cast<std::size_t>(row)];
-          const QString name = part.name != AppearanceEditor::kBone ? shownName(part.name)
-                               : isOnMr                             ? tr("Tissue")
-                                                                    : tr("Bone");
+          const QString name = part.name == AppearanceEditor::kSoftTissue ? tr("Soft tissue")
+                               : part.name != AppearanceEditor::kBone     ? shownName(part.name)
+                               : isOnMr                                   ? tr("Tissue")
+                                                                          : tr("Bone");
           if (row >= m_part->count())
             m_part->addItem(name);
           m_part->setItemText(row, name);
@@ -416,6 +417,9 @@ void AppearancePanel::showNote()
       text =
           phrase(notice) +
           (m_editor.canFit() ? tr(". Function > Fit to the histogram sets some.") : QString('.'));
+    else if (part->name == AppearanceEditor::kSoftTissue)
+      text = tr("It has no surface: colours and opacities of the points are seen, these times the "
+                "opacity of the whole. Below its first point it is transparent, as air must be.");
     else if (!part->look.solid)
       text = tr("A space without tissue tints the bone around it: its colours count, its opacities "
                 "do not.");
@@ -472,6 +476,8 @@ namespace
     QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "muscle"),
     QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "bone"),
     QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "bone-translucent"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "soft-tissue"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "skin"),
     QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "other"),
 };
 } // namespace

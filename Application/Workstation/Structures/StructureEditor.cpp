@@ -44,10 +44,12 @@ const StructureProperty& propertyOf(const char* key)
       [key](const StructureProperty& property) { return std::strcmp(property.key, key) == 0; });
 }
 
-// Bone has colour, opacity and preset, and can be hidden.
-bool isOfBone(const StructureProperty& property)
+// Bone and soft tissue have colour, opacity and preset, and can be hidden.
+bool has(const std::string& part, const StructureProperty& property)
 {
   static const char* const kKeys[] = {"shown", "color", "opacity", "preset"};
+  if (part != kBone && part != scene::kSoftTissue)
+    return true;
   return std::any_of(std::begin(kKeys), std::end(kKeys),
                      [&property](const char* key) { return std::strcmp(property.key, key) == 0; });
 }
@@ -121,8 +123,10 @@ StructureEditor::StructureEditor(presenters::WorkstationModel& model, QWidget* p
 void StructureEditor::addOpacity(QGridLayout& grid, int row)
 {
   const StructureProperty& property = propertyOf("opacity");
-  m_opacity = percentSlider("structureOpacity",
-                            tr("Opacity; of a lumen, how much it tints what is around it"));
+  m_opacity =
+      percentSlider("structureOpacity",
+                    tr("Opacity; of a lumen, how much it tints what is around it; of soft tissue, "
+                       "a factor of that of its function"));
   auto* box = new QSpinBox;
   box->setObjectName("structureOpacityBox");
   box->setToolTip(m_opacity->toolTip());
@@ -281,7 +285,7 @@ void StructureEditor::change(
 {
   std::vector<std::string> parts;
   for (const std::string& part : m_parts)
-    if (part != kBone || isOfBone(property))
+    if (has(part, property))
       parts.push_back(part);
   presenters::changeLooks(m_model, parts, to);
 }
@@ -291,7 +295,7 @@ StructureEditor::looks(const StructureProperty& property) const
 {
   std::vector<const StructureAppearance*> all;
   for (const std::string& part : m_parts)
-    if (const auto* look = m_model.lookOf(part); look && (part != kBone || isOfBone(property)))
+    if (const auto* look = m_model.lookOf(part); look && has(part, property))
       all.push_back(look);
   return all;
 }

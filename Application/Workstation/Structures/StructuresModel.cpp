@@ -14,6 +14,7 @@
 #include "WindowTexts.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
 
@@ -87,6 +88,7 @@ const char* titleOfKind(StructureKind kind)
   case StructureKind::Mesh:
     return QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Meshes");
   case StructureKind::Bone:
+  case StructureKind::SoftTissue:
   case StructureKind::Other:
     break;
   }
@@ -110,7 +112,15 @@ const char* titleOfKind(StructureKind kind)
                       "click to change"),
 };
 
-// What bone has not: it is what is touched, drilled and not warned of.
+// Rows of their own, above those of the kinds.
+constexpr std::size_t kSingleRows = 2;
+
+bool isSingle(StructureKind kind)
+{
+  return kind == StructureKind::Bone || kind == StructureKind::SoftTissue;
+}
+
+// What bone has not: it is what is touched, drilled and not warned of. Soft tissue is air to that.
 bool isOfBone(const StructureProperty& property)
 {
   return std::string(property.key) == "shown";
@@ -197,7 +207,7 @@ QString StructuresModel::countText() const
   std::size_t structures = 0, meshes = 0, shown = 0;
   for (const Row& row : m_rows)
   {
-    if (row.row.kind == StructureKind::Bone)
+    if (isSingle(row.row.kind))
       continue;
     ++(row.row.kind == StructureKind::Mesh ? meshes : structures);
     shown += row.row.look.shown;
@@ -220,6 +230,8 @@ std::vector<StructuresModel::Row> StructuresModel::rows()
   {
     Row row{std::move(one)};
     row.volume = row.row.volume;
+    if (row.row.kind == StructureKind::SoftTissue && row.row.look.shown)
+      row.notDrawn = presenters::softTissueMissing(value);
     if (row.row.kind == StructureKind::Mesh)
     {
       row.isBeingMeasured = true;
@@ -238,7 +250,8 @@ std::vector<StructuresModel::Row> StructuresModel::rows()
   return rows;
 }
 
-// Top rows: bone, then the kinds. Of a row below a kind the internal id is the kind's number + 1.
+// Top rows: bone, soft tissue, then the kinds. Of a row below a kind the internal id is the kind's
+// row.
 QModelIndex StructuresModel::index(int row, int column, const QModelIndex& parent) const
 {
   if (!hasIndex(row, column, parent))
@@ -258,10 +271,10 @@ const StructuresModel::Row* StructuresModel::at(const QModelIndex& index) const
 {
   if (!index.isValid() || m_rows.empty())
     return nullptr;
-  if (index.internalId() == 0)
-    return index.row() == 0 ? &m_rows.front() : nullptr;
-  const std::size_t kind = index.internalId() - 1;
   const auto row = static_cast<std::size_t>(index.row());
+  if (index.internalId() == 0)
+    return row < kSingleRows ? &m_rows[row] : nullptr;
+  const std::size_t kind = index.internalId() - kSingleRows;
   return kind < m_kinds.size() && row < m_kinds[kind].count ? &m_rows[m_kinds[kind].first + row]
                                                             : nullptr;
 }
@@ -269,8 +282,9 @@ const StructuresModel::Row* StructuresModel::at(const QModelIndex& index) const
 const StructuresModel::Kind* StructuresModel::kindAt(const QModelIndex& index) const
 {
   const auto row = static_cast<std::size_t>(index.row());
-  return index.isValid() && index.internalId() == 0 && row > 0 && row <= m_kinds.size()
-             ? &m_kinds[row - 1]
+  return index.isValid() && index.internalId() == 0 && row >= kSingleRows &&
+                 row < kSingleRows + m_kinds.size()
+             ? &m_kinds[row - kSingleRows]
              : nullptr;
 }
 
@@ -283,17 +297,18 @@ std::string StructuresModel::partAt(const QModelIndex& index) const
 std::string StructuresModel::nameAt(const QModelIndex& index) const
 {
   const Row* row = at(index);
-  return row && row->row.kind != StructureKind::Bone ? row->row.part : std::string();
+  return row && !isSingle(row->row.kind) ? row->row.part : std::string();
 }
 
 QModelIndex StructuresModel::rowOf(const std::string& part) const
 {
-  if (!m_rows.empty() && m_rows.front().row.part == part)
-    return index(0, Name);
+  for (std::size_t n = 0; n < std::min(kSingleRows, m_rows.size()); ++n)
+    if (m_rows[n].row.part == part)
+      return index(static_cast<int>(n), Name);
   for (std::size_t kind = 0; kind < m_kinds.size(); ++kind)
     for (std::size_t n = 0; n < m_kinds[kind].count; ++n)
       if (m_rows[m_kinds[kind].first + n].row.part == part)
-        return index(static_cast<int>(n), Name, index(static_cast<int>(kind) + 1, Name));
+        return index(static_cast<int>(n), Name, index(static_cast<int>(kSingleRows + kind), Name));
   return {};
 }
 
@@ -305,6 +320,8 @@ appearance::StructureAppearance StructuresModel::lookAt(const QModelIndex& index
 
 QString StructuresModel::title(const presenters::StructureRow& row) const
 {
+  if (row.kind == StructureKind::SoftTissue)
+    return tr("Soft tissue");
   if (row.kind != StructureKind::Bone)
     return shownName(row.part);
   return m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr ? tr("Tissue")
@@ -331,8 +348,7 @@ QString StructuresModel::searchText(const QModelIndex& index) const
   const Row* row = at(index);
   if (!row)
     return {};
-  const QString kind =
-      row->row.kind == StructureKind::Bone ? QString() : tr(titleOfKind(row->row.kind));
+  const QString kind = isSingle(row->row.kind) ? QString() : tr(titleOfKind(row->row.kind));
   return folded(title(row->row) + ' ' + words(row->row.look.preset) + ' ' + kind);
 }
 
@@ -344,7 +360,7 @@ void StructuresModel::caseChanged()
   for (std::size_t n = 0; n < m_rows.size(); ++n)
   {
     const StructureKind kind = m_rows[n].row.kind;
-    if (kind == StructureKind::Bone)
+    if (isSingle(kind))
       continue;
     if (m_kinds.empty() || m_kinds.back().kind != kind)
       m_kinds.push_back({kind, n, 0});
@@ -378,7 +394,7 @@ void StructuresModel::appearanceChanged()
     next[n].near = m_rows[n].near;
     if (!(next[n].row.look == m_rows[n].row.look) || next[n].volume != m_rows[n].volume ||
         next[n].isBeingMeasured != m_rows[n].isBeingMeasured ||
-        next[n].row.missing != m_rows[n].row.missing)
+        next[n].row.missing != m_rows[n].row.missing || next[n].notDrawn != m_rows[n].notDrawn)
       changed.push_back(next[n].row.part);
   }
   m_rows = std::move(next);
@@ -398,7 +414,7 @@ void StructuresModel::setNear(std::vector<presenters::NearbyStructure> structure
   {
     QString near;
     for (const presenters::NearbyStructure& one : structures)
-      if (one.name == row.row.part && row.row.kind != StructureKind::Bone)
+      if (one.name == row.row.part && !isSingle(row.row.kind))
         near = one.state == presenters::NearbyStructure::State::Touched
                    ? tr("touched")
                    : tr("%1 mm").arg(numberText(one.distance, 1));
@@ -413,7 +429,7 @@ void StructuresModel::setNear(std::vector<presenters::NearbyStructure> structure
 int StructuresModel::rowCount(const QModelIndex& parent) const
 {
   if (!parent.isValid())
-    return m_rows.empty() ? 0 : 1 + static_cast<int>(m_kinds.size());
+    return m_rows.empty() ? 0 : static_cast<int>(kSingleRows + m_kinds.size());
   const Kind* kind = parent.column() == 0 ? kindAt(parent) : nullptr;
   return kind ? static_cast<int>(kind->count) : 0;
 }
@@ -460,6 +476,8 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
     if (role == Qt::DisplayRole)
     {
       const QString name = title(row.row);
+      if (!row.notDrawn.empty())
+        return tr("%1 (not drawn)").arg(name);
       return row.row.missing.empty() ? name : tr("%1 (not on the %2)").arg(name, primary());
     }
     if (role == Qt::DecorationRole)
@@ -473,6 +491,13 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
           .arg(words(row.row.part), primary(), phrase(row.row.missing));
     if (role == Qt::ToolTipRole && row.row.kind == StructureKind::Bone)
       return tr("The %1 itself, where no structure is").arg(primary());
+    if (role == Qt::ToolTipRole && row.row.kind == StructureKind::SoftTissue)
+    {
+      const QString what = tr("What is neither bone nor a structure, in 3D alone: it is air to the "
+                              "hand and the drill");
+      return row.notDrawn.empty() ? what
+                                  : what + '\n' + tr("Not drawn: %1").arg(phrase(row.notDrawn));
+    }
     if (role == Qt::ToolTipRole)
       return row.row.look.solid ? words(row.row.part)
                                 : tr("%1 (a space without tissue)").arg(words(row.row.part));
@@ -528,7 +553,7 @@ QVariant StructuresModel::kindData(const Kind& kind, int column, int role) const
 QVariant StructuresModel::propertyData(const Row& row, const StructureProperty& property,
                                        int role) const
 {
-  if (row.row.kind == StructureKind::Bone && !isOfBone(property))
+  if (isSingle(row.row.kind) && !isOfBone(property))
     return {};
   if (property.isNumber())
   {
@@ -584,7 +609,7 @@ Qt::ItemFlags StructuresModel::flags(const QModelIndex& index) const
     return flags;
   const StructureProperty& property = propertyAt(index.column());
   const Row* row = at(index);
-  if (row && row->row.kind == StructureKind::Bone && !isOfBone(property))
+  if (row && isSingle(row->row.kind) && !isOfBone(property))
     return flags;
   if (isFlag(property))
     flags |= Qt::ItemIsUserCheckable;
@@ -602,8 +627,7 @@ bool StructuresModel::setData(const QModelIndex& index, const QVariant& value, i
   if (const Kind* kind = kindAt(index))
     for (std::size_t n = 0; n < kind->count; ++n)
       parts.push_back(m_rows[kind->first + n].row.part);
-  else if (const Row* row = at(index);
-           row && (row->row.kind != StructureKind::Bone || isOfBone(property)))
+  else if (const Row* row = at(index); row && (!isSingle(row->row.kind) || isOfBone(property)))
     parts = {row->row.part};
   const bool isNumber =
       role == Qt::EditRole && property.isNumber() && property.accepts(value.toDouble());

@@ -21,8 +21,8 @@ struct StructureProperty;
 namespace petrous::workstation
 {
 
-/// Bone, structures and meshes of the open case: bone first, the others by kind in rows that fold;
-/// check boxes and numbers modify the case. The row of a kind changes all of them.
+/// Bone, soft tissue, structures and meshes of the open case: bone and soft tissue first, the others
+/// by kind in rows that fold; check boxes and numbers modify the case. The row of a kind changes all of them.
 class StructuresModel : public QAbstractItemModel
 {
   Q_OBJECT
@@ -75,6 +75,7 @@ private:
     std::size_t openEdges = 0; ///< of a mesh that is not closed and so has no volume
     double volume = 0.0;       ///< mm^3; 0: not known
     QString near = {};
+    std::string notDrawn = {}; ///< why soft tissue that is shown is not drawn
   };
   /// Rows of one kind, those from `first` on.
   struct Kind
@@ -103,7 +104,7 @@ private:
 
   presenters::WorkstationModel& m_model;
   std::vector<Row> m_rows;
-  std::vector<Kind> m_kinds; // but bone's, as the model has them from row 1 on
+  std::vector<Kind> m_kinds; // of structures and meshes, as the model has them below bone and tissue
   Measures m_measured;
   std::uint64_t m_measuredOf = 0; // WorkstationModel::shownAs
   BackgroundWork m_work;          // measures large meshes in seconds

@@ -336,9 +336,22 @@ void StructuresPanel::selectionChanged()
   emit selected();
 }
 
+namespace
+{
+
+// Soft tissue would veil the others with which it is shown.
+std::vector<std::string> shownTogether(std::vector<std::string> parts)
+{
+  if (parts.size() > 1)
+    parts.erase(std::remove(parts.begin(), parts.end(), scene::kSoftTissue), parts.end());
+  return parts;
+}
+
+} // namespace
+
 void StructuresPanel::setShown(const std::vector<std::string>& parts, bool shown)
 {
-  presenters::changeLooks(m_model, parts,
+  presenters::changeLooks(m_model, shown ? shownTogether(parts) : parts,
                           [shown](const std::string&, appearance::StructureAppearance& look)
                           { look.shown = shown; });
 }
@@ -347,7 +360,8 @@ void StructuresPanel::setShown(const std::vector<std::string>& parts, bool shown
 void StructuresPanel::toggleShown()
 {
   const auto parts = selectedParts();
-  const bool allShown = std::all_of(parts.begin(), parts.end(),
+  const auto together = shownTogether(parts);
+  const bool allShown = std::all_of(together.begin(), together.end(),
                                     [this](const std::string& part)
                                     {
                                       const auto* look = m_model.lookOf(part);

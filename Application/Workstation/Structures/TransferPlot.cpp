@@ -704,7 +704,9 @@ bool TransferPlot::event(QEvent* event)
     if (const auto point = pointAt(help->pos()))
       tip = pointText(*point);
     else if (const Part* part = curveAt(help->pos()); part && part != m_editor.selected())
-      tip = part->name == AppearanceEditor::kBone ? tr("Bone") : shownName(part->name);
+      tip = part->name == AppearanceEditor::kBone         ? tr("Bone")
+            : part->name == AppearanceEditor::kSoftTissue ? tr("Soft tissue")
+                                                          : shownName(part->name);
     QToolTip::showText(help->globalPos(), tip, this);
     return true;
   }
@@ -741,7 +743,9 @@ void TransferPlot::announce()
   const Part* part = m_editor.selected();
   if (!part)
     return;
-  const QString name = part->name == AppearanceEditor::kBone ? tr("bone") : shownName(part->name);
+  const QString name = part->name == AppearanceEditor::kBone         ? tr("bone")
+                       : part->name == AppearanceEditor::kSoftTissue ? tr("soft tissue")
+                                                                     : shownName(part->name);
   const QString text = m_editor.point() ? pointText(*m_editor.point())
                        : part->points.empty()
                            ? tr("One colour at every intensity")

@@ -172,9 +172,10 @@ TEST_F(AppearancePanelTest, AClickChoosesTheCurve)
   openPanel("ball");
   paste(R"({"value": 300, "color": [1, 1, 1], "opacity": 0.01})");
   auto* part = panel().findChild<QComboBox*>("appearancePart");
-  ASSERT_EQ(part->count(), 2);
+  ASSERT_EQ(part->count(), 3);
   EXPECT_EQ(part->itemText(0), "Bone");
-  EXPECT_EQ(part->itemText(1), "nerve");
+  EXPECT_EQ(part->itemText(1), "Soft tissue");
+  EXPECT_EQ(part->itemText(2), "nerve");
   QTest::keyClick(&plot(), Qt::Key_PageDown);
   EXPECT_EQ(part->currentText(), "nerve");
   paste(R"({"value": 300, "color": [0, 1, 0], "opacity": 0.5})");
@@ -184,6 +185,31 @@ TEST_F(AppearancePanelTest, AClickChoosesTheCurve)
   EXPECT_EQ(part->currentIndex(), 0);
   QTest::mouseClick(&plot(), Qt::LeftButton, {}, at(900, 0.5));
   EXPECT_EQ(part->currentText(), "nerve");
+}
+
+TEST_F(AppearancePanelTest, SoftTissueHasAFunctionOfItsOwn)
+{
+  saveBall("ball");
+  openPanel("ball");
+  auto* part = panel().findChild<QComboBox*>("appearancePart");
+  part->setCurrentIndex(1);
+  emit part->activated(1);
+  ASSERT_EQ(panel().editor().selected()->name, scene::kSoftTissue);
+  EXPECT_GT(points().size(), 1u);
+  const auto& soft = window().model().value().softTissue;
+  EXPECT_TRUE(note().contains("no surface")) << note().toStdString();
+  panel().findChild<QSlider*>("surfaceOpacity")->setValue(20);
+  EXPECT_TRUE(waitFor([&] { return soft.opacity < 0.3F; }));
+  EXPECT_EQ(bone().opacity, 1.0F);
+  choose("presetMenu", "skin");
+  EXPECT_EQ(soft.preset, "skin");
+  EXPECT_FALSE(soft.touchable || soft.drillable);
+  paste(R"({"value": 40, "color": [1, 0, 0], "opacity": 0.1})");
+  EXPECT_TRUE(note().contains("not drawn")) << "one colour would fill air";
+  paste(R"({"value": 0, "color": [1, 0, 0], "opacity": 0},
+           {"value": 90, "color": [1, 0, 0], "opacity": 0.1})");
+  EXPECT_EQ(soft.transfer->points().size(), 2u);
+  EXPECT_FALSE(note().contains("not drawn"));
 }
 
 TEST_F(AppearancePanelTest, CountsHistogramsOnlyWhileItIsOpen)

@@ -186,6 +186,67 @@ TEST_F(Structures, BoneIsARowThatIsHiddenAndRecolouredLikeOthers)
   EXPECT_EQ(action("Undo")->text(), "&Undo colour of bone");
 }
 
+TEST_F(Structures, SoftTissueIsARowBelowBoneThatIsDrawnOnly)
+{
+  openWith({});
+  const QModelIndex row = structureCell(scene::kSoftTissue);
+  EXPECT_EQ(row.data().toString(), "Soft tissue");
+  EXPECT_EQ(row.row(), 1);
+  EXPECT_FALSE(row.parent().isValid());
+  EXPECT_FALSE(look(scene::kSoftTissue).shown);
+  auto& list = structureList();
+  for (const char* key : {"touchable", "drillable", "warn_mm"})
+  {
+    const QModelIndex cell = structureCell(scene::kSoftTissue, StructuresModel::columnOf(key));
+    EXPECT_FALSE(cell.data(Qt::CheckStateRole).isValid()) << key;
+    EXPECT_FALSE(list.model()->setData(cell, 1.0, Qt::EditRole)) << key;
+    EXPECT_FALSE(list.model()->setData(cell, Qt::Checked, Qt::CheckStateRole)) << key;
+  }
+  list.setCurrentIndex(row);
+  EXPECT_FALSE(find<QWidget>("structureMaterial")->isEnabled());
+  EXPECT_FALSE(find<QWidget>("structure_stiffness_n_per_mm")->isEnabled());
+  list.setFocus();
+  key(Qt::Key_Space);
+  EXPECT_TRUE(look(scene::kSoftTissue).shown);
+  EXPECT_EQ(action("Undo")->text(), "&Undo show soft tissue");
+  key(Qt::Key_F2); // neither renamed
+  key(Qt::Key_Delete);
+  EXPECT_TRUE(structureCell(scene::kSoftTissue).isValid());
+  EXPECT_EQ(model().value().labels[0].structures.size(), 1u);
+  find<QSpinBox>("structureOpacityBox")->setValue(40);
+  EXPECT_FLOAT_EQ(look(scene::kSoftTissue).opacity, 0.4F);
+  EXPECT_EQ(look("ct").opacity, 1.0F);
+
+  // Several: it is hidden along, and not shown along.
+  list.selectAll();
+  find<QToolButton>("hideThese")->click();
+  EXPECT_FALSE(look(scene::kSoftTissue).shown);
+  EXPECT_FALSE(look("ct").shown);
+  find<QToolButton>("showThese")->click();
+  EXPECT_TRUE(look("ct").shown);
+  EXPECT_FALSE(look(scene::kSoftTissue).shown) << "it would veil the others";
+}
+
+TEST_F(Structures, SoftTissueThatCannotBeDrawnSaysSo)
+{
+  openWith({});
+  auto soft = look(scene::kSoftTissue);
+  soft.shown = true;
+  soft.transfer.reset();
+  model().setLook(scene::kSoftTissue, soft);
+  const QModelIndex row = structureCell(scene::kSoftTissue);
+  EXPECT_TRUE(waitFor([&] { return row.data().toString() == "Soft tissue (not drawn)"; }));
+  EXPECT_TRUE(row.data(Qt::ToolTipRole).toString().contains("fill air"));
+  auto* box = find<QCheckBox>("softTissue"); // of the Picture panel
+  EXPECT_TRUE(box->isChecked());
+  EXPECT_TRUE(box->toolTip().contains("fill air"));
+  box->click();
+  EXPECT_FALSE(look(scene::kSoftTissue).shown);
+  EXPECT_EQ(structureCell(scene::kSoftTissue).data().toString(), "Soft tissue");
+  action("Undo")->trigger();
+  EXPECT_TRUE(box->isChecked());
+}
+
 TEST_F(Structures, AColourIsPreviewedAndLeavesNoTraceIfItIsNotTaken)
 {
   openWith({});

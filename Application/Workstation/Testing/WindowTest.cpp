@@ -490,7 +490,7 @@ TEST_F(Window, TheListOfStructuresChangesTheCase)
   auto* list = window().findChild<QTreeView*>("structures");
   QAbstractItemModelTester tester(list->model(),
                                   QAbstractItemModelTester::FailureReportingMode::Warning);
-  ASSERT_EQ(list->model()->rowCount(), 2) << "bone, and one kind";
+  ASSERT_EQ(list->model()->rowCount(), 3) << "bone, soft tissue, and one kind";
   EXPECT_EQ(structureCell("nerve").data().toString(), "nerve");
   const auto cell = [this](const char* key)
   { return structureCell("nerve", StructuresModel::columnOf(key)); };

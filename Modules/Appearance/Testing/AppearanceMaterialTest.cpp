@@ -109,6 +109,99 @@ TEST(AppearanceMaterial, ALumenTintsItsWallAndLeavesItAsOpaqueAsBone)
   }
 }
 
+namespace
+{
+
+// Of 1 mm, as TransferFunction has it.
+double transmittance(const TransferFunction& transfer, double value, double millimetres)
+{
+  return std::exp(-transfer.at(value).extinction * millimetres);
+}
+
+} // namespace
+
+// ADR 38: what must be looked through, and that of the border of skin and air is seen.
+TEST(SoftTissueMaterial, LetsTheSkullBeSeenThroughScalpAndMuscle)
+{
+  const StructureAppearance look = softTissueLook();
+  EXPECT_FALSE(look.shown);
+  EXPECT_FALSE(look.touchable || look.drillable);
+  EXPECT_EQ(look.tissue, "");
+  const auto material = softTissueMaterial(look);
+  ASSERT_TRUE(material);
+  const TransferFunction& transfer = material->transfer;
+  EXPECT_EQ(transfer.at(-1000.0).extinction, 0.0) << "air";
+  EXPECT_EQ(transfer.at(-700.0).extinction, 0.0);
+  EXPECT_NEAR(transmittance(transfer, 40.0, 1.0), 1.0 - 0.045, 1e-6);
+  EXPECT_NEAR(transmittance(transfer, 40.0, 15.0), 0.5, 0.02) << "muscle";
+  EXPECT_GT(transmittance(transfer, -100.0, 20.0), 0.6) << "fat";
+  EXPECT_LT(transmittance(transfer, 40.0, 100.0), 0.05) << "brain hides the other side";
+}
+
+TEST(SoftTissueMaterial, FollowsTheScaleOfAConeBeam)
+{
+  const StructureAppearance look = softTissueLook();
+  const IntensityScale scale{4000.0 + 8.0 * 300.0, 4000.0 + 8.0 * 1800.0, false}; // 4000 + 8 HU
+  const auto values = valuesOf(softTissueMaterial(look, scale)->transfer);
+  const auto& points = look.transfer->points();
+  ASSERT_EQ(values.size(), points.size());
+  for (std::size_t n = 0; n < values.size(); ++n)
+    EXPECT_NEAR(values[n], 4000.0 + 8.0 * points[n].value, 1e-6);
+}
+
+TEST(SoftTissueMaterial, ScalesTheOpacityOfItsFunction)
+{
+  StructureAppearance look = softTissueLook();
+  look.opacity = 0.5F;
+  EXPECT_NEAR(transmittance(softTissueMaterial(look)->transfer, 40.0, 1.0), 1.0 - 0.0225, 1e-6);
+  look.opacity = 0.0F;
+  EXPECT_FALSE(softTissueMaterial(look)) << "nothing to draw";
+}
+
+TEST(SoftTissueMaterial, DrawsNoAir)
+{
+  StructureAppearance look = softTissueLook();
+  look.relative = false;
+  look.transfer = TransferFunction({{-100.0, {1.0F, 0.0F, 0.0F}, 0.4F, 0.2F},
+                                    {100.0, {1.0F, 0.0F, 0.0F}, 0.6F, 0.2F}});
+  const auto material = softTissueMaterial(look);
+  ASSERT_TRUE(material);
+  EXPECT_EQ(material->transfer.at(-110.0).extinction, 0.0) << "a twentieth of 200 HU below";
+  EXPECT_EQ(material->transfer.at(-1000.0).extinction, 0.0);
+  EXPECT_EQ(material->transfer.at(-100.0).extinction, look.transfer->at(-100.0).extinction);
+  EXPECT_EQ(material->transfer.at(50.0).extinction, look.transfer->at(50.0).extinction);
+  look.transfer = TransferFunction::constant({1.0F, 0.0F, 0.0F}, 0.1F);
+  EXPECT_FALSE(softTissueMaterial(look));
+  look.transfer.reset();
+  EXPECT_FALSE(softTissueMaterial(look));
+}
+
+TEST(SoftTissueMaterial, OfAnMrHasAFunctionOfItsValues)
+{
+  StructureAppearance look = softTissueLook();
+  look.sourceImage = "t2";
+  EXPECT_FALSE(softTissueMaterial(look)) << "of a preset that is made for CT";
+  look.transfer = softTissueOfMr({100.0, 900.0, false});
+  look.relative = false;
+  const auto material = softTissueMaterial(look);
+  ASSERT_TRUE(material);
+  EXPECT_EQ(material->source, IntensitySource::Second);
+  EXPECT_EQ(material->transfer.at(100.0).extinction, 0.0) << "below the patient's surface";
+  EXPECT_NEAR(transmittance(material->transfer, 900.0, 1.0), 0.9, 1e-6);
+  const auto dark = material->transfer.at(200.0).color, bright = material->transfer.at(800.0).color;
+  EXPECT_EQ(dark[0], dark[2]) << "grey";
+  EXPECT_LT(dark[0], bright[0]);
+  applySoftTissuePreset(look, StructurePresets::builtIn().preset("skin"));
+  EXPECT_EQ(look.sourceImage, "") << "made for CT";
+  EXPECT_EQ(look.tissue, "");
+  EXPECT_FALSE(look.touchable || look.drillable);
+  look.sourceImage = "t2";
+  readPrimaryImage(look);
+  EXPECT_EQ(look.sourceImage, "");
+  EXPECT_EQ(look.transfer, softTissueLook().transfer);
+  EXPECT_TRUE(look.relative);
+}
+
 TEST(StructureAppearance, AnotherColourKeepsTheShadesOfItsTransferFunction)
 {
   StructureAppearance look;

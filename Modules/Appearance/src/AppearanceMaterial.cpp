@@ -72,4 +72,37 @@ Material lumenMaterial(const StructureAppearance& look, const Material& bone,
   return material;
 }
 
+std::optional<Material> softTissueMaterial(const StructureAppearance& look,
+                                           const volume::IntensityScale& scale)
+{
+  constexpr double kFoot = 0.05; // of the function's width
+  if (!look.transfer || look.transfer->points().size() < 2 ||
+      (look.relative && !look.sourceImage.empty()))
+    return std::nullopt;
+  Material material = materialOf(look, scale);
+  std::vector<ControlPoint> points = material.transfer.points();
+  for (ControlPoint& point : points)
+    point.opacity *= look.opacity;
+  if (points.front().opacity > 0.0F)
+  {
+    ControlPoint foot = points.front();
+    foot.value -= kFoot * (points.back().value - points.front().value);
+    foot.opacity = 0.0F;
+    points.insert(points.begin(), foot);
+  }
+  material.transfer = TransferFunction(std::move(points));
+  return material.transfer.transparent() ? std::nullopt : std::optional(std::move(material));
+}
+
+TransferFunction softTissueOfMr(const volume::IntensityScale& scale)
+{
+  const auto at = [&scale](double share, float grey, float opacity)
+  {
+    constexpr float kSpecular = 0.2F;
+    return ControlPoint{
+        scale.iso + share * (scale.dense - scale.iso), {grey, grey, grey}, opacity, kSpecular};
+  };
+  return TransferFunction({at(0.0, 0.25F, 0.0F), at(0.25, 0.4F, 0.02F), at(1.0, 0.95F, 0.1F)});
+}
+
 } // namespace petrous::appearance

@@ -80,6 +80,15 @@ void setColor(StructureAppearance& look, const std::array<float, 3>& color)
   look.color = color;
 }
 
+void makeUntouchable(StructureAppearance& look)
+{
+  const StructureAppearance plain;
+  look.touchable = look.drillable = false;
+  look.tissue = plain.tissue;
+  look.stiffness = plain.stiffness;
+  look.warning = plain.warning;
+}
+
 void applyPreset(StructureAppearance& look, const StructureAppearance& preset)
 {
   StructureAppearance result = preset;
@@ -88,6 +97,14 @@ void applyPreset(StructureAppearance& look, const StructureAppearance& preset)
   result.drillable = look.drillable;
   result.sourceImage = look.sourceImage;
   look = std::move(result);
+}
+
+void applySoftTissuePreset(StructureAppearance& look, const StructureAppearance& preset)
+{
+  applyPreset(look, preset);
+  makeUntouchable(look);
+  if (look.relative)
+    look.sourceImage.clear();
 }
 
 } // namespace petrous::appearance

@@ -373,4 +373,28 @@ StructureAppearance boneLook()
   return StructurePresets::builtIn().preset("bone");
 }
 
+StructureAppearance softTissueLook()
+{
+  // Each case has one, and the catalogue is long.
+  static const StructureAppearance kLook = []
+  {
+    StructureAppearance look = StructurePresets::builtIn().preset("soft-tissue");
+    look.shown = false;
+    makeUntouchable(look);
+    return look;
+  }();
+  return kLook;
+}
+
+void readPrimaryImage(StructureAppearance& softTissue)
+{
+  if (softTissue.sourceImage.empty())
+    return;
+  const StructureAppearance usual = softTissueLook();
+  softTissue.sourceImage.clear();
+  softTissue.preset = usual.preset;
+  softTissue.transfer = usual.transfer;
+  softTissue.relative = usual.relative;
+}
+
 } // namespace petrous::appearance

@@ -2,6 +2,7 @@
 
 #include "DrilledCase.h"
 #include "MaskComparison.h"
+#include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/PlainText.h"
@@ -131,6 +132,20 @@ TEST(Case, BoneIsTheCtUnlessAStructureIsCalledBone)
   EXPECT_FALSE(scene::meansBone(value, "bone"));
 }
 
+TEST(Case, SoftTissueIsMeantWhereNoPartIsCalledSo)
+{
+  scene::Case value;
+  EXPECT_TRUE(scene::meansSoftTissue(value, scene::kSoftTissue));
+  EXPECT_TRUE(scene::meansSoftTissue(value, "soft-tissue"));
+  EXPECT_FALSE(scene::meansSoftTissue(value, "ct") || scene::meansBone(value, "soft-tissue"));
+  value.labels = {labelsNamed({"soft-tissue"})};
+  EXPECT_TRUE(scene::meansSoftTissue(value, scene::kSoftTissue));
+  EXPECT_FALSE(scene::meansSoftTissue(value, "soft-tissue"));
+  EXPECT_THROW(scene::checkPartName(scene::kSoftTissue), core::InvalidParameter);
+  EXPECT_NO_THROW(scene::checkPartName("soft-tissue"));
+  EXPECT_FALSE(value.softTissue.shown) << "at first";
+}
+
 TEST(Case, BoneIsDrawnOpaqueToBeginWith)
 {
   const scene::Case value;
@@ -151,7 +166,11 @@ TEST(Case, LooksReadTheCtAgainWhenTheirMrIsRemoved)
   }
   scene::findStructure(value, "nerve")->look.sourceImage = "t1";
   scene::findStructure(value, "sinus")->look.sourceImage = "t2";
+  value.softTissue.sourceImage = "t1";
+  value.softTissue.relative = false;
+  value.softTissue.transfer = appearance::TransferFunction::constant({1.0F, 1.0F, 1.0F}, 0.1F);
   scene::removePart(value, "t1");
+  EXPECT_TRUE(value.softTissue == appearance::softTissueLook()) << "no values of the MR in the CT";
   EXPECT_EQ(scene::findMr(value, "t1"), nullptr);
   EXPECT_EQ(scene::findStructure(value, "nerve")->look.sourceImage, "");
   EXPECT_EQ(scene::findStructure(value, "sinus")->look.sourceImage, "t2");

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "petrous/Appearance/AppearanceMaterial.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Manifest.h"
@@ -352,6 +353,27 @@ TEST(Manifest, RefusesAnIntegerThatIsTooLarge)
 }
 
 // Appearances as in the first manifests: no bone, no transfer functions.
+TEST(Manifest, HasSoftTissueOnlyWhereItIsOtherThanAtFirst)
+{
+  scene::Case value = fullCase();
+  const auto before = nlohmann::json::parse(scene::toManifest(value));
+  EXPECT_FALSE(before.contains("soft_tissue"));
+  value.softTissue.shown = true;
+  value.softTissue.opacity = 0.25F;
+  value.softTissue.sourceImage = "t2";
+  value.softTissue.relative = false;
+  value.softTissue.transfer = appearance::softTissueOfMr({100.0, 900.0, false});
+  auto j = nlohmann::json::parse(scene::toManifest(value));
+  EXPECT_EQ(j.at("petrous_case"), before.at("petrous_case")) << "older programs open it";
+  const auto back = scene::fromManifest(j.dump(), "m.json").softTissue;
+  EXPECT_TRUE(back == value.softTissue);
+  EXPECT_EQ(back.transfer, value.softTissue.transfer);
+  j["soft_tissue"]["flags"] = "shown,touchable,drillable"; // by hand
+  EXPECT_EQ(appearance::flagsOf(scene::fromManifest(j.dump(), "m.json").softTissue), "shown");
+  j.erase("soft_tissue"); // of an older program
+  EXPECT_TRUE(scene::fromManifest(j.dump(), "m.json").softTissue == appearance::softTissueLook());
+}
+
 TEST(Manifest, OpensOneWithoutTransferFunctionsAsItLookedBefore)
 {
   auto j = nlohmann::json::parse(scene::toManifest(fullCase()));

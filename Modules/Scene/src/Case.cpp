@@ -51,11 +51,26 @@ const ImagePart* findMr(const Case& value, const std::string& name)
   return found == value.mr.end() ? nullptr : &*found;
 }
 
+namespace
+{
+
+bool isCalled(const Case& value, const std::string& name)
+{
+  return findStructure(value, name) ||
+         std::any_of(value.meshes.begin(), value.meshes.end(),
+                     [&name](const MeshPart& mesh) { return mesh.name == name; });
+}
+
+} // namespace
+
 bool meansBone(const Case& value, const std::string& name)
 {
-  const auto called = [&name](const MeshPart& mesh) { return mesh.name == name; };
-  return name == "ct" || (name == "bone" && !findStructure(value, name) &&
-                          std::none_of(value.meshes.begin(), value.meshes.end(), called));
+  return name == "ct" || (name == "bone" && !isCalled(value, name));
+}
+
+bool meansSoftTissue(const Case& value, const std::string& name)
+{
+  return name == kSoftTissue || (name == "soft-tissue" && !isCalled(value, name));
 }
 
 std::vector<std::string> partNames(const Case& value)
@@ -155,6 +170,8 @@ void readCtInsteadOf(Case& value, const std::string& image)
       look.sourceImage.clear();
   };
   change(value.boneLook);
+  if (value.softTissue.sourceImage == image)
+    appearance::readPrimaryImage(value.softTissue);
   for (LabelPart& part : value.labels)
     for (StructurePart& structure : part.structures)
       change(structure.look);
@@ -231,10 +248,10 @@ void checkBranchName(const std::string& name)
 void checkPartName(const std::string& name)
 {
   if (name.empty() || name.size() > 200 || !core::isUtf8(name) || hasInvisible(name) ||
-      name == "ct")
+      name == "ct" || name == kSoftTissue)
     throw core::InvalidParameter("the name of a part must be 1 to 200 bytes of UTF-8 without "
                                  "control characters or characters that are not seen, and not "
-                                 "'ct'; give one with NAME=FILE");
+                                 "'ct' or 'ct:soft-tissue'; give one with NAME=FILE");
 }
 
 void checkPersonName(const std::string& name)

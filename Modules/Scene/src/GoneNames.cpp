@@ -61,6 +61,8 @@ void forgetGoneReferences(Case& value)
       look.sourceImage.clear();
   };
   showsCt(value.boneLook);
+  if (isGone(value.softTissue.sourceImage))
+    appearance::readPrimaryImage(value.softTissue);
   for (ImagePart& mr : value.mr)
     if (mr.registration && isGone(mr.registration->through))
       mr.registration->through.clear();

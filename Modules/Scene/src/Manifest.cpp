@@ -910,6 +910,11 @@ Case caseIn(const json& j)
   value.ct.name = plainIn(j.at("ct").at("name")); // no part's, which are checked
   if (j.contains("bone"))
     value.boneLook = lookIn(j.at("bone"), presets);
+  if (j.contains("soft_tissue"))
+  {
+    value.softTissue = lookIn(j.at("soft_tissue"), presets);
+    appearance::makeUntouchable(value.softTissue);
+  }
   for (const json& m : j.at("mr"))
   {
     ImagePart mr = imageIn(m);
@@ -1011,6 +1016,8 @@ std::string toManifest(const Case& value)
     j["labels"].push_back(labelsOut(part));
   for (const MeshPart& mesh : value.meshes)
     j["meshes"].push_back(meshOut(mesh));
+  if (!(value.softTissue == appearance::softTissueLook()))
+    j["soft_tissue"] = appearance::appearanceJson(value.softTissue);
   if (!value.id.empty())
     j["id"] = value.id;
   if (value.camera)

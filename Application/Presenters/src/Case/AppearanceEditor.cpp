@@ -9,6 +9,8 @@
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Presenters/BoneOpacity.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/SceneAssembly.h"
+#include "petrous/Volume/IntensityScale.h"
 
 namespace petrous::presenters
 {
@@ -43,6 +45,28 @@ AppearanceEditor::Part partOf(const std::string& name, const StructureAppearance
   return part;
 }
 
+// As it is edited: without the factor and the foot of softTissueMaterial.
+AppearanceEditor::Part softTissueOf(const scene::Case& value)
+{
+  auto part = partOf(AppearanceEditor::kSoftTissue, value.softTissue, softTissueScale(value));
+  if (part.points.empty())
+    part.transfer = TransferFunction::constant(value.softTissue.color, 0.0F); // not drawn
+  return part;
+}
+
+bool readsMr(const scene::Case& value, const StructureAppearance& look)
+{
+  return !look.sourceImage.empty() || value.ct.modality == scene::Modality::Mr;
+}
+
+StructureAppearance withFunctionOfMr(StructureAppearance look,
+                                     const volume::IntensityHistogram& histogram)
+{
+  look.transfer = appearance::softTissueOfMr(volume::suggestMrScale(histogram));
+  look.relative = false;
+  return look;
+}
+
 StructureAppearance withPoints(StructureAppearance look, std::vector<ControlPoint> points)
 {
   if (points.empty())
@@ -58,6 +82,8 @@ const StructureAppearance* lookOf(const scene::Case& value, const std::string& p
 {
   if (part == AppearanceEditor::kBone)
     return &value.boneLook;
+  if (part == AppearanceEditor::kSoftTissue)
+    return &value.softTissue;
   const scene::StructurePart* structure = scene::findStructure(value, part);
   return structure ? &structure->look : nullptr;
 }
@@ -135,6 +161,7 @@ void AppearanceEditor::refresh()
   const scene::Case& value = m_model.value();
   const volume::IntensityScale scale = value.intensityScale();
   m_parts.push_back(partOf(kBone, value.boneLook, scale));
+  m_parts.push_back(softTissueOf(value));
   for (const scene::LabelPart& labels : value.labels)
     for (const scene::StructurePart& structure : labels.structures)
       m_parts.push_back(partOf(structure.name, structure.look, scale));
@@ -445,12 +472,25 @@ void AppearanceEditor::setSource(const std::string& image)
     return;
   StructureAppearance look = selected()->look;
   look.sourceImage = image;
+  if (selected()->name == kSoftTissue)
+    try
+    {
+      look = softTissueReading(m_model.value(), image, m_histograms.image(image));
+    }
+    catch (const core::Error&) // said where the case was opened; without a function it is not drawn
+    {
+    }
   m_point.reset();
   set(look);
 }
 
 std::string AppearanceEditor::notice() const
 {
+  if (selected() && selected()->name == kSoftTissue)
+  {
+    const std::string why = softTissueMissing(m_model.value());
+    return why.empty() ? why : "Soft tissue is not drawn: " + why;
+  }
   if (!selected() || !selected()->look.solid || selected()->look.sourceImage.empty())
     return {};
   const StructureAppearance& look = selected()->look;
@@ -481,7 +521,11 @@ bool AppearanceEditor::canFit() const
 {
   if (!selected() || !selected()->look.solid)
     return false;
-  const auto histogram = selected()->name == kBone ? imageHistogram() : insideHistogram();
+  const bool isSoftTissue = selected()->name == kSoftTissue;
+  if (isSoftTissue && !readsMr(m_model.value(), selected()->look))
+    return false;
+  const auto histogram =
+      isSoftTissue || selected()->name == kBone ? imageHistogram() : insideHistogram();
   return histogram && histogram->count() > 0;
 }
 
@@ -490,6 +534,11 @@ void AppearanceEditor::fit()
   if (!canFit())
     return;
   const scene::Case& value = m_model.value();
+  if (selected()->name == kSoftTissue)
+  {
+    m_point.reset();
+    return set(withFunctionOfMr(selected()->look, *imageHistogram()));
+  }
   const bool isBone = selected()->name == kBone;
   const bool isOfSurface = isBone && selected()->look.sourceImage.empty();
   const StructureAppearance look = fitted(selected()->look, value.intensityScale(),
@@ -525,22 +574,46 @@ void AppearanceEditor::dropHistograms()
   m_histograms = {};
 }
 
+StructureAppearance softTissueReading(const scene::Case& value, const std::string& image,
+                                      AppearanceHistograms::Histogram histogram)
+{
+  StructureAppearance look = value.softTissue;
+  if (image == look.sourceImage)
+    return look;
+  if (image.empty())
+  {
+    appearance::readPrimaryImage(look);
+    return look;
+  }
+  const scene::ImagePart* mr = scene::findMr(value, image);
+  const auto volume = mr ? mr->volume.get() : nullptr;
+  if (!volume)
+    throw core::InvalidParameter("the case has no MR '" + image + "'");
+  look.sourceImage = image;
+  if (!histogram)
+    histogram = std::make_shared<const volume::IntensityHistogram>(*volume);
+  return withFunctionOfMr(std::move(look), *histogram);
+}
+
 StructureAppearance withPreset(const scene::Case& value, const std::string& part,
                                const StructureAppearance& preset)
 {
   const bool isBone = scene::meansBone(value, part);
-  if (isBone && !preset.solid)
+  const bool isSoftTissue = scene::meansSoftTissue(value, part);
+  if ((isBone || isSoftTissue) && !preset.solid)
     throw core::InvalidParameter("preset '" + preset.preset +
-                                 "' is that of a lumen and cannot be the look of bone");
-  const scene::StructurePart* structure = isBone ? nullptr : scene::findStructure(value, part);
-  StructureAppearance look = value.boneLook;
+                                 "' is that of a lumen and cannot be the look of " +
+                                 (isBone ? "bone" : "soft tissue"));
+  const scene::StructurePart* structure =
+      isBone || isSoftTissue ? nullptr : scene::findStructure(value, part);
+  StructureAppearance look = isSoftTissue ? value.softTissue : value.boneLook;
   if (structure)
     look = structure->look;
-  else if (!isBone)
+  else if (!isBone && !isSoftTissue)
     for (const scene::MeshPart& mesh : value.meshes)
       if (mesh.name == part)
         look = mesh.look;
-  appearance::applyPreset(look, preset);
+  (isSoftTissue ? appearance::applySoftTissuePreset : appearance::applyPreset)(look, preset);
   if (preset.preset != appearance::StructurePresets::builtIn().lookFor(kOpenColor).preset)
     return look;
   std::vector<std::array<float, 3>> taken;
@@ -593,18 +666,26 @@ StructureAppearance fitted(const scene::Case& value, const std::string& part,
                            const core::Progress& progress)
 {
   const bool isBone = scene::meansBone(value, part);
-  const StructureAppearance* look = lookOf(value, isBone ? AppearanceEditor::kBone : part);
+  const bool isSoftTissue = scene::meansSoftTissue(value, part);
+  const StructureAppearance* look = lookOf(value, isBone         ? AppearanceEditor::kBone
+                                                  : isSoftTissue ? AppearanceEditor::kSoftTissue
+                                                                 : part);
   if (!look)
     throw core::InvalidParameter("'" + part + "' is a mesh and reads no image");
   if (!look->solid)
     throw core::InvalidParameter("'" + part + "' is a lumen and reads the bone around it");
+  if (isSoftTissue && !readsMr(value, *look))
+    throw core::InvalidParameter("soft tissue of a CT is not fitted; apply a preset, whose values "
+                                 "follow the image's scale");
   AppearanceHistograms histograms;
   if (const auto counting = histograms.counting(value))
     histograms.take(counting(progress));
   const auto histogram =
-      isBone ? histograms.image(look->sourceImage) : histograms.within(value, part);
+      isBone || isSoftTissue ? histograms.image(look->sourceImage) : histograms.within(value, part);
   if (!histogram || histogram->count() == 0)
     throw core::InvalidParameter("'" + part + "' has no voxel in the image that it reads");
+  if (isSoftTissue)
+    return withFunctionOfMr(*look, *histogram);
   const bool isOfSurface = isBone && look->sourceImage.empty();
   return fitted(*look, value.intensityScale(), *histogram,
                 isOfSurface ? std::optional(value.iso) : std::nullopt);

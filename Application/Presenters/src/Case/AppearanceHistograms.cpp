@@ -144,7 +144,8 @@ AppearanceHistograms::Histogram AppearanceHistograms::within(const scene::Case& 
 std::function<AppearanceHistograms(const core::Progress&)>
 AppearanceHistograms::counting(const scene::Case& value) const
 {
-  std::set<std::string> images{value.boneLook.sourceImage, std::string()};
+  std::set<std::string> images{value.boneLook.sourceImage, value.softTissue.sourceImage,
+                               std::string()};
   std::set<std::string> structures;
   for (const scene::LabelPart& part : value.labels)
     for (const scene::StructurePart& one : part.structures)

@@ -845,6 +845,8 @@ std::string validName(const std::string& name, const IsTaken& isTaken,
     valid = "structure";
   if (valid == "ct")
     valid = "structure ct";
+  if (valid == scene::kSoftTissue)
+    valid = "structure soft-tissue";
   if (isTaken(valid))
     valid = scene::freeName(core::utf8Prefix(valid, kLongest - 8), isTaken);
   if (valid != name)

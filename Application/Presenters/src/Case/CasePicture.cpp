@@ -154,6 +154,7 @@ scene::Case thumbnailCase(scene::Case value)
     value.boneLook.transfer.reset();
     value.boneLook.opacity = 1.0F;
   }
+  value.softTissue.shown = false; // the face
   for (scene::LabelPart& part : value.labels)
     for (scene::StructurePart& structure : part.structures)
       structure.look.shown = structure.look.shown && !showsTheFace(structure.name);

@@ -62,6 +62,12 @@ volume::IntensityScale calibratedScale(const scene::Case& value)
   return scale;
 }
 
+volume::IntensityScale softTissueScale(const scene::Case& value)
+{
+  const volume::IntensityScale scale = calibratedScale(value);
+  return scale.calibrated ? volume::IntensityScale() : scale;
+}
+
 const char* primaryName(const scene::Case& value)
 {
   return value.ct.modality == scene::Modality::Mr ? "MR" : "CT";

@@ -1,6 +1,7 @@
 #include "petrous/Presenters/SceneAssembly.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "petrous/Appearance/AppearanceMaterial.h"
@@ -37,6 +38,33 @@ bool readsSecond(const StructureAppearance& look)
   return appearance::materialOf(look).source == IntensitySource::Second;
 }
 
+// Were it shown. `why`: it cannot be drawn.
+struct SoftTissue
+{
+  std::optional<Material> material;
+  std::string why;
+};
+
+// Of one in the values of an MR it is left open whether that MR is drawn.
+SoftTissue softTissueOf(const scene::Case& value)
+{
+  const StructureAppearance& look = value.softTissue;
+  if (!look.transfer || look.transfer->points().size() < 2)
+    return {{}, "it has no transfer function of several points, and one colour would fill air too"};
+  if (look.relative && !look.sourceImage.empty())
+    return {{},
+            "presets are made for CT; it is drawn once it has points in values of '" +
+                look.sourceImage + "'"};
+  if (look.relative && value.ct.modality == scene::Modality::Mr)
+    return {{}, "presets are made for CT; it is drawn once it has points in values of the MR"};
+  const scene::ImagePart* mr = scene::findMr(value, look.sourceImage);
+  if (!look.sourceImage.empty() && !(mr && mr->registered))
+    return {{}, "'" + look.sourceImage + "' is not registered with the CT"};
+  auto material = softTissueMaterial(look, softTissueScale(value));
+  std::string why = material ? "" : "it is transparent at every intensity";
+  return {std::move(material), std::move(why)};
+}
+
 const scene::ImagePart* secondImage(const scene::Case& value, const Structures& structures)
 {
   for (const scene::ImagePart& mr : value.mr)
@@ -49,7 +77,22 @@ const scene::ImagePart* secondImage(const scene::Case& value, const Structures& 
                           std::any_of(structures.begin(), structures.end(), asksToo)))
       return &mr;
   }
-  return nullptr;
+  const SoftTissue soft = softTissueOf(value);
+  return value.softTissue.shown && soft.material && soft.material->source == IntensitySource::Second
+             ? scene::findMr(value, value.softTissue.sourceImage)
+             : nullptr;
+}
+
+// The values of an MR that is not drawn must not be read from the CT, nor from another MR.
+SoftTissue drawnSoftTissue(const scene::Case& value, const scene::ImagePart* second)
+{
+  SoftTissue soft = softTissueOf(value);
+  if (soft.material && soft.material->source == IntensitySource::Second && second &&
+      second->name != value.softTissue.sourceImage)
+    return {{},
+            "it reads '" + value.softTissue.sourceImage + "', but bone or a structure reads '" +
+                second->name + "', and a picture shows one MR"};
+  return soft;
 }
 
 // Values for an image that is not drawn must not be read from the CT.
@@ -116,6 +159,8 @@ rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
     contents.second = {second->volume.get(), second->mrFromCt};
   contents.boneShown = value.boneLook.shown;
   contents.materials = materialsOf(value, shown.structures, second);
+  if (value.softTissue.shown)
+    contents.softTissue = drawnSoftTissue(value, second).material;
 
   if (!m_thicknessOver.empty() && !m_thickness)
     m_thickness = boneThickness(value, m_thicknessOver, progress);
@@ -128,6 +173,16 @@ rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
       if (auto placed = scene::meshOnCt(value, mesh))
         contents.meshes.push_back({mesh.name, std::move(placed), mesh.look});
   return contents;
+}
+
+std::string softTissueMissing(const scene::Case& value)
+{
+  Structures structures;
+  for (const scene::LabelPart& part : value.labels)
+    for (const scene::StructurePart& structure : part.structures)
+      if (structure.look.shown && scene::placementOf(value, part).missing.empty())
+        structures.push_back(&structure);
+  return drawnSoftTissue(value, secondImage(value, structures)).why;
 }
 
 } // namespace petrous::presenters

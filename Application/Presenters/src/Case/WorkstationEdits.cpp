@@ -29,6 +29,8 @@ auto* lookIn(Case& value, const std::string& part)
 {
   if (part == kBone)
     return &value.boneLook;
+  if (part == scene::kSoftTissue)
+    return &value.softTissue;
   if (auto* structure = scene::findStructure(value, part))
     return &structure->look;
   for (auto& mesh : value.meshes)
@@ -79,7 +81,9 @@ LookEdit lookEdit(const std::vector<PartLook>& before, const std::vector<PartLoo
       continue;
     ++changed;
     shown += to.shown;
-    name = before[n].part == kBone ? bone : shownName(before[n].part);
+    name = before[n].part == kBone                ? bone
+           : before[n].part == scene::kSoftTissue ? "soft tissue"
+                                                  : shownName(before[n].part);
     const bool isOpacity = before[n].part == kBone && from.opacity != to.opacity &&
                            from.color == to.color && from.shown == to.shown;
     if (isOpacity)
@@ -293,7 +297,7 @@ void WorkstationModel::applyLooks(const std::vector<PartLook>& looks)
     if (!present)
       continue;
     targets.emplace_back(present, &one);
-    if (one.part == kBone)
+    if (one.part == kBone || one.part == scene::kSoftTissue)
       continue;
     const appearance::StructureAppearance& look = one.look;
     const bool isOrder = present->priority != look.priority || present->solid != look.solid;

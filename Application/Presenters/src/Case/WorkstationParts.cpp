@@ -231,6 +231,8 @@ void WorkstationModel::takeOut(const std::string& name, std::uint64_t removal)
                 });
     if (next.boneLook.sourceImage == name)
       removed.colored.emplace_back("ct"); // which no other part can be called
+    if (next.softTissue.sourceImage == name)
+      removed.softTissue = next.softTissue;
   }
   for (std::size_t n = 0; n < next.labels.size(); ++n)
     if (const std::size_t at = indexOf(next.labels[n].structures, name);
@@ -261,6 +263,7 @@ void WorkstationModel::takeOut(const std::string& name, std::uint64_t removal)
   m_case->labels = std::move(next.labels);
   m_case->meshes = std::move(next.meshes);
   m_case->boneLook = next.boneLook;
+  m_case->softTissue = next.softTissue;
   m_removed.push_back(std::move(removed));
   m_partsMoved = true;
   if (m_assembly.thicknessOver() == name)
@@ -319,6 +322,14 @@ void WorkstationModel::bringBack(std::uint64_t removal)
                 });
     if (std::count(removed.colored.begin(), removed.colored.end(), "ct") > 0)
       m_case->boneLook.sourceImage = removed.name;
+    if (removed.softTissue)
+    {
+      appearance::StructureAppearance& look = m_case->softTissue;
+      look.sourceImage = removed.name;
+      look.preset = removed.softTissue->preset;
+      look.transfer = removed.softTissue->transfer;
+      look.relative = removed.softTissue->relative;
+    }
   }
   if (removed.labels)
   {
@@ -411,6 +422,7 @@ void WorkstationModel::rename(const std::string& name, const std::string& to)
     forEachLook(*m_case, [&](const std::string&, appearance::StructureAppearance& look)
                 { follow(look.sourceImage); });
     follow(m_case->boneLook.sourceImage);
+    follow(m_case->softTissue.sourceImage);
     if (auto& slices = m_case->view.slices; slices && slices->overlay)
       follow(slices->overlay->mr);
     for (RemovedPart& removed : m_removed) // may come back

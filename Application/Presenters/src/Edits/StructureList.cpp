@@ -31,7 +31,9 @@ StructureKind kindOf(const appearance::StructureAppearance& look)
 
 std::vector<StructureRow> structureRows(const scene::Case& value)
 {
-  std::vector<StructureRow> rows{{kBone, StructureKind::Bone, 0.0, value.boneLook, {}}};
+  std::vector<StructureRow> rows{
+      {kBone, StructureKind::Bone, 0.0, value.boneLook, {}},
+      {scene::kSoftTissue, StructureKind::SoftTissue, 0.0, value.softTissue, {}}};
   for (const auto& part : value.labels)
   {
     const std::string missing = scene::placementOf(value, part).missing;
@@ -68,9 +70,10 @@ appearance::StructureAppearance withPreset(const scene::Case& value, const std::
 {
   const auto presets = appearance::StructurePresets::builtIn();
   const appearance::StructureAppearance chosen = presets.preset(preset);
-  if (part == kBone && !chosen.solid)
+  const bool isSoftTissue = part == scene::kSoftTissue;
+  if ((part == kBone || isSoftTissue) && !chosen.solid)
     return look;
-  appearance::applyPreset(look, chosen);
+  (isSoftTissue ? appearance::applySoftTissuePreset : appearance::applyPreset)(look, chosen);
   if (chosen.preset == presets.lookFor({}).preset)
     appearance::setColor(look, appearance::distinctColor(structureColors(value)));
   return look;
@@ -134,7 +137,9 @@ void OnlyThese::toggle(const std::vector<std::string>& parts)
     m_before = present; // else these are shown alone in place of others
   m_case = m_model.shownAs();
   show(alone(parts), parts.size() == 1
-                         ? "only " + (parts[0] == kBone ? "bone" : shownName(parts[0]))
+                         ? "only " + (parts[0] == kBone                ? "bone"
+                                      : parts[0] == scene::kSoftTissue ? "soft tissue"
+                                                                       : shownName(parts[0]))
                          : "only " + std::to_string(parts.size()) + " parts");
   m_now = shown();
 }

@@ -145,6 +145,7 @@ void withholdNames(scene::Case& value, Withheld& withheld)
   const auto image = [&](std::string& name) { name = withheld.name(name, "Image"); };
   const auto look = [&](appearance::StructureAppearance& one) { image(one.sourceImage); };
   look(value.boneLook);
+  look(value.softTissue);
   for (scene::ImagePart& mr : value.mr)
   {
     image(mr.name);
@@ -493,7 +494,8 @@ private:
     {
       const scene::Case shown = m_options.keepIdentity ? m_value : thumbnailCase(m_value);
       rendering::SceneContents contents = sceneContents(shown, progress.part(0.0, 0.4));
-      if (!contents.boneShown && contents.meshes.empty() && contents.materials.size() < 2)
+      if (!contents.boneShown && contents.meshes.empty() && contents.materials.size() < 2 &&
+          !contents.softTissue)
       {
         views.paragraphs.push_back(say("Nothing of the case is shown in 3D."));
         return;

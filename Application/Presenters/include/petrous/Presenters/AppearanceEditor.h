@@ -31,18 +31,19 @@ struct OpacityAxis
   static double rounded(double opacity) noexcept; ///< to three significant digits, at most 4 places
 };
 
-/// Edits the transfer functions of the open case [Chan2016, Fig. 10]: of bone and of each structure
-/// of a label map, in the values of the image that it reads. A change is one
+/// Edits the transfer functions of the open case [Chan2016, Fig. 10]: of bone, of soft tissue and of
+/// each structure of a label map, in the values of the image that it reads. A change is one
 /// WorkstationModel::setLook; none while drilling. Without Qt; not thread-safe.
 class AppearanceEditor
 {
 public:
   static constexpr const char* kBone = "ct"; ///< as `petrous appearance` calls it
+  static constexpr const char* kSoftTissue = scene::kSoftTissue;
 
   /// What has a transfer function.
   struct Part
   {
-    std::string name; ///< kBone: bone, or the tissue of an MR as primary image
+    std::string name; ///< kBone: bone, or the tissue of an MR as primary image; kSoftTissue
     appearance::StructureAppearance look;
     /// In the values of the image that it reads; empty: drawn in one colour.
     std::vector<appearance::ControlPoint> points;
@@ -82,7 +83,7 @@ public:
   /// Takes over the case and its looks as they are; call when they changed.
   void refresh();
 
-  const std::vector<Part>& parts() const noexcept { return m_parts; } ///< bone first
+  const std::vector<Part>& parts() const noexcept { return m_parts; } ///< bone, soft tissue
   const Part* selected() const noexcept;                              ///< nullptr: there is no case
   void select(const std::string& part); ///< no effect if there is none
   void selectNext(int step);            ///< the next one on the same axis, in a circle
@@ -106,13 +107,14 @@ public:
   void setColor(const std::array<float, 3>& color);
   std::array<float, 3> color() const;
 
-  /// Of the surface, 0 to 1; of a lumen, how much it tints bone. Below 1 the inside is seen.
+  /// Of the surface, 0 to 1; of a lumen, how much it tints bone; of soft tissue, a factor of that of
+  /// its function. Below 1 the inside is seen.
   void setSurfaceOpacity(double opacity);
 
   /// The built-in ones, then those of the library. Throws as OwnPresets::all.
   std::vector<Preset> presets() const;
-  /// As `petrous appearance --set`. Throws as OwnPresets::preset; InvalidParameter for bone if it
-  /// is that of a lumen.
+  /// As `petrous appearance --set`. Throws as OwnPresets::preset; InvalidParameter for bone and
+  /// soft tissue if it is that of a lumen.
   void applyPreset(const std::string& name);
   void savePreset(const std::string& name);   ///< the part's appearance; throws as OwnPresets::save
   void deletePreset(const std::string& name); ///< throws as OwnPresets::remove
@@ -127,19 +129,22 @@ public:
   std::vector<Source> sources() const; ///< the primary image first
   /// Why the selected part reads the primary image only; empty: it may read any.
   std::string sourceFixed() const;
+  /// Soft tissue gets a function of an MR's values with it (softTissueReading).
   void setSource(const std::string& image);
-  /// Why the selected part is drawn in one colour although it has a function; empty: it is not.
+  /// Why the selected part is drawn in one colour although it has a function, or soft tissue not at
+  /// all; empty: it is drawn as it is set.
   std::string notice() const;
 
   /// Whether `fit` has what it needs.
   bool canFit() const;
   /// Moves the points so that the first and the last lie where the image has most of the part's
   /// values (2nd and 98th percentile; of bone, of the values above the threshold), the others in
-  /// proportion. Without points, gives it two shades of its colour.
+  /// proportion. Without points, gives it two shades of its colour. Soft tissue of an MR gets the
+  /// function with which it begins; that of a CT has values in Hounsfield units, and is not fitted.
   void fit();
 
   AppearanceHistograms::Histogram imageHistogram() const;  ///< that the selected part reads
-  AppearanceHistograms::Histogram insideHistogram() const; ///< within it; bone: nullptr
+  AppearanceHistograms::Histogram insideHistogram() const; ///< within it; bone, soft tissue: nullptr
   bool counts() const noexcept { return m_isCounting; }
   /// Counts missing histograms, in any thread; then call `counted`. Empty: none, or under way.
   std::function<AppearanceHistograms(const core::Progress&)> beginCounting();
@@ -161,8 +166,17 @@ private:
   bool m_isCounting = false;
 };
 
+/// The look of a case's soft tissue with another image as its source: the values of one mean nothing
+/// in another, so that it gets the function of appearance::softTissueOfMr, or that of the default
+/// for the primary image (empty). Throws InvalidParameter if there is no such MR, and what reading
+/// it throws. `histogram`: of the MR; nullptr: it is counted.
+appearance::StructureAppearance softTissueReading(const scene::Case& value,
+                                                  const std::string& image,
+                                                  AppearanceHistograms::Histogram histogram = {});
+
 /// A part's look with a preset; where that leaves the colour open ("other"), with one unlike those
-/// of the other parts. Throws InvalidParameter if bone would become a lumen.
+/// of the other parts. Throws InvalidParameter if bone or soft tissue would
+/// become a lumen.
 appearance::StructureAppearance withPreset(const scene::Case& value, const std::string& part,
                                            const appearance::StructureAppearance& preset);
 
@@ -173,8 +187,8 @@ appearance::StructureAppearance fitted(const appearance::StructureAppearance& lo
                                        const volume::IntensityHistogram& histogram,
                                        std::optional<double> above = {});
 
-/// The same for a part of a case, kBone for bone, whose histogram is counted first. Throws as well
-/// if the part has no values: a mesh, a lumen.
+/// The same for a part of a case, kBone for bone, kSoftTissue for soft tissue, whose histogram is counted first. Throws as well
+/// if the part has no values: a mesh, a lumen; or if it is soft tissue of a CT.
 appearance::StructureAppearance fitted(const scene::Case& value, const std::string& part,
                                        const core::Progress& progress = {});
 

@@ -13,6 +13,10 @@ namespace petrous::presenters
 /// which the histogram of any other image does not show (volume::suggestScale).
 volume::IntensityScale calibratedScale(const scene::Case& value);
 
+/// To which presets of soft tissue are mapped: Hounsfield units where the case's scale is
+/// calibrated, whatever the threshold of bone.
+volume::IntensityScale softTissueScale(const scene::Case& value);
+
 /// "CT", or "MR": what a user calls the primary image.
 const char* primaryName(const scene::Case& value);
 

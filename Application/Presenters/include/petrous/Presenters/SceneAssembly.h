@@ -25,7 +25,8 @@ public:
   ///
   /// Material 0 is bone, the others are the visible structures in the order of scene::labelSources.
   /// Of the MRs that appearances refer to, the first registered one is drawn; structures that refer
-  /// to another are drawn in a single colour. Throws InvalidParameter if more than 255 structures
+  /// to another are drawn in a single colour, and soft tissue that does is not drawn; its MR is drawn
+  /// if bone and structures refer to none. Throws InvalidParameter if more than 255 structures
   /// are shown, CancelledError, and what loading the parts throws.
   rendering::SceneContents contents(const scene::Case& value, const core::Progress& progress = {});
 
@@ -42,5 +43,9 @@ private:
   std::vector<volume::LabelSource> m_sources;
   std::shared_ptr<const volume::LabelField> m_labels; ///< of `m_sources`
 };
+
+/// Why soft tissue is not drawn where it is shown: "'T2' is not registered with the CT". Empty: it
+/// is. Reads no image.
+std::string softTissueMissing(const scene::Case& value);
 
 } // namespace petrous::presenters

@@ -16,7 +16,8 @@ namespace petrous::presenters
 /// What structures are, as the list of a case has them one below the other.
 enum class StructureKind
 {
-  Bone, ///< the primary image itself, or its tissue where that is an MR
+  Bone,       ///< the primary image itself, or its tissue where that is an MR
+  SoftTissue, ///< what is neither bone nor a structure
   Nerve,
   Vessel,
   Ossicle,
@@ -30,7 +31,7 @@ enum class StructureKind
 /// A row of the list of a case.
 struct StructureRow
 {
-  std::string part; ///< as WorkstationModel::lookOf; bone is "ct"
+  std::string part; ///< as WorkstationModel::lookOf; bone is "ct", soft tissue scene::kSoftTissue
   StructureKind kind = StructureKind::Other;
   double volume = 0.0; ///< mm^3, of a structure; 0: not known
   appearance::StructureAppearance look;

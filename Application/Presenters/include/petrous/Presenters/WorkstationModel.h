@@ -86,7 +86,8 @@ struct MeasuredThickness
   std::uint64_t parts = 0; // of the model when it was copied
 };
 
-/// The appearance of a part: of bone, or tissue of an MR, under the name "ct".
+/// The appearance of a part: of bone, or tissue of an MR, under the name "ct"; of soft tissue under
+/// scene::kSoftTissue.
 struct PartLook
 {
   std::string part;
@@ -282,7 +283,7 @@ public:
   /// Several in one step and with one notification. Unknown parts are passed over. `what`: as undo
   /// calls it, if it is more than a change of a property; it is a step of its own then.
   void setLooks(const std::vector<PartLook>& looks, const std::string& what = {});
-  /// nullptr: there is no such part. "ct" is bone.
+  /// nullptr: there is no such part. "ct" is bone, scene::kSoftTissue soft tissue.
   const appearance::StructureAppearance* lookOf(const std::string& part) const;
 
   /// Changes the registration of MRs (Scene/ApplyRegistration.h). Puts the tool away if that moves
@@ -388,6 +389,8 @@ private:
     std::size_t structure = 0;              ///< place in its label part
     bool wasAlone = true;                   ///< the label part went with it
     std::vector<std::string> colored = {};  ///< structures whose appearance read the MR
+    /// As it read the MR, if it did.
+    std::optional<appearance::StructureAppearance> softTissue = {};
     std::vector<std::string> measured = {}; ///< measurements that followed it
   };
   /// What followed a structure that was taken out, until it is put back.

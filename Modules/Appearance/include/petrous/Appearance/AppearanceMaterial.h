@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "petrous/Appearance/Material.h"
 #include "petrous/Appearance/StructureAppearance.h"
 #include "petrous/Volume/IntensityScale.h"
@@ -30,5 +32,21 @@ Material materialOf(const StructureAppearance& look, const volume::IntensityScal
 /// its wall remains as opaque as bone.
 Material lumenMaterial(const StructureAppearance& look, const Material& bone,
                        const volume::IntensityScale& scale = {});
+
+/// The material of what is neither bone nor a structure; `shown` does not count.
+///
+/// The opacity of the look is a factor of that of its transfer function, as there is no surface.
+/// Below its first point it is transparent, falling to it over a twentieth of the function's width,
+/// so that air is not drawn. `scale`: as for materialOf, but Hounsfield units where the image has
+/// them, whatever the threshold of bone.
+///
+/// nullopt, as there is nothing to draw: no transfer function or one with a single point, which
+/// would fill air too; a preset's over an MR; transparent at every intensity.
+std::optional<Material> softTissueMaterial(const StructureAppearance& look,
+                                           const volume::IntensityScale& scale = {});
+
+/// Soft tissue in an MR of its own values: black air is transparent, and a ramp of grey leads to an
+/// opacity of 0.1 of 1 mm for bright tissue. `scale`: of volume::suggestMrScale.
+TransferFunction softTissueOfMr(const volume::IntensityScale& scale);
 
 } // namespace petrous::appearance

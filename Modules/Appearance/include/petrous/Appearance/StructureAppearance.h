@@ -42,8 +42,16 @@ std::string flagsOf(const StructureAppearance& look);
 /// to the appearance's colour. Throws InvalidParameter outside 0 to 1.
 void setColor(StructureAppearance& look, const std::array<float, 3>& color);
 
+/// Makes it that of what is air to haptics and drilling: neither touchable nor drillable, without
+/// material, stiffness and warning distance.
+void makeUntouchable(StructureAppearance& look);
+
 /// Copies from `preset` its rendering parameters, whether it is a lumen, stiffness, tissue, warning
 /// distance and priority; flags and source image are kept.
 void applyPreset(StructureAppearance& look, const StructureAppearance& preset);
+
+/// As above, for soft tissue, which stays air to haptics and drilling. It reads the primary image
+/// if the preset is made for CT.
+void applySoftTissuePreset(StructureAppearance& look, const StructureAppearance& preset);
 
 } // namespace petrous::appearance

@@ -93,4 +93,12 @@ private:
 /// The default appearance of bone: the preset "bone".
 StructureAppearance boneLook();
 
+/// The default appearance of what is neither bone nor a structure: the preset "soft-tissue", not
+/// shown, and air to haptics and drilling.
+StructureAppearance softTissueLook();
+
+/// Has a look of soft tissue that reads an MR read the primary image again, with the transfer
+/// function of the default: values of the MR mean nothing there.
+void readPrimaryImage(StructureAppearance& softTissue);
+
 } // namespace petrous::appearance

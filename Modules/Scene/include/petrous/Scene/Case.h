@@ -88,6 +88,8 @@ struct Case
   double denseBone = volume::IntensityScale{}.dense;
   ImagePart ct; ///< the primary image: a CT, or an MR (ImagePart::modality)
   appearance::StructureAppearance boneLook = appearance::boneLook(); ///< of the CT itself
+  /// Of what is neither bone nor a structure; not shown at first.
+  appearance::StructureAppearance softTissue = appearance::softTissueLook();
   std::vector<ImagePart> mr;
   std::vector<LabelPart> labels;
   std::vector<MeshPart> meshes;
@@ -116,6 +118,13 @@ const ImagePart* findMr(const Case& value, const std::string& name);
 /// Whether the name means the CT itself: "ct", or "bone" if no structure or mesh has that name.
 bool meansBone(const Case& value, const std::string& name);
 
+/// The name by which Case::softTissue is meant, which no part can have.
+constexpr const char* kSoftTissue = "ct:soft-tissue";
+
+/// Whether the name means Case::softTissue: kSoftTissue, or "soft-tissue" if no structure or mesh
+/// has that name.
+bool meansSoftTissue(const Case& value, const std::string& name);
+
 /// The names of all parts of the case, for generating unique ones. Always includes "ct".
 std::vector<std::string> partNames(const Case& value);
 
@@ -124,7 +133,8 @@ std::vector<std::string> partNames(const Case& value);
 const char* kindOfPart(const Case& value, const std::string& name);
 
 /// Removes a structure, a mesh or an MR: one of them, in this order, where an older case has
-/// several of one name. Appearances that read a removed MR read the CT again, and it no longer lies
+/// several of one name. Appearances that read a removed MR read the CT again (soft
+/// tissue with a function of it), and it no longer lies
 /// over the slices; measurements along what was removed remember that. Throws InvalidParameter
 /// listing the existing parts, Error (Refused) for an MR on which remaining structures were drawn.
 void removePart(Case& value, const std::string& name);
@@ -135,7 +145,7 @@ void removePart(Case& value, const std::string& name);
 void checkCaseName(const std::string& name);
 
 /// Throws InvalidParameter unless the name is valid for a part: 1 to 200 bytes of UTF-8 without
-/// control characters, and not "ct".
+/// control characters, and neither "ct" nor kSoftTissue.
 void checkPartName(const std::string& name);
 
 /// Throws InvalidParameter unless the name is valid for a sign-off: 1 to 100 bytes of UTF-8 without

@@ -255,6 +255,8 @@ TEST_F(RenderCommand, SoftTissueOfOnePictureLeavesTheCase)
   };
   const std::string plain = drawn("");
   EXPECT_EQ(drawn("--no-soft-tissue"), plain);
+  EXPECT_NE(drawn("--soft-tissue=skin"), plain);
+  EXPECT_NE(drawn("--soft-tissue"), drawn("--soft-tissue=skin"));
   for (const char* good : {"--soft-tissue", "--soft-tissue=skin"})
   {
     const auto outcome = run(render(good));

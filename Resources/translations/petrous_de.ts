@@ -158,6 +158,10 @@
         <source>%1 min %2 s</source>
         <translation>%1 min %2 s</translation>
     </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation</name>
@@ -1071,6 +1075,10 @@
     <message>
         <source>Approach %1, strokes drilled: %2 of %3</source>
         <translation>Zugang %1, gebohrte Bohrzüge: %2 von %3</translation>
+    </message>
+    <message>
+        <source>%1; the tool was put away</source>
+        <translation>%1; das Werkzeug wurde weggelegt</translation>
     </message>
 </context>
 <context>
@@ -4715,6 +4723,10 @@ Verletzt: %1, %2</translation>
         <source>Close Petrous and start it again. If it fails again, close other programs that use the graphics card, load only the ear, or install a newer driver. The slices go on working.</source>
         <translation>Schließen Sie Petrous und starten Sie es erneut. Schlägt es wieder fehl, schließen Sie andere Programme, die die Grafikkarte benutzen, laden Sie nur das Ohr oder installieren Sie einen neueren Treiber. Die Schichten arbeiten weiter.</translation>
     </message>
+    <message>
+        <source>Soft tissue is left out while a tool is in the hand</source>
+        <translation>Weichgewebe wird weggelassen, solange ein Werkzeug in der Hand ist</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::PicturePanel</name>
@@ -4853,6 +4865,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>What is brighter than 80 % rolls off towards white instead of burning out; bright colours of structures become a little darker than in their list</source>
         <translation>Was heller als 80 % ist, geht sanft in Weiß über, statt auszubrennen; helle Farben von Strukturen werden etwas dunkler als in ihrer Liste</translation>
+    </message>
+    <message>
+        <source>What lies below the surface threshold and is no structure is drawn, translucent. The Appearance panel has its colours and opacities</source>
+        <translation>Was unter der Oberflächenschwelle liegt und keine Struktur ist, wird durchscheinend dargestellt. Farben und Deckkräfte stehen in der Leiste Darstellung</translation>
     </message>
 </context>
 <context>
@@ -7752,6 +7768,10 @@ Nichts verlässt diesen Rechner.</translation>
     <message>
         <source>Not drawn: %1</source>
         <translation>Nicht dargestellt: %1</translation>
+    </message>
+    <message>
+        <source>What lies below the surface threshold and is no structure, in 3D alone: it is air to the hand and the drill</source>
+        <translation>Was unter der Oberflächenschwelle liegt und keine Struktur ist, nur in 3D: Für Hand und Bohrer ist es Luft</translation>
     </message>
 </context>
 <context>

@@ -1984,6 +1984,14 @@
         <translation>entlang einer Hauptträgheitsachse, Richtung %#1, %#2, %#3 (LPS)</translation>
     </message>
     <message>
+        <source>largest thickness</source>
+        <translation>größte Dicke</translation>
+    </message>
+    <message>
+        <source>of the largest ball that fits inside</source>
+        <translation>der größten Kugel, die hineinpasst</translation>
+    </message>
+    <message>
         <source>length of the centre line</source>
         <translation>Länge der Mittellinie</translation>
     </message>

@@ -269,6 +269,7 @@ TEST(Measuring, StatesTheDimensionsOfACanal)
   EXPECT_NEAR(*named(canal, "longest extent").value, 20.0, 0.4);
   EXPECT_NEAR(*named(canal, "second extent").value, 4.0, 0.4);
   EXPECT_NEAR(*named(canal, "third extent").value, 4.0, 0.4);
+  EXPECT_NEAR(*named(canal, "largest thickness").value, 4.0, 0.4);
   EXPECT_NEAR(*named(canal, "length of the centre line").value, 20.0, 0.4);
   EXPECT_NEAR(*named(canal, "median diameter").value, 4.0, 0.25);
   EXPECT_NEAR(*named(canal, "longest extent").uncertainty, std::sqrt(2.0) * 0.25, 1e-9);

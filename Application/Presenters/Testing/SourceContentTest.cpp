@@ -147,6 +147,25 @@ TEST_F(SourceContent, IsKnownOfEachKindOfFile)
   }
 }
 
+// A head whose file calls its micrometres millimetres lies 100 m and more from the origin: it is
+// looked at all the same, so that its unit can be asked about.
+TEST_F(SourceContent, IsKnownBeforeTheUnitOfLengthIs)
+{
+  const core::GridGeometry grid({401, 401, 3}, Vector3d::Constant(500.0),
+                                Vector3d(-1e5, -1e5, 0.0));
+  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid);
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 401; ++j)
+      for (int i = 0; i < 401; ++i)
+        voxels->at(i, j, k) = static_cast<std::int16_t>(
+            headInHounsfield(Vector3d(i / 200.0 - 1.0, j / 200.0 - 1.0, k - 1.0)));
+  const std::shared_ptr<const volume::Volume<std::int16_t>> image = voxels;
+  imaging::writeVolume(m_folder / "far.nii", volume::IntensityVolume(image));
+  const auto found = presenters::lookAt(m_folder / "far.nii", {});
+  EXPECT_EQ(found.content, Content::Ct);
+  EXPECT_EQ(std::count(found.unitDoubt.likely.begin(), found.unitDoubt.likely.end(), 1e-3), 1);
+}
+
 // Structures that nothing names: a table can be asked for. One beside the file is found.
 TEST_F(SourceContent, CountsTheStructuresOfALabelMapThatNothingNames)
 {

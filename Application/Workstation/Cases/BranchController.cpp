@@ -128,8 +128,7 @@ void BranchController::goTo(std::string name)
   if (!m_model.hasCase() || name == m_model.value().dissection.history().branch().name)
     return;
   if (change([this, &name] { m_model.goToBranch(name); }))
-    emit statusMessage(
-        tr("Approach %1")
+    say(tr("Approach %1")
             .arg(lineOf(m_model.value(), m_model.value().dissection.history().branch(), 10)));
 }
 
@@ -150,8 +149,7 @@ void BranchController::goToState(std::string name, std::size_t state)
   else
     try
     {
-      if (settle)
-        settle();
+      m_isPutAway = settle && settle();
       go();
       m_changed.start();
     }
@@ -159,10 +157,10 @@ void BranchController::goToState(std::string name, std::size_t state)
     {
       return emit statusMessage(toString(fault));
     }
-  emit statusMessage(tr("Approach %1, strokes drilled: %2 of %3")
-                         .arg(words(name))
-                         .arg(history.applied())
-                         .arg(history.applied() + history.ahead()));
+  say(tr("Approach %1, strokes drilled: %2 of %3")
+          .arg(words(name))
+          .arg(history.applied())
+          .arg(history.applied() + history.ahead()));
 }
 
 void BranchController::goOn(int steps)
@@ -196,7 +194,7 @@ void BranchController::start()
                     }));
   if (!chosen.empty() && m_model.hasCase() &&
       change([this, &chosen] { m_model.startBranch(chosen); }))
-    emit statusMessage(tr("On the new approach %1").arg(words(chosen)));
+    say(tr("On the new approach %1").arg(words(chosen)));
 }
 
 void BranchController::rename(const std::string& name)
@@ -260,10 +258,16 @@ void BranchController::compare(const std::string& with)
   emit comparisonAsked(present, other);
 }
 
+// With what became of the tool, which a press would otherwise not find in the hand.
+void BranchController::say(const QString& text)
+{
+  emit statusMessage(m_isPutAway ? tr("%1; the tool was put away").arg(text) : text);
+  m_isPutAway = false;
+}
+
 bool BranchController::change(const std::function<void()>& what)
 {
-  if (settle)
-    settle();
+  m_isPutAway = settle && settle();
   const std::string before = m_model.value().dissection.history().branch().name;
   try
   {

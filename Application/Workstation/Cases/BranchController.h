@@ -23,8 +23,9 @@ public:
   /// `menu` is filled each time it is opened. `window` is the parent of dialogs.
   BranchController(presenters::WorkstationModel& model, QMenu& menu, QWidget& window);
 
-  /// Called before the approach is left: ends an open stroke and puts the tool away.
-  std::function<void()> settle;
+  /// Called before the approach is left: ends an open stroke and puts the tool away; whether one
+  /// was in the hand.
+  std::function<bool()> settle;
   /// The camera of the picture, which the approach is left with; and how to show that of another.
   std::function<core::CameraPose()> camera;
   std::function<void(const core::CameraPose&)> showCamera;
@@ -49,6 +50,7 @@ private:
   void fillComparisons();
   void goOn(int steps);
   bool change(const std::function<void()>& what);
+  void say(const QString& text);
 
   presenters::WorkstationModel& m_model;
   QMenu& m_menu;
@@ -60,8 +62,9 @@ private:
   QMenu* m_others; // to compare with
   QAction* m_rename;
   QAction* m_remove;
-  std::string m_left; // the approach that was left last
-  QTimer m_changed;   // states that are passed are not saved
+  std::string m_left;       // the approach that was left last
+  QTimer m_changed;         // states that are passed are not saved
+  bool m_isPutAway = false; // the tool, by the last change
 };
 
 } // namespace petrous::workstation

@@ -298,9 +298,11 @@ void DrillController::readInstrument(const QString& file, const QString& axis)
       });
 }
 
-void DrillController::releaseTool()
+bool DrillController::releaseTool()
 {
+  const bool had = m_tool != Tool::None;
   setTool(Tool::None);
+  return had;
 }
 
 void DrillController::setTool(Tool tool)

@@ -33,7 +33,7 @@ public:
                   ActiveDeviceController& devices, QObject* parent = nullptr);
 
   void setSlicesFollow(bool follow); ///< the crosshair follows the burr while it drills
-  void releaseTool();                ///< no tool; ends an open stroke
+  bool releaseTool();                ///< no tool; ends an open stroke; whether one was in the hand
   void renewTool();                  ///< puts the tool away and takes it up again
   void tissueCame();                 ///< the case's structures are loaded
   void bringHere();                  ///< moves a device's tool in front of the view's centre

@@ -116,16 +116,21 @@ void PictureController::showScene()
     rendering::SceneContents contents = m_model.sceneContents();
     if (m_draft.mesh)
       contents.meshes.push_back(m_draft);
-    // What a tool lies on must be seen: it knows no clipping.
+    // What a tool lies on must be seen: it knows no clipping, and soft tissue is air to it.
     const scene::Case& value = m_model.value();
     const bool isWhole = m_view.tool().GetDrillMode() || m_view.tool().GetProbeMode();
-    if (!isWhole)
+    const bool isVeiled = isWhole && contents.softTissue;
+    if (isWhole)
+      contents.softTissue.reset();
+    else
       presenters::clip(contents, value.view.clipping, value.ct.geometry);
     m_view.display().setContents(contents);
     QStringList lines;
     for (const std::string& line :
          isWhole ? presenters::interpolatedTexts(value) : presenters::pictureNotes(value))
       lines += phrase(line);
+    if (isVeiled)
+      lines += tr("Soft tissue is left out while a tool is in the hand");
     m_view.setNotes(lines);
   }
   catch (const core::Error& error) // too much to draw; the slices still show it

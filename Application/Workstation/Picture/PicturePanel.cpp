@@ -206,9 +206,12 @@ void PicturePanel::showSoftTissue()
   const std::string missing = m_model.hasCase() && m_model.value().softTissue.shown
                                   ? presenters::softTissueMissing(m_model.value())
                                   : std::string();
+  const bool isOnMr = m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr;
   m_softTissue->setToolTip(
-      tr("Skin, fat and muscle are drawn, translucent: what is neither bone nor "
-         "a structure. The Appearance panel has their colours and opacities") +
+      (isOnMr ? tr("What lies below the surface threshold and is no structure is drawn, "
+                   "translucent. The Appearance panel has its colours and opacities")
+              : tr("Skin, fat and muscle are drawn, translucent: what is neither bone nor "
+                   "a structure. The Appearance panel has their colours and opacities")) +
       (missing.empty() ? QString() : '\n' + tr("Not drawn: %1").arg(phrase(missing))));
 }
 

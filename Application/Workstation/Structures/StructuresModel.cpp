@@ -493,8 +493,12 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
       return tr("The %1 itself, where no structure is").arg(primary());
     if (role == Qt::ToolTipRole && row.row.kind == StructureKind::SoftTissue)
     {
-      const QString what = tr("What is neither bone nor a structure, in 3D alone: it is air to the "
-                              "hand and the drill");
+      const QString what =
+          m_model.value().ct.modality == scene::Modality::Mr
+              ? tr("What lies below the surface threshold and is no structure, in 3D alone: it is "
+                   "air to the hand and the drill")
+              : tr("What is neither bone nor a structure, in 3D alone: it is air to the hand and "
+                   "the drill");
       return row.notDrawn.empty() ? what
                                   : what + '\n' + tr("Not drawn: %1").arg(phrase(row.notDrawn));
     }

@@ -387,6 +387,21 @@ TEST_F(Drill, AKeyForAViewAfterTheThresholdChangesNoThreshold)
   QTest::qWait(3 * Bindings::kSettle);
   EXPECT_EQ(window().model().value().iso, 300.0);
   EXPECT_EQ(QApplication::focusWidget(), &view());
+  // Nor does it move a slider that was not clicked.
+  int sliders = 0;
+  for (auto* dock : window().findChildren<QDockWidget*>())
+    for (auto* slider : dock->findChildren<QSlider*>())
+    {
+      const int before = slider->value();
+      QWheelEvent turn(QPointF(5, 5), slider->mapToGlobal(QPoint(5, 5)), {}, {0, 120}, Qt::NoButton,
+                       Qt::NoModifier, Qt::NoScrollPhase, false);
+      QApplication::sendEvent(slider, &turn);
+      EXPECT_EQ(slider->value(), before) << slider->objectName().toStdString();
+      ++sliders;
+    }
+  EXPECT_GT(sliders, 2);
+  QTest::qWait(3 * Bindings::kSettle);
+  EXPECT_EQ(window().model().value().iso, 300.0);
 }
 
 TEST_F(Drill, AnUndoUnderTheHeldButtonLiftsTheDrillUntilItIsPressedAnew)

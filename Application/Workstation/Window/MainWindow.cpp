@@ -21,6 +21,7 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QSlider>
 #include <QSpinBox>
 #include <QStackedWidget>
 #include <QStatusBar>
@@ -212,7 +213,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
   if (const auto burr = m_settings->burr())
     m_bar->setBurr(*burr);
   m_picture->flush = [this] { return flush(); };
-  m_branches->settle = [this] { m_drill->releaseTool(); };
+  m_branches->settle = [this] { return m_drill->releaseTool(); };
   m_branches->camera = [this] { return m_viewState->camera(); };
   m_branches->showCamera = [this](const core::CameraPose& camera)
   { m_viewState->showCamera(camera); };
@@ -335,6 +336,12 @@ void MainWindow::layOut()
 // was not clicked.
 void MainWindow::guardBoxes()
 {
+  for (auto* dock : findChildren<QDockWidget*>()) // those of the slices are turned by the wheel
+    for (auto* slider : dock->findChildren<QSlider*>())
+    {
+      slider->setFocusPolicy(Qt::StrongFocus);
+      slider->installEventFilter(this);
+    }
   for (auto* box : findChildren<QAbstractSpinBox*>())
   {
     connect(box->findChild<QLineEdit*>(), &QLineEdit::returnPressed, m_view,

@@ -63,7 +63,11 @@ QString removedText(const scene::Case& value, bool drilling)
           .arg(value.applied())
           .arg(value.applied() == 1 ? QObject::tr("stroke") : QObject::tr("strokes"))
           .arg(value.removedVolume(), 0, 'f', 1);
-  return drilling ? QObject::tr("%1, drilling").arg(text) : text;
+  const dissection::History& history = value.dissection.history();
+  const QString where = history.branches().size() > 1
+                            ? QObject::tr("%1: %2").arg(words(history.branch().name), text)
+                            : text;
+  return drilling ? QObject::tr("%1, drilling").arg(where) : where;
 }
 
 QString strokeText(const dissection::Stroke* stroke)

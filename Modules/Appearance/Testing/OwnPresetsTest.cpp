@@ -117,6 +117,25 @@ TEST_F(OwnPresetsTest, RefuseNamesThatAreTakenOrCannotBeRead)
   EXPECT_FALSE(std::filesystem::exists(m_folder / "presets.json"));
 }
 
+// An earlier version had no built-in preset of that name.
+TEST_F(OwnPresetsTest, OneWhoseNameIsBuiltInByNowIsReadAndCanBeRemoved)
+{
+  const OwnPresets presets(m_folder);
+  presets.save(sinus(), "veil");
+  std::ifstream in(m_folder / "presets.json");
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  in.close();
+  const std::size_t at = text.find("veil");
+  ASSERT_NE(at, std::string::npos);
+  writeFile(text.replace(at, 4, "skin"));
+  ASSERT_EQ(presets.all().size(), 1u);
+  EXPECT_EQ(presets.preset("skin").color, sinus().color);
+  EXPECT_NO_THROW(presets.save(sinus(), "antrum"));
+  presets.remove("skin");
+  EXPECT_EQ(presets.all().size(), 1u);
+  EXPECT_THROW(presets.remove("skin"), core::InvalidParameter);
+}
+
 TEST_F(OwnPresetsTest, AreFoundBeforeTheWordsOfTheCatalogueAndListedWithIt)
 {
   const OwnPresets presets(m_folder);

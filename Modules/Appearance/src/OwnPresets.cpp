@@ -58,7 +58,9 @@ std::vector<StructureAppearance> OwnPresets::all() const
     {
       presets.push_back(presetFrom(entry));
       const std::string name = presets.back().preset;
-      checkName(name);
+      // One that is built in by now is read all the same, and stands for it.
+      if (!isNamed(StructurePresets::builtIn().all(), name))
+        checkName(name);
       if (isNamed({presets.begin(), presets.end() - 1}, name))
         refuse("two presets are called '" + name + "'");
     }

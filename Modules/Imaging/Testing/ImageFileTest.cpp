@@ -379,6 +379,7 @@ TEST(ImageFile, AsksForTheUnitBeforeItJudgesThePlace)
   TestNifti nifti = shortNifti();
   nifti.dims = {3, 401, 401, 3, 1, 1, 1, 1};
   nifti.voxels.assign(std::size_t{2} * 401 * 401 * 3, '\0');
+  nifti.voxels[0] = 1; // read as labels, too
   nifti.pixdim = {1.0F, 500.0F, 500.0F, 500.0F, 1.0F, 1.0F, 1.0F, 1.0F};
   // An axis off perpendicular by 1e-4, 0.02 mm over the slice.
   nifti.srow = {-500.0F, 0.0F, 0.0F, 1e5F, 0.05F, -500.0F, 0.0F, 1e5F, 0.0F, 0.0F, 500.0F, -9e4F};

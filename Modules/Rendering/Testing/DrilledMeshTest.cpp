@@ -140,9 +140,10 @@ TEST(DrilledMesh, IsWholeWhereNothingWasCut)
   open.triangles.pop_back();
   EXPECT_FALSE(DrilledMesh(std::make_shared<const core::TriangleMesh>(open))
                    .surface(*cut(grid, [](const Vector& p) { return p.x(); })));
-  EXPECT_FALSE(mesh.reach(grid).empty());
-  EXPECT_TRUE(
-      mesh.reach(cube(8, 0.4, Eigen::Matrix3d::Identity(), Vector(50.0, 0.0, 0.0))).empty());
+  EXPECT_FALSE(DrilledMesh::reach(*ballMesh(Vector::Zero(), 4.0), grid).empty());
+  EXPECT_TRUE(DrilledMesh::reach(*ballMesh(Vector::Zero(), 4.0),
+                                 cube(8, 0.4, Eigen::Matrix3d::Identity(), Vector(50.0, 0.0, 0.0)))
+                  .empty());
   // All of it is gone.
   const auto nothing = mesh.surface(*cut(grid, [](const Vector& p) { return p.norm() - 8.0; }));
   ASSERT_TRUE(nothing);
@@ -152,14 +153,14 @@ TEST(DrilledMesh, IsWholeWhereNothingWasCut)
 namespace
 {
 
-SceneContents drilledScene(bool drillable = true)
+SceneContents drilledScene(bool drilled = true)
 {
   SceneContents contents = cutBall();
   MeshContents mesh;
   mesh.name = "ossicle";
   mesh.mesh = ballMesh(Vector(1.0, -9.0, 2.0), 3.0);
   mesh.look.color = {0.1F, 0.15F, 0.9F};
-  mesh.look.drillable = drillable;
+  mesh.drilled = drilled;
   contents.meshes = {mesh};
   return contents;
 }
@@ -183,7 +184,7 @@ TEST(DrilledMeshPicture, FollowsTheCutAndItsUndo)
   EXPECT_EQ(drilled.rgb, draw(drilledScene(), slanting()).rgb) << "as from the start";
   scene.maskChanged(nullptr, mask->geometry().fullBox());
   EXPECT_EQ(countBlue(view.render(scene)), whole);
-  EXPECT_EQ(countBlue(draw(drilledScene(false), slanting())), whole) << "the drill leaves it";
+  EXPECT_EQ(countBlue(draw(drilledScene(false), slanting())), whole) << "it is not felt";
   const ReferencePicture truth = truthOf(drilledScene(), slanting());
   double squares = 0.0;
   for (std::size_t n = 0; n < truth.rgb.size(); ++n)

@@ -149,7 +149,9 @@ bool readHead(PartFile& file)
 void readVoxels(PartFile& file, const core::Progress& progress)
 {
   using Kind = PartFile::Kind;
-  const auto image = imaging::previewImageFile(file.path, kLooked, progress).volume;
+  const auto image = imaging::previewImageFile(file.path, kLooked, progress, std::nullopt, 0, 0,
+                                               imaging::likelyUnit(imaging::unitDoubtOf(file.path)))
+                         .volume;
   const std::size_t values = valuesOf(*image);
   // A small structure may lie between the slices; no scan is of zeros.
   if (values == 0 || contentOf(*image) == Content::Labels)

@@ -171,7 +171,9 @@ rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
   for (const auto& mesh : value.meshes)
     if (mesh.look.shown && !scene::findStructure(value, mesh.name))
       if (auto placed = scene::meshOnCt(value, mesh))
-        contents.meshes.push_back({mesh.name, std::move(placed), mesh.look});
+        contents.meshes.push_back({mesh.name, std::move(placed), mesh.look,
+                                   contents.mask && !contents.mask->untouched() &&
+                                       scene::untouchable(value, mesh).empty()});
   return contents;
 }
 

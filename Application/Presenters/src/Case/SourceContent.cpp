@@ -305,21 +305,24 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
   return result;
 }
 
-// As the voxels of an image file say; of one that the memory does not hold, a few of them.
-Content contentOfFile(const fs::path& path, std::size_t volume, bool& isTooLarge,
-                      const core::Progress& progress)
+// As the voxels of an image file say; of one that the memory does not hold, a few of them. Where
+// they lie does not matter: a unit of length that is yet to be asked about is a likely one here.
+Content contentOfFile(const fs::path& path, std::size_t volume, const imaging::UnitDoubt& doubt,
+                      bool& isTooLarge, const core::Progress& progress)
 try
 {
-  return presenters::contentOf(
-      *imaging::readImageFile(path, std::nullopt, progress, std::nullopt, volume).volume);
+  return presenters::contentOf(*imaging::readImageFile(path, std::nullopt, progress, std::nullopt,
+                                                       volume, imaging::likelyUnit(doubt))
+                                    .volume);
 }
 catch (const imaging::FileError& error)
 {
   if (error.fault() != core::Fault::Internal) // no memory
     throw;
   isTooLarge = true;
-  return presenters::contentOf(
-      *imaging::previewImageFile(path, kSlices, progress, std::nullopt, 0, volume).volume);
+  return presenters::contentOf(*imaging::previewImageFile(path, kSlices, progress, std::nullopt, 0,
+                                                          volume, imaging::likelyUnit(doubt))
+                                    .volume);
 }
 
 std::string whyOf(Content content)
@@ -478,9 +481,9 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
   }
   const imaging::ImageHeader header = imaging::readImageHeader(path);
   const bool isSeries = header.volumes > 1 && expected != Content::Labels;
-  result.content =
-      expected ? *expected
-               : contentOfFile(path, isSeries ? 1 : 0, result.isTooLarge, progress.part(0.0, 0.8));
+  result.content = expected ? *expected
+                            : contentOfFile(path, isSeries ? 1 : 0, header.unitDoubt,
+                                            result.isTooLarge, progress.part(0.0, 0.8));
   result.isSideOpen = header.assumedRas.has_value();
   result.unitDoubt = header.unitDoubt;
   if (isSeries)

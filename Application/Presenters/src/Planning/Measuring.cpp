@@ -13,6 +13,7 @@
 #include "petrous/Presenters/StructureShape.h"
 #include "petrous/Presenters/SurfaceUncertainty.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Volume/DistanceField.h"
 #include "petrous/Volume/MeshMeasure.h"
 #include "petrous/Volume/SurfaceArea.h"
 
@@ -409,6 +410,25 @@ std::vector<std::pair<std::string, Quantity>> volumesOf(const scene::Case& value
   return volumes;
 }
 
+namespace
+{
+
+// Diameter of the largest ball that fits inside, mm, to about half a voxel.
+std::optional<double> thicknessOf(const volume::Volume<float>& occupancy,
+                                  const core::Progress& progress)
+{
+  constexpr double kReach =
+      20.0; // mm; no structure of the temporal bone is thicker than twice this
+  const auto distances = volume::makeDistanceField(occupancy, kReach, progress);
+  if (!distances)
+    return std::nullopt;
+  const float* const first = distances->data();
+  return 2.0 *
+         std::max(0.0, -static_cast<double>(*std::min_element(first, first + distances->size())));
+}
+
+} // namespace
+
 std::vector<Quantity> dimensionsOf(const scene::Case& value, const std::string& structure,
                                    const core::Progress& progress)
 {
@@ -441,8 +461,10 @@ std::vector<Quantity> dimensionsOf(const scene::Case& value, const std::string& 
          joined({"along a principal axis of inertia, direction " + fixed(box->axes(0, a), 3) +
                      ", " + fixed(box->axes(1, a), 3) + ", " + fixed(box->axes(2, a), 3) + " (LPS)",
                  share.text})});
+  quantities.push_back({"largest thickness", thicknessOf(*occupancy, progress.part(0.5, 0.7)), "mm",
+                        across, joined({"of the largest ball that fits inside", share.text})});
   std::string why;
-  const auto line = centreLine(*occupancy, progress.part(0.5, 1.0), &why);
+  const auto line = centreLine(*occupancy, progress.part(0.7, 1.0), &why);
   if (!line)
   {
     quantities.push_back(

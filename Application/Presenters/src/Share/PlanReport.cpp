@@ -750,7 +750,7 @@ private:
       table.paragraphs.push_back(say("The case has no structures."));
       return;
     }
-    table.table.columns = {say("Structure"),  say("Volume"),   say("Narrowest"),
+    table.table.columns = {say("Structure"),  say("Volume"),   say("Thickness"),
                            say("Voxel edge"), say("Resolved"), say("Drawn on")};
     std::size_t done = 0;
     for (const scene::StructureOccupancy& known : occupancies)
@@ -759,7 +759,7 @@ private:
       progress.report(share, "measuring structures");
       std::vector<ReportCell> row{structureCell(known.name)};
       const Vector3d voxel = known.grid.spacing();
-      std::optional<Quantity> volume, narrowest;
+      std::optional<Quantity> volume, thickness;
       try
       {
         for (const Quantity& one :
@@ -768,19 +768,24 @@ private:
                                                    static_cast<double>(occupancies.size()))))
           if (one.name == "volume")
             volume = one;
-          else if ((one.name == "third extent" || one.name == "smallest diameter") && one.value &&
-                   (!narrowest || *one.value < *narrowest->value))
-            narrowest = one;
+          else if ((one.name == "largest thickness" || one.name == "smallest diameter") &&
+                   one.value && (!thickness || *one.value < *thickness->value))
+            thickness = one;
       }
       catch (const core::InvalidParameter&) // it encloses nothing
       {
       }
       row.push_back(volume ? cellOf(*volume) : textCell(say("unknown")));
-      row.push_back(narrowest ? cellOf(*narrowest) : textCell(say("unknown")));
+      row.push_back(thickness ? cellOf(*thickness) : textCell(say("unknown")));
       row.push_back(numberCell(voxel.maxCoeff(), 2, "mm"));
       if (voxel.minCoeff() < voxel.maxCoeff() - 0.005)
         row.back().text = number(voxel.minCoeff(), 2) + "–" + row.back().text;
-      const bool isResolved = narrowest && *narrowest->value >= 2.0 * voxel.maxCoeff();
+      constexpr double kLargestShare = 0.5; // of the volume, that is uncertain
+      const bool isVolumeKnown =
+          volume && volume->value &&
+          volume->uncertainty.value_or(0.0) <= kLargestShare * *volume->value;
+      const bool isResolved =
+          thickness && *thickness->value >= 2.0 * voxel.maxCoeff() && isVolumeKnown;
       row.push_back(textCell(say(isResolved ? "yes" : "no")));
       row.back().isWarning = !isResolved;
       row.push_back(textCell(known.mr.empty() ? primaryName(m_value) : known.mr));
@@ -788,8 +793,9 @@ private:
     }
     addAbsent(table);
     table.remarks.push_back(
-        say("Resolved: two voxels or more across at the narrowest of its extents. Of what is "
-            "thinner, volume and distances say little."));
+        say("Thickness: of the largest ball that fits inside, or of a tube at its narrowest. "
+            "Resolved: this is two voxels or more, and its volume is known to a half. Of what is "
+            "not, volume and distances say little; thin parts of what is may be missing."));
   }
 
   std::string methodText(const scene::Registration& how) const

@@ -117,15 +117,18 @@ const std::map<std::string, std::string>& germanTexts()
       {"Structures", "Strukturen"},
       {"The case has no structures.", "Der Fall hat keine Strukturen."},
       {"Volume", "Volumen"},
-      {"Narrowest", "Schmalste Ausdehnung"},
+      {"Thickness", "Dicke"},
       {"Voxel edge", "Voxelkante"},
       {"Resolved", "Aufgelöst"},
       {"yes", "ja"},
       {"Drawn on", "Gezeichnet auf"},
-      {"Resolved: two voxels or more across at the narrowest of its extents. Of what is thinner, "
-       "volume and distances say little.",
-       "Aufgelöst: an der schmalsten Ausdehnung mindestens zwei Voxel breit. Von Dünnerem sagen "
-       "Volumen und Abstände wenig."},
+      {"Thickness: of the largest ball that fits inside, or of a tube at its narrowest. Resolved: "
+       "this is two voxels or more, and its volume is known to a half. Of what is not, volume and "
+       "distances say little; thin parts of what is may be missing.",
+       "Dicke: der größten Kugel, die hineinpasst, oder eines Rohrs an seiner engsten Stelle. "
+       "Aufgelöst: sie misst mindestens zwei Voxel, und das Volumen ist auf die Hälfte bekannt. "
+       "Von "
+       "anderem sagen Volumen und Abstände wenig; dünne Teile von Aufgelöstem können fehlen."},
       {"Registration", "Registrierung"},
       {"Verdict", "Urteil"},
       {"good", "gut"},

@@ -273,6 +273,11 @@ ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t sli
           grid};
 }
 
+std::optional<double> likelyUnit(const UnitDoubt& doubt)
+{
+  return doubt.likely.empty() ? std::nullopt : std::optional(doubt.likely.front());
+}
+
 ImageHeader readImageHeader(const std::filesystem::path& path,
                             const std::optional<std::size_t>& volume)
 {

@@ -48,16 +48,17 @@ double sectionGrey(const SectionWindow& window, double value)
 
 Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics, double shininess,
                              double cosine, const LightSettings& light, double distance,
-                             const Seen& seen, double focus)
+                             const Seen& seen, double focus, bool isScale)
 {
   const double facing = std::clamp(std::abs(cosine), 0.0, 1.0);
   const double diffuse = light.ambient * seen.sky + (1.0 - light.ambient) * facing * seen.lamp;
   const double highlight = optics.specular * light.specular * std::pow(facing, shininess) +
                            light.wetness * std::pow(facing, kWetShininess);
   const Eigen::Vector3d color(optics.color[0], optics.color[1], optics.color[2]);
-  return displayed(lightAt(light, distance, focus) *
-                       (color * diffuse + Eigen::Vector3d::Constant(seen.lamp * highlight)),
-                   light);
+  const double reaching = lightAt(light, distance, focus);
+  const Eigen::Vector3d lit = (isScale ? std::min(reaching, light.intensity) : reaching) *
+                              (color * diffuse + Eigen::Vector3d::Constant(seen.lamp * highlight));
+  return isScale ? lit.cwiseMax(0.0).cwiseMin(1.0).eval() : displayed(lit, light);
 }
 
 Eigen::Vector3d Lamp::from(const Eigen::Vector3d& point) const

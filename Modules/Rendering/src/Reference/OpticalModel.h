@@ -15,8 +15,9 @@ namespace petrous::rendering
 /// At a point x the ray is in one of these states; f is the tissue field of the scene:
 ///   air              f <= 0, or outside the hull of the CT's voxel centres, of those in the crop
 ///                    box or of a clipping plane; a hull of zero thickness is air
-///   soft tissue      f <= 0 inside all of these, where max(c_CT, c_L) <= 0 and nothing is cut away
-///                    (mask > 0.5), if SceneContents::softTissue has any opacity; else air, too
+///   soft tissue      f <= 0 inside all of these, where max(c_CT, c_L) <= 0, also where the CT is
+///                    not drawn, and nothing is cut away (mask > 0.5), if SceneContents::softTissue
+///                    has any opacity; else air, too
 ///   bone             f > 0 and occupancy <= 0.5
 ///   structure i      f > 0 and occupancy > 0.5, i = volume::structureAt(x): the label index of the
 ///                    voxel nearest to x and, where two structures meet, the one with the greatest
@@ -30,8 +31,7 @@ namespace petrous::rendering
 ///
 /// Inside tissue no normal is computed, but in soft tissue, whose own surfaces (skin, fat on
 /// muscle) are such changes of intensity: its cosine is softFacing, with the gradient of what it
-/// reads by central differences over +-1 voxel of the CT's grid. The tissue that is left stays soft
-/// tissue where bone is not drawn.
+/// reads by central differences over +-1 voxel of the CT's grid.
 ///
 /// Surface at x, unit normal n (out of the tissue), from -grad of the deciding operand (c_CT,
 /// occupancy or mask), by central differences over +-1 voxel of its grid; for bone -> structure
@@ -144,10 +144,12 @@ Eigen::Vector3d displayed(const Eigen::Vector3d& color, const LightSettings& lig
 double sectionGrey(const SectionWindow& window, double value);
 
 /// light (c (ambient sky + (1 - ambient) facing lamp) + lamp (k_s specular facing^shininess
-///        + wetness facing^kWetShininess)), as displayed; k_s of the transfer function.
+///        + wetness facing^kWetShininess)), as displayed; k_s of the transfer function. `isScale`:
+///        a
+/// colour that is compared with a legend: light is at most the intensity, and nothing rolls off.
 Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics, double shininess,
                              double cosine, const LightSettings& light, double distance,
-                             const Seen& seen = {}, double focus = 0.0);
+                             const Seen& seen = {}, double focus = 0.0, bool isScale = false);
 
 /// light c (ambient + (1 - ambient) facing), as displayed.
 Eigen::Vector3d interiorColor(const Eigen::Vector3d& color, const LightSettings& light,

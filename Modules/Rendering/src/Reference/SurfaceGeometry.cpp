@@ -180,7 +180,7 @@ SurfaceGeometry::SurfaceGeometry(const SceneContents& contents)
     if (!mesh.look.shown || !(mesh.look.opacity > 0.0F))
       continue;
     std::optional<ShadedMesh> drilled;
-    if (contents.mask && DrilledMesh::isDrilled(mesh.look))
+    if (contents.mask && mesh.drilled)
       drilled = DrilledMesh(mesh.mesh).surface(*contents.mask);
     const auto shape =
         drilled ? std::make_shared<const core::TriangleMesh>(std::move(drilled->mesh)) : mesh.mesh;

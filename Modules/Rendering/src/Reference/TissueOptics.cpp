@@ -50,6 +50,7 @@ TissueOptics::TissueOptics(const SceneContents& contents)
                      ? contents.softTissue
                      : std::nullopt)
   , m_mask(contents.mask)
+  , m_iso(contents.iso)
   , m_light(contents.light)
   , m_thickness(contents.thickness)
   , m_section(contents.section)
@@ -118,8 +119,11 @@ TissueOptics::Place TissueOptics::at(const Eigen::Vector3d& patient) const
       return {kAir, -f};
     const double left =
         m_mask ? m_mask->sample(m_mask->geometry().voxelFromPatient(patient)) - 0.5 : 0.5;
-    const bool isSoft = left > 0.0 && !(m_field.uncut(patient) > 0.0);
-    return isSoft ? Place{kSoft, std::min(-f, left)} : Place{kAir, std::max(-left, 0.0)};
+    // Also where the CT is no part of f.
+    const double bone = (m_ct->sample(m_ct->geometry().voxelFromPatient(patient)) - m_iso) / kScale;
+    const bool isSoft = left > 0.0 && !(m_field.uncut(patient) > 0.0) && !(bone > 0.0);
+    return isSoft ? Place{kSoft, std::min({-f, left, std::isnan(bone) ? -f : -bone})}
+                  : Place{kAir, std::max({-left, bone, 0.0})};
   }
   const double inside = occupancyAt(patient) - 0.5;
   if (inside > 0.0)
@@ -252,11 +256,14 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
     below -= optics::kColorDepth * m_ct->geometry().minSpacing() * normal;
   const double cosine = normal.norm() > 0.0 ? normal.dot(ray.direction) : 1.0;
   auto look = material.transfer.at(intensity(material, below));
+  std::optional<std::array<double, 3>> overlay;
   if (!face && (&material == &m_materials.front() || material.lumen))
-    look.color = overlayAt(point).value_or(look.color);
+    overlay = overlayAt(point);
+  look.color = overlay.value_or(look.color);
   if (face && m_section)
     return {{look.color[0], look.color[1], look.color[2]}, material.surfaceOpacity};
-  return {optics::surfaceColor(look, material.shininess, cosine, m_light, t, seen, focus),
+  return {optics::surfaceColor(look, material.shininess, cosine, m_light, t, seen, focus,
+                               overlay.has_value()),
           material.surfaceOpacity};
 }
 

@@ -90,6 +90,7 @@ private:
   std::vector<appearance::Material> m_materials;
   std::optional<appearance::Material> m_softTissue; ///< if it has any opacity
   std::shared_ptr<const volume::CutMask> m_mask;
+  double m_iso;
   LightSettings m_light;
   ThicknessOverlay m_thickness;
   std::optional<SectionWindow> m_section;

@@ -136,15 +136,6 @@ private:
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> m_middles;
 };
 
-core::IndexBox cutOf(const volume::CutMask& mask)
-{
-  std::vector<std::size_t> bricks;
-  for (std::size_t brick = 0; brick < mask.brickCount(); ++brick)
-    if (mask.brick(brick))
-      bricks.push_back(brick);
-  return bricks.empty() ? core::IndexBox{} : mask.boxOf(bricks);
-}
-
 // The mask's level within a box of voxels, not closed at the box.
 core::TriangleMesh levelIn(const volume::CutMask& mask, const core::IndexBox& box)
 {
@@ -162,6 +153,15 @@ core::TriangleMesh levelIn(const volume::CutMask& mask, const core::IndexBox& bo
 
 } // namespace
 
+core::IndexBox DrilledMesh::cutOf(const volume::CutMask& mask)
+{
+  std::vector<std::size_t> bricks;
+  for (std::size_t brick = 0; brick < mask.brickCount(); ++brick)
+    if (mask.brick(brick))
+      bricks.push_back(brick);
+  return bricks.empty() ? core::IndexBox{} : mask.boxOf(bricks);
+}
+
 DrilledMesh::DrilledMesh(std::shared_ptr<const core::TriangleMesh> mesh)
   : m_mesh(std::move(mesh))
   , m_tree(*m_mesh)
@@ -169,20 +169,15 @@ DrilledMesh::DrilledMesh(std::shared_ptr<const core::TriangleMesh> mesh)
 {
 }
 
-bool DrilledMesh::isDrilled(const appearance::StructureAppearance& look)
+core::IndexBox DrilledMesh::reach(const core::TriangleMesh& mesh, const core::GridGeometry& grid)
 {
-  return look.solid && look.touchable && look.drillable;
-}
-
-core::IndexBox DrilledMesh::reach(const core::GridGeometry& grid) const
-{
-  const auto [lower, upper] = m_mesh->bounds();
+  const auto [lower, upper] = mesh.bounds();
   return voxelsAround(grid, {lower.cast<double>(), upper.cast<double>()});
 }
 
 std::optional<ShadedMesh> DrilledMesh::surface(const volume::CutMask& mask) const
 {
-  const core::IndexBox box = cutOf(mask).intersected(reach(mask.geometry()));
+  const core::IndexBox box = cutOf(mask).intersected(reach(*m_mesh, mask.geometry()));
   if (!closed() || box.empty())
     return std::nullopt;
   const Refinement refined(*m_mesh, mask);

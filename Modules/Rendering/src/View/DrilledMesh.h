@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "ShadedMesh.h"
-#include "petrous/Appearance/StructureAppearance.h"
 #include "petrous/Volume/CutMask.h"
 #include "petrous/Volume/MeshInside.h"
 #include "petrous/Volume/MeshTree.h"
@@ -25,13 +24,12 @@ public:
   /// Throws InvalidParameter for vertices that do not exist or are not finite.
   explicit DrilledMesh(std::shared_ptr<const core::TriangleMesh> mesh);
 
-  /// Whether drill and hand meet a mesh of this look; it must be closed, too.
-  static bool isDrilled(const appearance::StructureAppearance& look);
-
   bool closed() const noexcept { return m_inside.openEdges() == 0; }
 
-  /// Voxels of the mask that can cut the mesh.
-  core::IndexBox reach(const core::GridGeometry& grid) const;
+  /// Voxels of the mask that can cut a mesh.
+  static core::IndexBox reach(const core::TriangleMesh& mesh, const core::GridGeometry& grid);
+  /// Voxels in which a mask may be below its greatest value.
+  static core::IndexBox cutOf(const volume::CutMask& mask);
 
   /// nullopt: it is not cut, or not closed.
   std::optional<ShadedMesh> surface(const volume::CutMask& mask) const;

@@ -203,11 +203,10 @@ struct MeshActor
     show(*mesh, vertexNormals(*mesh));
   }
 
-  void setMask(std::shared_ptr<const volume::CutMask> next, bool isDrilled)
+  void setMask(std::shared_ptr<const volume::CutMask> next)
   {
-    m_isDrilled = isDrilled;
-    m_mask = isDrilled ? std::move(next) : nullptr;
-    m_isOld = true;
+    m_isOld = m_isOld || next != m_mask;
+    m_mask = std::move(next);
   }
 
   /// The mask's voxels of a box changed.
@@ -216,8 +215,14 @@ struct MeshActor
     if (!m_isDrilled)
       return;
     m_isOld =
-        m_isOld || !next || !m_shape || !m_shape->reach(next->geometry()).intersected(box).empty();
+        m_isOld || !next || !DrilledMesh::reach(*mesh, next->geometry()).intersected(box).empty();
     m_mask = next;
+  }
+
+  void setDrilled(bool isDrilled)
+  {
+    m_isOld = m_isOld || isDrilled != m_isDrilled;
+    m_isDrilled = isDrilled;
   }
 
   /// Before a frame. `sparing`: not if it took a large part of the time since it was last done.
@@ -228,7 +233,10 @@ struct MeshActor
     if (!m_isOld || (sparing && Clock::now() - m_done < kShare * m_took))
       return;
     m_isOld = false;
-    const bool mayBeCut = m_mask && !m_mask->untouched();
+    const bool mayBeCut = m_isDrilled && m_mask &&
+                          !DrilledMesh::reach(*mesh, m_mask->geometry())
+                               .intersected(DrilledMesh::cutOf(*m_mask))
+                               .empty();
     if (!mayBeCut && !m_isCut)
       return;
     const auto start = Clock::now();
@@ -344,7 +352,7 @@ void ScenePicture::Implementation::startFrame()
   foveated.reset();
   drawn = quality;
   for (const auto& mesh : meshes)
-    mesh->update(interactive || progressive);
+    mesh->update(interactive);
   if (interactive || progressive)
     coarsen();
   mapper->SetQuality(drawn);
@@ -500,7 +508,8 @@ void ScenePicture::Implementation::setMeshes(const SceneContents& contents)
     ++pattern;
     appearance::StructureAppearance look = wanted.look;
     actor->actor.setLook(look, contents.light);
-    actor->setMask(contents.mask, DrilledMesh::isDrilled(look));
+    actor->setDrilled(wanted.drilled);
+    actor->setMask(contents.mask);
     next.push_back(std::move(actor));
   }
   if (renderer)

@@ -56,6 +56,10 @@ LoadedImage readImageFile(const std::filesystem::path& path,
                           const std::optional<bool>& isRas = std::nullopt, std::size_t volume = 0,
                           const std::optional<double>& unit = std::nullopt);
 
+/// The likeliest of its units, mm, for who looks at the voxels before the user is asked where they
+/// lie; nullopt: the file's own makes sense.
+std::optional<double> likelyUnit(const UnitDoubt& doubt);
+
 /// What the header of a file of voxels says.
 struct ImageHeader
 {

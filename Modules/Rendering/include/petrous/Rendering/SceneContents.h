@@ -25,6 +25,7 @@ struct MeshContents
   std::string name;
   std::shared_ptr<const core::TriangleMesh> mesh;
   appearance::StructureAppearance look;
+  bool drilled = false; ///< a closed one is drawn as the mask left it: it is felt (record 39)
 };
 
 /// How a burr's ball is shaded; its shape is the ball in any case, as it is felt.
@@ -123,8 +124,8 @@ struct SceneContents
   bool boneShown = true;                             ///< false: the CT's surface is not drawn
   std::shared_ptr<const volume::LabelField> labels;  ///< null: none
   std::vector<appearance::Material> materials;       ///< row 0: bone; row i: label index i
-  /// What is neither bone nor a structure nor cut away, drawn by a transfer function of its own; its
-  /// surface opacity and whether it is a lumen do not count. nullopt: it is air to a ray.
+  /// What is neither bone nor a structure nor cut away, drawn by a transfer function of its own;
+  /// its surface opacity and whether it is a lumen do not count. nullopt: it is air to a ray.
   std::optional<appearance::Material> softTissue;
   SecondImage second;
   std::vector<ClippingPlane> clipping;

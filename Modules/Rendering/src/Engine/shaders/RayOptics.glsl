@@ -68,7 +68,11 @@ vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, ve
   look.rgb = mix(look.rgb, overlay.rgb, overlay.a);
   float diffuse = light.y * seen.sky + (1.0 - light.y) * facing * seen.lamp;
   float highlight = look.a * light.z * pow(facing, row.w) + light.w * pow(facing, kWetShininess);
-  vec3 lit = displayed(lightAt(t) * (look.rgb * diffuse + seen.lamp * highlight));
+  float reaching = lightAt(t);
+  bool isScale = overlay.a > 0.0; // compared with a legend: no brighter than that, and its hue
+  vec3 lit = (isScale ? min(reaching, plainLight) : reaching) *
+             (look.rgb * diffuse + seen.lamp * highlight);
+  lit = isScale ? clamp(lit, 0.0, 1.0) : displayed(lit);
   return isSection ? look.rgb : lit;
 }
 

@@ -75,6 +75,7 @@ uniform float weights; // of the card's filter between two texels
 #endif
 
 uniform vec4 light; // intensity at the lamp with exposure, ambient, specular, wetness
+uniform float plainLight; // intensity without exposure and falloff
 uniform float falloff;
 uniform vec2 section; // grey of bone's faces: value of black, 1 / range; 0, 0: lit as surfaces are
 
@@ -118,7 +119,7 @@ uniform vec4 planes[kMaxPlanes]; // mm on the side that is kept, over voxels
 #endif
 
 #ifdef PETROUS_SOFT
-const int kSoft = -1; // then air is only what was cut away
+const int kSoft = -1; // then air is only what was cut away, and bone that is not drawn
 #endif
 const int kAir = 0;
 const int kBone = 1;
@@ -372,7 +373,8 @@ int stateOf(inout Operands at, Ways ways, float s, const bool plain)
   // Written so that NaN is air.
   if (!(f > 0.0))
 #ifdef PETROUS_SOFT
-    return at.left > 0.5 && !(max(at.ct, at.occupancy - 0.5) > 0.0) ? kSoft : kAir;
+    return at.left > 0.5 && !(max(at.ct, at.occupancy - 0.5) > 0.0) && !(at.value > iso) ? kSoft
+                                                                                         : kAir;
 #else
     return kAir;
 #endif

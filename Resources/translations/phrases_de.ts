@@ -2044,6 +2044,10 @@
         <translation>%~1: Der Fall „%2“ hat keine Struktur „%3“ mit Voxeln; er hat %4</translation>
     </message>
     <message>
+        <source>and %#1 more</source>
+        <translation>und %#1 weitere</translation>
+    </message>
+    <message>
         <source>touched (± %1 mm)</source>
         <translation>berührt (± %1 mm)</translation>
     </message>
@@ -2066,6 +2070,14 @@
     <message>
         <source>injured, %1</source>
         <translation>verletzt, %1</translation>
+    </message>
+    <message>
+        <source>no warnings of %~1 yet: still being measured</source>
+        <translation>noch keine Warnungen vor %~1: wird noch vermessen</translation>
+    </message>
+    <message>
+        <source>no warnings of %~1: cannot be measured</source>
+        <translation>keine Warnungen vor %~1: lässt sich nicht vermessen</translation>
     </message>
     <message>
         <source>wall</source>
@@ -4664,10 +4676,6 @@
     <message>
         <source>reading labels</source>
         <translation>Labels werden gelesen</translation>
-    </message>
-    <message>
-        <source>and %#1 more</source>
-        <translation>und %#1 weitere</translation>
     </message>
     <message>
         <source>of the table of names beside it, %~1; that entry was left out</source>

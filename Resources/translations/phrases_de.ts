@@ -1632,8 +1632,12 @@
         <translation>der Fall wird mit der Aufzeichnung verglichen</translation>
     </message>
     <message>
-        <source>begins with a redo, and several strokes of this case may be what it redoes</source>
-        <translation>beginnt mit „Wiederholen“, und mehrere Bohrzüge dieses Falls können gemeint sein</translation>
+        <source>redoes an older stroke, and does not tell which</source>
+        <translation>wiederholt einen älteren Bohrzug und sagt nicht, welchen</translation>
+    </message>
+    <message>
+        <source>redoes an older stroke that this case does not have</source>
+        <translation>wiederholt einen älteren Bohrzug, den dieser Fall nicht hat</translation>
     </message>
     <message>
         <source>playing the recording</source>

@@ -166,7 +166,7 @@ TEST_F(Nearby, NamesWhatIsStillBeingMeasured)
   };
   change(0.0);
   BurrWarnings warnings(model);
-  QString text("nothing yet");
+  QString text;
   bool isAlarmed = false;
   QObject::connect(&warnings, &BurrWarnings::warned, [&](const QString& lines) { text = lines; });
   QObject::connect(&warnings, &BurrWarnings::alarmed, [&](bool near) { isAlarmed = near; });

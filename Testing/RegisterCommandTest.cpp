@@ -75,6 +75,25 @@ protected:
     return path;
   }
 
+  // A tetrahedron of 10 mm at the centre of the MR's grid.
+  std::filesystem::path writeMeshOnMr() const
+  {
+    const auto& mr = m_truth["mr"];
+    Eigen::Vector3d center;
+    for (int axis = 0; axis < 3; ++axis)
+      center[axis] = mr["origin_mm"][axis].get<double>() +
+                     0.5 * (mr["dims"][axis].get<int>() - 1) * mr["spacing_mm"][axis].get<double>();
+    const auto path = m_folder / "tumour.obj";
+    std::ofstream file(path);
+    file.precision(9);
+    for (const Eigen::Vector3d& step : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(10, 0, 0),
+                                        Eigen::Vector3d(0, 10, 0), Eigen::Vector3d(0, 0, 10)})
+      file << "v " << (center + step)[0] << ' ' << (center + step)[1] << ' ' << (center + step)[2]
+           << '\n';
+    file << "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    return path;
+  }
+
   // Distance of the transformed ear centre from its true position, mm.
   double offAt(const nlohmann::json& transform) const
   {
@@ -94,6 +113,8 @@ TEST_F(RegisterCommand, LaysTheMrOnTheCtAndSaysHowWell)
   makeCase();
   json("add ear --labels " + quoted(m_patient / "labels.seg.nrrd"));
   json("add ear --labels tumour=" + quoted(writeLabelOnMr()));
+  const std::string mesh = quoted(writeMeshOnMr());
+  json("add ear --mesh onMr=" + mesh + "@T2 --mesh onCt=" + mesh);
   const auto answer = json("register ear --mr T2");
   EXPECT_NE(answer["verdict"], "failed") << answer["text"];
   EXPECT_LT(offAt(answer["transform"]), 0.25) << "MR voxels are larger";
@@ -123,7 +144,20 @@ TEST_F(RegisterCommand, LaysTheMrOnTheCtAndSaysHowWell)
   EXPECT_GT(onMr["registration_error_mm"]["p95"], 0.0);
   EXPECT_NE(onMr["registration_error_mm"]["place"].is_null(), spread.is_null());
   EXPECT_FALSE(info["labels"][0].contains("registration_error_mm")) << "drawn on the CT";
-  EXPECT_NE(run("info ear").out.find("drawn on the MR 'T2', registered to "), std::string::npos);
+  const auto& meshes = info["meshes"];
+  ASSERT_EQ(meshes.size(), 2u);
+  EXPECT_EQ(meshes[0]["name"], "onMr");
+  ASSERT_TRUE(meshes[0].contains("registration_error_mm"));
+  EXPECT_GT(meshes[0]["registration_error_mm"]["p95"], 0.0);
+  EXPECT_NE(meshes[0]["registration_error_mm"]["place"].is_null(), spread.is_null());
+  EXPECT_FALSE(meshes[1].contains("registration_error_mm")) << "drawn on the CT";
+  const std::string text = run("info ear").out;
+  EXPECT_NE(text.find("drawn on the MR 'T2', registered to "), std::string::npos);
+  const std::size_t line = text.find("mesh 'onMr'");
+  ASSERT_NE(line, std::string::npos) << text;
+  EXPECT_NE(text.substr(line, text.find('\n', line) - line).find("registered to "),
+            std::string::npos)
+      << text;
   for (const auto& [name, bytes] : info["resources"].items())
   {
     EXPECT_NE(name.rfind("registration.", 0), 0u) << name;

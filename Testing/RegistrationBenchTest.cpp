@@ -139,7 +139,7 @@ TEST_F(RegistrationBench, FindsNoConfidentWrongAnswer)
   const auto report = json(
       "bench registration --quick --part pairs,conditions,calibration,stress --out " + quoted(out));
   std::set<std::string> kinds;
-  int fits = 0, processes = 0, calibrated = 0, refused = 0;
+  int fits = 0, processes = 0, calibrated = 0, apart = 0, refused = 0;
   for (const auto& point : report.at("points"))
   {
     const auto& setting = point.at("setting");
@@ -152,7 +152,20 @@ TEST_F(RegistrationBench, FindsNoConfidentWrongAnswer)
       refused += setting.at("verdict") == "refused" ? 1 : 0;
     }
     else if (scene == "calibration")
+    {
       ++calibrated;
+      if (point.at("extra").contains("covered_at_30_mm"))
+        ++apart;
+      else
+        continue; // stated at the target alone
+      for (const char* share : {"covered_at_30_mm", "covered_at_60_mm", "covered_at_90_mm"})
+      {
+        const double sixths = 6.0 * point.at("extra").at(share).get<double>();
+        EXPECT_GE(sixths, 0.0);
+        EXPECT_LT(sixths, 6.5);
+        EXPECT_NEAR(sixths, std::round(sixths), 1e-6) << "of six points";
+      }
+    }
     else if (setting.contains("what") && point.at("peer").is_null())
     {
       ++fits;
@@ -168,6 +181,7 @@ TEST_F(RegistrationBench, FindsNoConfidentWrongAnswer)
   EXPECT_EQ(fits, 3) << "the fit, the fit with its error, and that as a process of its own";
   EXPECT_EQ(processes, 1);
   EXPECT_EQ(calibrated, 3);
+  EXPECT_GT(apart, 0);
   EXPECT_EQ(refused, 3) << "images of four dimensions";
   EXPECT_GE(kinds.size(), 30U);
   EXPECT_TRUE(fs::exists(out / "registration.json"));

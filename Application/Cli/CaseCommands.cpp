@@ -275,7 +275,7 @@ void printCase(const Context& context, const scene::Case& value, const CaseFacts
       measure = measured->volume ? ", " + fixed(*measured->volume, 1) + " mm3"
                                  : ", open, " + std::to_string(measured->openEdges) + " edges";
     context.print("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
-                  measure + placeText(value, place) +
+                  measure + placeText(value, place) + errorText(mesh.name) +
                   (refusal.empty() ? "" : ", not touchable: " + refusal));
   }
   context.print("  " + std::to_string(value.applied()) + " strokes done, " +

@@ -84,15 +84,21 @@ std::vector<MeshFacts> meshFacts(const scene::Case& value)
   return facts;
 }
 
+bool isErrorKnown(const scene::Case& value, const std::string& mrName)
+{
+  const scene::ImagePart* mr = scene::findMr(value, mrName);
+  return mr && mr->registration && mr->registration->error;
+}
+
 std::map<std::string, presenters::RegistrationErrorHere> registrationErrors(scene::Case value)
 {
   std::map<std::string, presenters::RegistrationErrorHere> errors;
-  value.meshes.clear();
+  const auto meshes = std::move(value.meshes);
   const auto labels = std::move(value.labels);
+  value.meshes.clear();
   for (const scene::LabelPart& part : labels)
   {
-    const scene::ImagePart* mr = scene::findMr(value, scene::placementOf(value, part).drawnOn);
-    if (!mr || !mr->registration || !mr->registration->error)
+    if (!isErrorKnown(value, scene::placementOf(value, part).drawnOn))
       continue;
     value.labels = {part};
     try
@@ -102,6 +108,24 @@ std::map<std::string, presenters::RegistrationErrorHere> registrationErrors(scen
           errors[structure.name] = *error;
     }
     catch (const core::Error&) // the rest of the case can still be reported
+    {
+    }
+  }
+  for (const scene::MeshPart& mesh : meshes)
+  {
+    if (!isErrorKnown(value, mesh.drawnOn))
+      continue;
+    try
+    {
+      const auto onCt = scene::meshOnCt(value, mesh);
+      if (!onCt || onCt->vertices.empty())
+        continue;
+      const auto [lower, upper] = onCt->bounds();
+      const core::PatientBox box(lower.cast<double>(), upper.cast<double>());
+      if (const auto error = presenters::registrationErrorIn(value, mesh.drawnOn, box))
+        errors[mesh.name] = *error;
+    }
+    catch (const core::Error&)
     {
     }
   }
@@ -217,11 +241,15 @@ void addPlace(json& part, const scene::Placement& place)
 }
 
 // Without a place it holds at the structure itself.
-json registrationErrorJson(const presenters::RegistrationErrorHere& error)
+void addRegistrationError(json& part, const CaseFacts& facts, const std::string& name)
 {
-  return {{"p95", error.p95},
-          {"place", error.place.empty() ? json() : json(error.place)},
-          {"away_mm", error.away}};
+  const auto found = facts.registrationErrors.find(name);
+  if (found == facts.registrationErrors.end())
+    return;
+  const presenters::RegistrationErrorHere& error = found->second;
+  part["registration_error_mm"] = {{"p95", error.p95},
+                                   {"place", error.place.empty() ? json() : json(error.place)},
+                                   {"away_mm", error.away}};
 }
 
 } // namespace
@@ -304,9 +332,7 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
                          {{"assumed_axes", axesJson(part.provenance.assumedRas)},
                           {"frame_assumed", part.provenance.isFrameAssumed}}}});
       addPlace(labels.back(), place);
-      if (const auto error = facts.registrationErrors.find(s.name);
-          error != facts.registrationErrors.end())
-        labels.back()["registration_error_mm"] = registrationErrorJson(error->second);
+      addRegistrationError(labels.back(), facts, s.name);
     }
   }
   json meshes = json::array();
@@ -326,6 +352,7 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
       meshes.back()["volume_mm3"] = measured->volume ? json(*measured->volume) : json(nullptr);
     }
     addPlace(meshes.back(), scene::placementOf(value, mesh));
+    addRegistrationError(meshes.back(), facts, mesh.name);
     if (!refusal.empty())
       meshes.back()["touchable_reason"] = refusal;
   }

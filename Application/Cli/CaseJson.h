@@ -42,8 +42,8 @@ struct MeshFacts
 struct CaseFacts
 {
   std::vector<MeshFacts> meshes; ///< of each of the case's meshes
-  /// By the name of a structure that was drawn on a registered MR; nothing where its labels cannot
-  /// be read, or the error is not known.
+  /// By the name of a structure or mesh that was drawn on a registered MR, in its bounding box;
+  /// nothing where its file cannot be read, or the error is not known.
   std::map<std::string, presenters::RegistrationErrorHere> registrationErrors;
 };
 CaseFacts factsOf(const scene::Case& value);

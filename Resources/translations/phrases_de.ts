@@ -1632,8 +1632,12 @@
         <translation>der Fall wird mit der Aufzeichnung verglichen</translation>
     </message>
     <message>
-        <source>begins with a redo, and several strokes of this case may be what it redoes</source>
-        <translation>beginnt mit „Wiederholen“, und mehrere Bohrzüge dieses Falls können gemeint sein</translation>
+        <source>redoes an older stroke, and does not tell which</source>
+        <translation>wiederholt einen älteren Bohrzug und sagt nicht, welchen</translation>
+    </message>
+    <message>
+        <source>redoes an older stroke that this case does not have</source>
+        <translation>wiederholt einen älteren Bohrzug, den dieser Fall nicht hat</translation>
     </message>
     <message>
         <source>playing the recording</source>
@@ -2052,6 +2056,10 @@
         <translation>%~1: Der Fall „%2“ hat keine Struktur „%3“ mit Voxeln; er hat %4</translation>
     </message>
     <message>
+        <source>and %#1 more</source>
+        <translation>und %#1 weitere</translation>
+    </message>
+    <message>
         <source>touched (± %1 mm)</source>
         <translation>berührt (± %1 mm)</translation>
     </message>
@@ -2074,6 +2082,14 @@
     <message>
         <source>injured, %1</source>
         <translation>verletzt, %1</translation>
+    </message>
+    <message>
+        <source>no warnings of %~1 yet: still being measured</source>
+        <translation>noch keine Warnungen vor %~1: wird noch vermessen</translation>
+    </message>
+    <message>
+        <source>no warnings of %~1: cannot be measured</source>
+        <translation>keine Warnungen vor %~1: lässt sich nicht vermessen</translation>
     </message>
     <message>
         <source>wall</source>
@@ -4672,10 +4688,6 @@
     <message>
         <source>reading labels</source>
         <translation>Labels werden gelesen</translation>
-    </message>
-    <message>
-        <source>and %#1 more</source>
-        <translation>und %#1 weitere</translation>
     </message>
     <message>
         <source>of the table of names beside it, %~1; that entry was left out</source>

@@ -114,7 +114,7 @@ TEST(Between, KnowsTheImagesThatItComparesAndTheRegistrationBetweenThem)
   EXPECT_EQ(distanceBetween(value, "left", "other").images[1], "T2");
 }
 
-// Two points of the MR move alike with it: what is between them stays.
+// Without a spread two points of the MR are taken to shift alike with it.
 TEST(Uncertainty, OfAnAngleTakesTheRegistrationOfWhatMovesTogether)
 {
   scene::Case value = twoBallsAndATube();
@@ -137,6 +137,64 @@ TEST(Uncertainty, OfAnAngleTakesTheRegistrationOfWhatMovesTogether)
   EXPECT_NEAR(of({"T2", "", ""}), 0.1 * kDegree, 0.02);
   EXPECT_NEAR(of({"", "T2", ""}), std::sqrt(2.0) * 0.1 * kDegree, 0.02);
   EXPECT_NEAR(of({"T2", "", "T2"}), std::sqrt(2.0) * 0.1 * kDegree, 0.02);
+}
+
+// An end and the vertex turn together about the z axis by 0.01 rad: the angle changes by as much
+// where the axis goes through the vertex or the end, and not at all where it goes through the other
+// end, which is then seen from both as before. 1.96 deviations.
+TEST(Uncertainty, OfAnAngleHasTheTurnOfWhatMovesTogether)
+{
+  scene::Case value = twoBallsAndATube();
+  value.ct.geometry = core::GridGeometry({9, 9, 9}, Vector3d(1e-3, 1e-3, 1e-3), Vector3d::Zero());
+  addT2(value);
+  value.mr[0].geometry = value.ct.geometry;
+  const Vector3d end(20, 0, 0), vertex(0, 0, 0), other(0, 10, 0);
+  const auto turnedAbout = [&](const Vector3d& about, const Vector3d& shift = Vector3d::Zero())
+  {
+    value.mr[0].registration->error->spread = core::RigidSpread{about};
+    core::RigidSpread::Moments& moments = value.mr[0].registration->error->spread->moments;
+    moments(5, 5) = 0.01 * 0.01;
+    moments.topLeftCorner<3, 3>() = shift.cwiseAbs2().asDiagonal();
+    scene::Measurement one = made(Kind::Angle, {end, vertex, other});
+    scene::setImages(one, {"T2", "T2", ""});
+    return *quantitiesOf(value, one)[0].uncertainty;
+  };
+  const double turn = 1.96 * 0.01 * 180.0 / kPi;
+  EXPECT_NEAR(turnedAbout(vertex), turn, 0.02 * turn);
+  EXPECT_NEAR(turnedAbout(end), turn, 0.02 * turn) << "the vertex moves along its other leg";
+  EXPECT_LT(turnedAbout(other), 0.02);
+  EXPECT_LT(turnedAbout(other, Vector3d(0.0, 1.0, 0.0)), 0.02) << "along the leg";
+  EXPECT_NEAR(turnedAbout(other, Vector3d(0.1, 0.0, 0.0)), turn, 0.02 * turn);
+}
+
+// A canal 20 mm long that may be turned about its end next to the mark: its greatest error is that
+// at the other end, in the number as in the remark.
+TEST(Between, CountsTheErrorOfAStructureThatItStates)
+{
+  scene::Case value = twoBallsAndATube();
+  addT2(value);
+  value.mr[0].registered = true;
+  value.mr[0].registration->error->spread = core::RigidSpread{{-10, -8, -8}};
+  value.mr[0].registration->error->spread->moments(5, 5) = 0.01 * 0.01;
+  value.labels[0].drawnOn = "T2";
+  value.measurements = {made(Kind::Mark, {{-9, -8, 0}})};
+  const Quantity distance = distanceBetween(value, "one", "canal").distance;
+  ASSERT_TRUE(distance.uncertainty);
+  // The mark half a voxel off along z, the canal half of its longest edge.
+  const double registration = std::sqrt(std::pow(*distance.uncertainty, 2) - 2.0 * 0.25 * 0.25);
+  EXPECT_GT(registration, 0.98 * 1.96 * 0.01 * 20.0);
+  EXPECT_LT(registration, 1.02 * 1.96 * 0.01 * std::hypot(21.0, 3.5));
+  const std::string before = "registered to ";
+  const std::size_t at = distance.remark.find(before);
+  ASSERT_NE(at, std::string::npos) << distance.remark;
+  const auto stated = core::parseDouble(distance.remark.substr(at + before.size(), 4));
+  ASSERT_TRUE(stated) << distance.remark;
+  EXPECT_NEAR(registration, *stated, 0.02);
+  // Of a mark on the MR the remark states it, too.
+  value.measurements.push_back(made(Kind::Mark, {{10, -8, -8}}, "T2"));
+  value.measurements[1].name = "other";
+  EXPECT_NE(distanceBetween(value, "one", "other").distance.remark.find("registered to 0.3"),
+            std::string::npos);
 }
 
 TEST(Quantity, OfWhatFollowedARemovedStructureSaysSo)

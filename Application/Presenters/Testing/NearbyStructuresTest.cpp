@@ -177,22 +177,73 @@ TEST(NearbyStructures, MeasureInTheBackgroundWhatIsWarnedOfLater)
   };
   const std::vector<std::string> vessel{"carotid"};
   EXPECT_EQ(names(), vessel);
-  EXPECT_FALSE(nearby.measuring());
+  EXPECT_EQ(toString(nearby.unmeasured()), "");
   look.warning = 2.0;
   EXPECT_EQ(names(), vessel) << "the others go on";
-  EXPECT_TRUE(nearby.measuring());
-  for (int n = 0; n < 1000 && nearby.measuring(); ++n)
+  EXPECT_EQ(nearby.unmeasured().pending, std::vector<std::string>{"facial_nerve"});
+  EXPECT_EQ(toString(nearby.unmeasured()), "no warnings of facial nerve yet: still being measured");
+  for (int n = 0; n < 1000 && !nearby.unmeasured().pending.empty(); ++n)
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     names();
   }
-  ASSERT_FALSE(nearby.measuring());
+  ASSERT_EQ(toString(nearby.unmeasured()), "");
   const auto near = nearby.around(value, place, 1.0, 50.0);
   ASSERT_EQ(near.size(), 2U);
   EXPECT_EQ(near[0].name, "facial_nerve");
   EXPECT_EQ(near[0].state, State::Warned);
   EXPECT_NEAR(near[0].distance, 1.0, kBias);
   EXPECT_EQ(nearby.surfaces().resources().size(), 2U);
+}
+
+// The distance of an occupancy of more than 65535 voxels along an axis cannot be measured.
+TEST(NearbyStructures, NameWhatCannotBeMeasuredAndGoOnWithTheOthers)
+{
+  const Vector3d place = kNerve + Vector3d(-kRadius - 1.0 - 1.0, 0.0, 0.0);
+  for (const bool fromTheStart : {true, false})
+  {
+    scene::Case value = balls();
+    value.labels[0].structures[0].look.shown = fromTheStart;
+    value.labels[0].structures[0].look.warning = fromTheStart ? 2.0 : 0.0;
+    const core::GridGeometry grid({65540, 3, 3}, {0.1, 0.1, 0.1}, {-4.0, -11.0, 0.0});
+    scene::LabelPart part;
+    part.drawnOn = "";
+    part.labels = std::make_shared<const volume::LabelMap>(volume::makeLabelMap(
+        std::make_shared<const volume::Volume<std::uint16_t>>(grid, std::uint16_t{1}), {}));
+    scene::StructurePart wire;
+    wire.name = "long_wire";
+    wire.index = 1;
+    wire.look.shown = fromTheStart;
+    part.structures = {wire};
+    value.labels.push_back(part);
+    NearbyStructures nearby(value);
+    nearby.surfaces();
+    value.labels[0].structures[0].look.warning = 2.0;
+    value.labels[1].structures[0].look.shown = true;
+    std::vector<NearbyStructure> near;
+    const auto ask = [&] { near = nearby.around(value, place, 1.0, 50.0); };
+    ASSERT_NO_THROW(ask());
+    for (int n = 0; n < 1000 && !nearby.unmeasured().pending.empty(); ++n)
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      ASSERT_NO_THROW(ask());
+    }
+    for (int frame = 0; frame < 3; ++frame)
+    {
+      ASSERT_NO_THROW(ask());
+      ASSERT_EQ(near.size(), 2U);
+      EXPECT_EQ(near[0].name, "facial_nerve");
+      EXPECT_EQ(near[0].state, State::Warned);
+      EXPECT_EQ(toString(nearby.unmeasured()), "no warnings of long wire: cannot be measured");
+    }
+  }
+}
+
+TEST(NearbyStructures, NameAFewOfManyThatAreUnmeasured)
+{
+  EXPECT_EQ(toString(UnmeasuredStructures{{"a", "b", "c", "d", "e"}, {"f"}}),
+            "no warnings of a, b, c and 2 more yet: still being measured\n"
+            "no warnings of f: cannot be measured");
 }
 
 TEST(NearbyStructures, KeepWhatIsInjuredHoweverFar)

@@ -95,8 +95,8 @@ protected:
     value.dissection.endStroke();
   }
 
-  // Redoes a stroke, if told so, and then cuts a new one.
-  void record(scene::Case& value, bool redo, const Vector3d& at)
+  // Redoes a stroke, if told so, and then cuts a new one, which it may undo and redo.
+  void record(scene::Case& value, bool redo, const Vector3d& at, bool again = false)
   {
     session::TouchScene scene(value);
     session::TouchTool tool;
@@ -105,7 +105,12 @@ protected:
                                     scene.recordingOf(tool, scene.servoOf(tool), "redo and cut"));
     session::NoRemovalModel none;
     auto hooks = scene.hooksOf(tool.burr, [] { return std::nullopt; });
-    hooks.edited = [&writer](const session::MaskEdit& edit) { writer.add(edit); };
+    hooks.edited = [this, &writer](session::MaskEdit edit)
+    {
+      if (edit.kind == session::MaskEdit::Kind::Redo && !tellsRedone)
+        edit.setRedone(0);
+      writer.add(edit);
+    };
     session::DissectionLoop loop(value.dissection, *scene.mask(), none,
                                  scene.drill().protectedTissue(), hooks);
     if (redo)
@@ -114,6 +119,11 @@ protected:
     }
     ASSERT_TRUE(loop.sweep(tick(1.0, at, true), {at, at, 2.0}));
     loop.endStroke();
+    if (again)
+    {
+      ASSERT_TRUE(loop.undo());
+      ASSERT_TRUE(loop.redo());
+    }
     writer.add(tick(1.0, at));
     writer.close();
   }
@@ -121,6 +131,7 @@ protected:
   std::filesystem::path folder = std::filesystem::temp_directory_path() /
                                  ("petrous-session-review-" + std::to_string(::getpid()));
   std::filesystem::path file = folder / "session.ticks";
+  bool tellsRedone = true; // in recordings of older programs it is not
 };
 
 } // namespace
@@ -269,13 +280,46 @@ TEST_F(SessionReviewTest, MeasuresARecordingThatBeginsWithARedo)
     EXPECT_EQ(review.strokes, 1u) << "the redone one is older";
   }
 
-  // Another approach goes on from the same state.
+  // Another approach goes on from the same state; it is still known which stroke is redone.
   scene::startBranch(before, "other", 0);
   cut(before, {8.0, 6.0, kTop - 1.0});
   const SessionReview review = reviewRecording(file, before);
+  EXPECT_EQ(review.whyUnmeasured, "");
+  ASSERT_TRUE(review.removed);
+  EXPECT_DOUBLE_EQ(*review.removed, removed);
+
+  // On a copy another stroke was drilled in place of the redone one.
+  scene::Case other = namedBlock();
+  cut(other, {8.0, 6.0, kTop - 1.0});
+  const SessionReview wrong = reviewRecording(file, other);
+  EXPECT_FALSE(wrong.removed);
+  EXPECT_NE(wrong.whyUnmeasured.find("does not have"), std::string::npos) << wrong.whyUnmeasured;
+  EXPECT_FALSE(wrong.course.empty());
+}
+
+// As older programs wrote it: nothing tells which stroke was redone, however few there are.
+TEST_F(SessionReviewTest, SaysNoVolumesWhereARecordingDoesNotTellWhatItRedid)
+{
+  const Vector3d at(6.0, 6.0, kTop - 1.0);
+  scene::Case before = namedBlock();
+  cut(before, {5.0, 6.0, kTop - 1.0});
+  ASSERT_EQ(before.dissection.undo(), 1u);
+  scene::Case value = before;
+  tellsRedone = false;
+  record(value, true, at);
+  const SessionReview review = reviewRecording(file, before);
   EXPECT_FALSE(review.removed);
-  EXPECT_NE(review.whyUnmeasured.find("several strokes"), std::string::npos)
+  EXPECT_NE(review.whyUnmeasured.find("does not tell which"), std::string::npos)
       << review.whyUnmeasured;
+
+  // What the recording itself undid it may redo.
+  file = folder / "own.ticks";
+  scene::Case own = namedBlock();
+  record(own, false, at, true);
+  const SessionReview known = reviewRecording(file, namedBlock());
+  EXPECT_EQ(known.whyUnmeasured, "");
+  ASSERT_TRUE(known.removed);
+  EXPECT_DOUBLE_EQ(*known.removed, own.dissection.strokes()[0]->info.removed);
 }
 
 TEST_F(SessionReviewTest, FindsTheApproachOnWhichTheRecordingBegan)

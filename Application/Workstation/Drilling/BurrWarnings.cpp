@@ -1,5 +1,7 @@
 #include "BurrWarnings.h"
 
+#include <QStringList>
+
 #include "Theme.h"
 #include "WindowTexts.h"
 
@@ -25,9 +27,13 @@ void BurrWarnings::burrMoved(const Eigen::Vector3d& center, double radius)
   try
   {
     const auto warnings = m_model.warnings(center, radius);
-    // The user must know that there can be no warnings yet.
+    // The user must know that there can be no warnings yet, or not of all.
     if (warnings)
-      warn(phrase(*warnings), !warnings->empty());
+    {
+      QStringList lines{phrase(*warnings), phrase(m_model.unmeasuredNearby())};
+      lines.removeAll({});
+      warn(lines.join('\n'), !warnings->empty());
+    }
     else
       warn(tr("no warnings yet: structures are being measured"));
   }

@@ -100,10 +100,15 @@ void NearbyPanel::burrMoved(const Eigen::Vector3d& center, double radius)
   {
     auto near = m_model.nearby(center, radius);
     if (!near)
+    {
+      m_structures->show({});
       return say(tr("Measuring the structures…"));
-    say(near->empty() ? tr("No structure that is shown lies within %1 mm of the burr")
-                            .arg(presenters::WorkstationModel::kNear, 0, 'f', 0)
-                      : QString());
+    }
+    const QString unmeasured = phrase(m_model.unmeasuredNearby());
+    say(near->empty() && unmeasured.isEmpty()
+            ? tr("No structure that is shown lies within %1 mm of the burr")
+                  .arg(presenters::WorkstationModel::kNear, 0, 'f', 0)
+            : unmeasured);
     m_structures->show(std::move(*near));
   }
   catch (const std::exception& error) // out of memory, a missing file

@@ -582,8 +582,9 @@ void StructuresPanel::burrMoved(const Eigen::Vector3d& center, double radius)
   m_sinceNear.start();
   try
   {
-    if (auto near = m_model.nearby(center, radius))
-      m_structures->setNear(std::move(*near));
+    auto near = m_model.nearby(center, radius);
+    // Distances from where the burr was are none.
+    m_structures->setNear(near ? std::move(*near) : std::vector<presenters::NearbyStructure>());
   }
   catch (const std::exception&) // said in the panel "Near the burr"
   {

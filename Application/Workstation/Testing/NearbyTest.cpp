@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QTreeView>
 
+#include "BurrWarnings.h"
 #include "NearbyModel.h"
 #include "StructuresModel.h"
 
@@ -149,4 +150,48 @@ TEST_F(Nearby, WarnsInThePictureWhileTheBurrIsInTheHandWhateverPanelsAreOpen)
   EXPECT_FALSE(dock().isVisible());
   QTest::keyClick(&view(), Qt::Key_D);
   EXPECT_EQ(view().display().warning(), QString());
+}
+
+TEST_F(Nearby, NamesWhatIsStillBeingMeasured)
+{
+  saveBall("ball");
+  openWindow();
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  const auto change = [&model](double warning)
+  {
+    auto look = *model.lookOf("nerve");
+    look.shown = false;
+    look.warning = warning;
+    model.setLook("nerve", look);
+  };
+  change(0.0);
+  BurrWarnings warnings(model);
+  QString text;
+  bool isAlarmed = false;
+  QObject::connect(&warnings, &BurrWarnings::warned, [&](const QString& lines) { text = lines; });
+  QObject::connect(&warnings, &BurrWarnings::alarmed, [&](bool near) { isAlarmed = near; });
+  const auto ask = [&]
+  {
+    QTest::qWait(100); // it answers a few times a second
+    warnings.burrMoved(kBallCenter + Eigen::Vector3d(0.0, 0.0, 9.0), 1.0);
+  };
+  ASSERT_TRUE(waitFor(
+      [&]
+      {
+        ask();
+        return model.measuresNearby() && text.isEmpty();
+      }));
+  change(20.0);
+  ask();
+  EXPECT_EQ(text, "no warnings of nerve yet: still being measured");
+  EXPECT_FALSE(isAlarmed);
+  EXPECT_TRUE(waitFor(
+      [&]
+      {
+        ask();
+        return text.startsWith("nerve ");
+      }))
+      << text.toStdString();
+  EXPECT_FALSE(text.contains("measured")) << text.toStdString();
+  EXPECT_TRUE(isAlarmed);
 }

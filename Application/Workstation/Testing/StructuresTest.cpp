@@ -461,3 +461,29 @@ TEST_F(Structures, TheTreeOfRowsIsSound)
   EXPECT_TRUE(structureCell("jugular bulb").isValid());
   EXPECT_EQ(structureCell("s2").parent().data().toString(), "Vessels (4)");
 }
+
+TEST_F(Structures, NoDistanceOfAnotherPlaceStaysWhereNoneIsKnown)
+{
+  openWith({});
+  StructuresPanel panel(model());
+  panel.caseChanged();
+  panel.show();
+  const auto* rows =
+      static_cast<StructuresModel*>(panel.findChild<QTreeView*>("structures")->model());
+  const auto distance = [rows]
+  { return rows->rowOf("nerve").siblingAtColumn(StructuresModel::Burr).data().toString(); };
+  const auto ask = [&panel](double away)
+  {
+    QTest::qWait(200); // it answers a few times a second
+    panel.burrMoved(kBallCenter + Eigen::Vector3d(0.0, 0.0, away), 1.0);
+  };
+  ASSERT_TRUE(waitFor(
+      [&]
+      {
+        ask(9.0);
+        return !distance().isEmpty();
+      }));
+  model().forgetNearby();
+  ask(100.0); // measured anew
+  EXPECT_EQ(distance().toStdString(), "");
+}

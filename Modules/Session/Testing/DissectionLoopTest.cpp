@@ -94,6 +94,39 @@ TEST(DissectionLoop, PublishesEachCutAndSaysWhereTissueCameBack)
   scene.mask->release();
 }
 
+TEST(DissectionLoop, RepeatsARedoOnlyOfTheStrokeThatWasRedone)
+{
+  const auto undone = [](LoopScene& scene, double x)
+  {
+    const Vector3d at(x, 0.0, -1.0);
+    scene.work.beginStroke({});
+    ASSERT_TRUE(scene.work.cut({at, at, 1.5}));
+    scene.work.endStroke();
+    ASSERT_EQ(scene.work.undo(), 1u);
+  };
+  std::vector<MaskEdit> edits;
+  DissectionLoop::Hooks hooks;
+  hooks.edited = [&edits](const MaskEdit& edit) { edits.push_back(edit); };
+  LoopScene recorded;
+  undone(recorded, 0.0);
+  DissectionLoop loop(recorded.work, *recorded.mask, recorded.removalModel, {}, hooks);
+  ASSERT_TRUE(loop.redo());
+  ASSERT_EQ(edits.size(), 1u);
+  for (const double x : {0.0, 3.0})
+  {
+    LoopScene scene;
+    undone(scene, x);
+    DissectionLoop repeated(scene.work, *scene.mask, scene.removalModel);
+    EXPECT_EQ(repeated.apply(edits[0]), x == 0.0);
+    LoopScene older; // its recording does not tell
+    undone(older, x);
+    DissectionLoop unchecked(older.work, *older.mask, older.removalModel);
+    MaskEdit edit = edits[0];
+    edit.setRedone(0);
+    EXPECT_TRUE(unchecked.apply(edit));
+  }
+}
+
 TEST(DissectionLoop, RemovesNothingForTheTimeInWhichTheServoStoodStill)
 {
   LoopScene scene;

@@ -47,6 +47,22 @@ RegistrationPair drawn(const SimulationBody& body, std::uint64_t seed)
   return simulatePair(body, ear, recipe);
 }
 
+// Share of the points at a distance (mm) from the target, along the CT's six directions, where the
+// true error is within the p95 that the spread states there.
+double coveredAt(const RegistrationPair& pair, const Registration& result, double distance)
+{
+  const Vector3d& target = pair.targets.front();
+  int covered = 0;
+  for (int n = 0; n < 6; ++n)
+  {
+    const Vector3d at = target + (n % 2 == 0 ? distance : -distance) * Vector3d::Unit(n / 2);
+    const double error = (result.fit.mrFromCt * at - pair.truth(at)).norm();
+    const Eigen::Matrix3d moments = core::displacementMoments(*result.error.spread, at);
+    covered += error <= core::lengthQuantile(moments, core::kNormal95) ? 1 : 0;
+  }
+  return covered / 6.0;
+}
+
 } // namespace
 
 std::vector<core::BenchmarkPoint> calibrationPoints(const BenchmarkInput& input,
@@ -76,6 +92,10 @@ std::vector<core::BenchmarkPoint> calibrationPoints(const BenchmarkInput& input,
                    {"in_plane_mm", grid.spacing()[0]},
                    {"overlap", result.fit.overlap},
                    {"covered", point.error <= result.error.p95 ? 1.0 : 0.0}};
+    if (result.error.spread) // else the error is stated at the target alone
+      for (const int distance : {30, 60, 90})
+        point.extra["covered_at_" + std::to_string(distance) + "_mm"] =
+            coveredAt(pair, result, distance);
     points.push_back(std::move(point));
   }
   return points;

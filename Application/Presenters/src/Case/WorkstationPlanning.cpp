@@ -27,10 +27,7 @@ std::optional<std::vector<NearbyStructure>> WorkstationModel::nearby(const Eigen
 {
   if (!measureNearby())
     return std::nullopt;
-  auto near = m_nearby->around(*m_case, burr, radius, kNear, strokeSoFar());
-  if (near.empty() && m_nearby->measuring())
-    return std::nullopt;
-  return near;
+  return m_nearby->around(*m_case, burr, radius, kNear, strokeSoFar());
 }
 
 std::optional<std::string> WorkstationModel::warnings(const Eigen::Vector3d& burr, double radius)
@@ -39,10 +36,12 @@ std::optional<std::string> WorkstationModel::warnings(const Eigen::Vector3d& bur
     return std::string();
   if (!measureNearby())
     return std::nullopt;
-  std::string text = warningsOf(m_nearby->around(*m_case, burr, radius, 0.0, strokeSoFar()));
-  if (text.empty() && m_nearby->measuring()) // that there is nothing to warn of is not known
-    return std::nullopt;
-  return text;
+  return warningsOf(m_nearby->around(*m_case, burr, radius, 0.0, strokeSoFar()));
+}
+
+std::string WorkstationModel::unmeasuredNearby() const
+{
+  return m_nearby ? toString(m_nearby->unmeasured()) : std::string();
 }
 
 const dissection::RemovedVolume& WorkstationModel::strokeSoFar()

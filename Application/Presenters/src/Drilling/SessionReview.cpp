@@ -95,26 +95,26 @@ private:
 
 // What a recorded redo finds to redo: at the recording's begin the case has strokes ahead, which
 // are on its tree, but not on the line to that state. Of those, only strokes before `before` were
-// there. Says why not, if several may be meant.
-std::string prepareRedo(dissection::Dissection& work, std::size_t before)
+// there, and the mask after the redo tells which it was. Says why it is not known.
+std::string prepareRedo(scene::Case& value, const session::MaskEdit& redo, std::size_t before)
 {
-  const History& history = work.history();
-  if (work.strokeOpen() || history.next() != History::kStart)
+  const History& history = value.dissection.history();
+  if (value.dissection.strokeOpen() || history.next() != History::kStart)
     return {};
+  if (redo.redone() == 0)
+    return "redoes an older stroke, and does not tell which";
   std::vector<std::size_t> parents;
-  std::vector<std::size_t> ahead;
   for (std::size_t n = 0; n < history.size(); ++n)
-  {
     parents.push_back(history.parent(n));
-    if (n < before && parents[n] == history.position())
-      ahead.push_back(n);
-  }
-  if (ahead.size() > 1)
-    return "begins with a redo, and several strokes of this case may be what it redoes";
-  if (!ahead.empty())
-    work.follow(
-        {std::move(parents), {{History::kMain, ahead.front(), history.position(), false}}, 0});
-  return {};
+  for (std::size_t n = 0; n < before; ++n)
+    if (parents[n] == history.position() &&
+        session::fingerprintOf(scene::dissectionAt(value, n).mask()) == redo.redone())
+    {
+      value.dissection.follow(
+          {std::move(parents), {{History::kMain, n, history.position(), false}}, 0});
+      return {};
+    }
+  return "redoes an older stroke that this case does not have";
 }
 
 // Of the strokes from `before` on that are applied.
@@ -262,7 +262,7 @@ SessionReview reviewRecording(const std::filesystem::path& file, scene::Case val
       if (!loop)
         break;
       if (edit.kind == session::MaskEdit::Kind::Redo)
-        review.whyUnmeasured = prepareRedo(value.dissection, before);
+        review.whyUnmeasured = prepareRedo(value, edit, before);
       if (review.whyUnmeasured.empty() && !loop->apply(edit))
         review.whyUnmeasured = "cuts another dissection here than where it was made";
       if (!review.whyUnmeasured.empty())

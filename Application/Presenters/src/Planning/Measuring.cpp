@@ -86,6 +86,8 @@ std::vector<std::pair<std::string, std::vector<std::size_t>>> pointsByImage(cons
   return groups;
 }
 
+constexpr const char* kErrorUnknown = "its registration's error unknown";
+
 // Of the MR's registration, as a place on the CT depends on it.
 struct RegistrationShare
 {
@@ -99,7 +101,7 @@ RegistrationShare registrationOf(const scene::Case& value, const std::string& im
     return {0.0, {}};
   const auto error = registrationErrorIn(value, image, box);
   if (!error)
-    return {std::nullopt, "its registration's error unknown"};
+    return {std::nullopt, kErrorUnknown};
   return {error->p95, toString(*error)};
 }
 
@@ -252,6 +254,29 @@ std::vector<Vector3d> slopesOf(Kind kind, const std::vector<Vector3d>& points)
   return slopes;
 }
 
+// 95th percentile of what an MR's registration changes of a value by several points of that MR, in
+// the value's unit: they shift, and turn, together. None without a spread.
+std::optional<double> turned(const scene::Case& value, const std::string& image,
+                             const std::vector<Vector3d>& points,
+                             const std::vector<Vector3d>& slopes,
+                             const std::vector<std::size_t>& which)
+{
+  const scene::ImagePart* mr = scene::findMr(value, image);
+  if (!mr || !mr->registration || !mr->registration->error || !mr->registration->error->spread)
+    return std::nullopt;
+  const core::RigidSpread& spread = *mr->registration->error->spread;
+  // d value = sum g (t + w x r) = t sum g + w sum r x g
+  Eigen::Matrix<double, 6, 1> slope = Eigen::Matrix<double, 6, 1>::Zero();
+  for (const std::size_t n : which)
+  {
+    slope.head<3>() += slopes[n];
+    slope.tail<3>() += (points[n] - spread.about).cross(slopes[n]);
+  }
+  Matrix3d moments = Matrix3d::Zero(); // along one line
+  moments(0, 0) = slope.dot(spread.moments * slope);
+  return core::lengthQuantile(moments, core::kNormal95);
+}
+
 std::optional<double> volumeOf(const scene::Case& value, const std::string& name)
 {
   if (const auto* structure = scene::findStructure(value, name))
@@ -316,9 +341,16 @@ std::optional<double> propagated(const scene::Case& value, const Measurement& me
       square += slopes[n].dot(*spread * slopes[n]);
       together += slopes[n];
     }
-    // Within one image a registration moves all alike.
+    // All of one image moves as a rigid whole, which changes no value of its points alone.
     if (groups.size() == 1)
       continue;
+    if (const auto off = points.size() > 1
+                             ? turned(value, image, measurement.points, slopes, points)
+                             : std::nullopt)
+    {
+      registrations += *off * *off;
+      continue;
+    }
     const RegistrationShare share = registrationOf(value, image, boxOf(measurement.points, points));
     if (!share.millimetres)
       return std::nullopt;
@@ -520,6 +552,7 @@ Between distanceBetween(const scene::Case& value, const std::string& a, const st
     std::string image;
     std::shared_ptr<const volume::Volume<float>> occupancy;
     std::optional<double> share; // mm
+    std::optional<RegistrationErrorHere> registration;
     std::string text;
   };
   const auto sideOf = [&](const std::string& name, const core::Progress& part)
@@ -533,6 +566,8 @@ Between distanceBetween(const scene::Case& value, const std::string& a, const st
     {
       side.mark = mark->points.front();
       side.image = mark->image;
+      side.registration =
+          registrationErrorIn(value, side.image, core::PatientBox(mark->points.front()));
       return side;
     }
     const scene::StructureOccupancy known = namedOccupancy(value, name, "distance", part);
@@ -540,8 +575,10 @@ Between distanceBetween(const scene::Case& value, const std::string& a, const st
     side.occupancy = known.make();
     if (!side.occupancy)
       throw core::InvalidParameter("distance: '" + name + "' encloses nothing");
-    side.share = shareOf(uncertaintyOf(value, known), false).millimetres;
-    side.text = "'" + name + "': " + toString(uncertaintyOf(value, known));
+    const SurfaceUncertainty uncertainty = uncertaintyOf(value, known);
+    side.share = shareOf(uncertainty, false).millimetres;
+    side.registration = uncertainty.registration;
+    side.text = "'" + name + "': " + toString(uncertainty);
     return side;
   };
   Side one = sideOf(a, progress.part(0.0, 0.2));
@@ -576,13 +613,14 @@ Between distanceBetween(const scene::Case& value, const std::string& a, const st
   result.from = way.from;
   result.to = way.to;
   result.distance.value = way.distance;
-  // A registration counts where it brings together what was set on different images.
+  // A registration counts where it brings together what was set on different images; a structure
+  // has the greatest error over its box, as in the remark.
   const Vector3d direction = way.distance > 0.0 ? Vector3d((way.to - way.from) / way.distance)
                                                 : Vector3d(Vector3d::Zero());
   double square = 0.0;
   bool isKnown = true;
   std::vector<std::string> remarks;
-  for (const auto& [side, at] : {std::make_pair(&one, way.from), std::make_pair(&other, way.to)})
+  for (const Side* side : {&one, &other})
   {
     if (side->mark)
     {
@@ -597,11 +635,13 @@ Between distanceBetween(const scene::Case& value, const std::string& a, const st
       square += side->share.value_or(0.0) * side->share.value_or(0.0);
       remarks.push_back(side->text);
     }
-    if (one.image == other.image)
+    if (one.image == other.image || side->image.empty())
       continue;
-    const RegistrationShare share = registrationOf(value, side->image, core::PatientBox(at));
-    isKnown = isKnown && share.millimetres;
-    square += share.millimetres.value_or(0.0) * share.millimetres.value_or(0.0);
+    if (side->mark) // a structure's text has it
+      remarks.push_back(side->registration ? toString(*side->registration) : kErrorUnknown);
+    isKnown = isKnown && side->registration;
+    const double p95 = side->registration ? side->registration->p95 : 0.0;
+    square += p95 * p95;
   }
   if (isKnown)
     result.distance.uncertainty = std::sqrt(square);

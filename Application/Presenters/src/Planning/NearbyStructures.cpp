@@ -37,6 +37,34 @@ bool lumen(const appearance::StructureAppearance* look)
   return look && !look->solid;
 }
 
+// nullptr if it cannot be measured. Throws CancelledError.
+std::shared_ptr<const volume::SurfaceDistance> tried(const StructureSurfaces::Measurer& measurer,
+                                                     const core::Progress& progress)
+{
+  try
+  {
+    return measurer(progress);
+  }
+  catch (const core::CancelledError&)
+  {
+    throw;
+  }
+  catch (const std::exception&) // out of memory; the others can still be measured
+  {
+    return nullptr;
+  }
+}
+
+std::string listed(const std::vector<std::string>& names)
+{
+  std::string text;
+  for (std::size_t n = 0; n < std::min(names.size(), kMaxWarnings); ++n)
+    text += (text.empty() ? "" : ", ") + shownName(names[n]);
+  if (names.size() > kMaxWarnings)
+    text += " and " + std::to_string(names.size() - kMaxWarnings) + " more";
+  return text;
+}
+
 } // namespace
 
 std::string cubicMillimetres(double volume)
@@ -87,6 +115,17 @@ std::string warningsOf(const std::vector<NearbyStructure>& structures)
   return text;
 }
 
+std::string toString(const UnmeasuredStructures& structures)
+{
+  std::string text;
+  if (!structures.pending.empty())
+    text = "no warnings of " + listed(structures.pending) + " yet: still being measured";
+  if (!structures.failed.empty())
+    text += (text.empty() ? "" : "\n") +
+            ("no warnings of " + listed(structures.failed) + ": cannot be measured");
+  return text;
+}
+
 std::map<std::string, double> injuredVolumes(const scene::Case& value,
                                              const dissection::RemovedVolume& open)
 {
@@ -112,8 +151,9 @@ NearbyStructures::NearbyStructures(const scene::Case& value)
                             auto surfaces = std::make_shared<StructureSurfaces>(copy);
                             for (std::size_t n = 0; n < surfaces->count(); ++n)
                               if (measured(copy, surfaces->name(n)))
-                                surfaces->measure(n, progress);
-                            return surfaces;
+                                if (auto surface = tried(surfaces->measurer(n), progress))
+                                  surfaces->take(n, std::move(surface));
+                            return surfaces; // what failed is tried again by measureLater
                           });
 }
 
@@ -132,22 +172,30 @@ StructureSurfaces& NearbyStructures::surfaces() const
   return *m_surfaces.get();
 }
 
-// Takes over what was measured, and begins with what is missing.
+// Takes over what was measured, begins with what is missing, and notes what is.
 void NearbyStructures::measureLater(const scene::Case& value)
 {
   StructureSurfaces& surfaces = this->surfaces();
-  if (m_later.valid())
+  if (m_later.valid() && m_later.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
   {
-    if (m_later.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-      return;
-    for (const auto& [structure, surface] : m_later.get())
-      surfaces.take(structure, surface);
-    m_later = {};
+    const auto later = std::exchange(m_later, {}); // what it throws it throws once
+    for (const auto& [structure, surface] : later.get())
+      if (surface)
+        surfaces.take(structure, surface);
+      else
+        m_failed.insert(structure);
   }
+  m_unmeasured = {};
   std::vector<std::pair<std::size_t, StructureSurfaces::Measurer>> missing;
   for (std::size_t n = 0; n < surfaces.count(); ++n)
-    if (measured(value, surfaces.name(n)) && !surfaces.isMeasured(n))
+  {
+    if (!measured(value, surfaces.name(n)) || surfaces.isMeasured(n))
+      continue;
+    const bool isFailed = m_failed.count(n) > 0;
+    (isFailed ? m_unmeasured.failed : m_unmeasured.pending).push_back(surfaces.name(n));
+    if (!isFailed && !m_later.valid())
       missing.emplace_back(n, surfaces.measurer(n));
+  }
   if (missing.empty())
     return;
   m_later = std::async(std::launch::async,
@@ -155,7 +203,7 @@ void NearbyStructures::measureLater(const scene::Case& value)
                        {
                          Measured result;
                          for (const auto& [structure, measurer] : missing)
-                           result.emplace_back(structure, measurer(progress));
+                           result.emplace_back(structure, tried(measurer, progress));
                          return result;
                        });
 }

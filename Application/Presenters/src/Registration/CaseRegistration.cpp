@@ -175,28 +175,6 @@ std::optional<scene::RegistrationError> errorOf(const registration::LocalError& 
                                   error.p95, error.max, error.spread};
 }
 
-// Adds the error of the registration that `error` goes on from; both are independent, and in CT
-// space.
-void add(scene::RegistrationError& error, const scene::RegistrationError& first,
-         const core::RigidTransform& fixedFromCt)
-{
-  if (!error.spread || !first.spread)
-  {
-    error.median = std::hypot(error.median, first.median);
-    error.p95 = std::hypot(error.p95, first.p95);
-    error.max += first.max;
-    error.spread.reset();
-    return;
-  }
-  error.spread =
-      core::takenAbout(core::chained(*error.spread, *first.spread, fixedFromCt), error.point);
-  const Eigen::Matrix3d both = error.spread->moments.topLeftCorner<3, 3>();
-  const Eigen::Matrix3d ofFirst = core::displacementMoments(*first.spread, error.point);
-  error.median = core::lengthQuantile(both, core::kNormalMedian);
-  error.p95 = core::lengthQuantile(both, core::kNormal95);
-  error.max += std::max(first.max, core::lengthQuantile(ofFirst, core::kNormal999));
-}
-
 // Combines both registrations.
 void chain(const Task& task, scene::Registration& how)
 {
@@ -213,7 +191,7 @@ void chain(const Task& task, scene::Registration& how)
   }
   if (how.error)
   {
-    add(*how.error, *first->error, task.fixedFromCt);
+    how.error = chained(*how.error, *first->error, task.fixedFromCt);
     add(how.text, "The error is that of both ways: to '" + onto + "', and from there to the CT (" +
                       millimetres(first->error->p95) + " (p95) at " + first->error->place + ").");
   }
@@ -251,6 +229,35 @@ void layAsIs(const Task& task, const RegistrationRequest& request, RegistrationO
 }
 
 } // namespace
+
+scene::RegistrationError chained(const scene::RegistrationError& second,
+                                 const scene::RegistrationError& first,
+                                 const core::RigidTransform& bFromA)
+{
+  scene::RegistrationError both = second;
+  scene::RegistrationError there = first; // at the second's point
+  if (first.spread)
+  {
+    const Eigen::Matrix3d moments = core::displacementMoments(*first.spread, second.point);
+    there.median = core::lengthQuantile(moments, core::kNormalMedian);
+    there.p95 = core::lengthQuantile(moments, core::kNormal95);
+    there.max = std::max(first.max, core::lengthQuantile(moments, core::kNormal999));
+  }
+  both.max = second.max + there.max;
+  if (!second.spread || !first.spread)
+  {
+    both.median = std::hypot(second.median, there.median);
+    both.p95 = std::hypot(second.p95, there.p95);
+    both.spread.reset();
+    return both;
+  }
+  both.spread =
+      core::takenAbout(core::chained(*second.spread, *first.spread, bFromA), second.point);
+  const Eigen::Matrix3d moments = both.spread->moments.topLeftCorner<3, 3>();
+  both.median = core::lengthQuantile(moments, core::kNormalMedian);
+  both.p95 = core::lengthQuantile(moments, core::kNormal95);
+  return both;
+}
 
 std::vector<std::string> ontoNames(const scene::Case& value, const std::string& mr)
 {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Session/TouchScene.h"
 
 namespace petrous::session
 {
@@ -200,7 +201,10 @@ bool DissectionLoop::turn(bool back)
     return false;
   }
   publish(true);
-  notify({back ? MaskEdit::Kind::Undo : MaskEdit::Kind::Redo});
+  MaskEdit edit{back ? MaskEdit::Kind::Undo : MaskEdit::Kind::Redo};
+  if (!back && m_hooks.edited)
+    edit.setRedone(fingerprintOf(m_dissection.mask()));
+  notify(edit);
   return true;
 }
 
@@ -233,6 +237,9 @@ bool DissectionLoop::apply(const MaskEdit& edit)
   case MaskEdit::Kind::Undo:
   case MaskEdit::Kind::Redo:
     if (!turn(edit.kind == MaskEdit::Kind::Undo))
+      return false;
+    if (edit.redone() != 0 && edit.kind == MaskEdit::Kind::Redo &&
+        fingerprintOf(m_dissection.mask()) != edit.redone())
       return false;
     break;
   }

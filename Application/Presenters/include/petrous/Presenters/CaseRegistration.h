@@ -73,6 +73,13 @@ std::vector<std::string> placeNames(const scene::Case& value);
 /// The MRs to which `mr` can be registered: registered themselves, and not through `mr`.
 std::vector<std::string> ontoNames(const scene::Case& value, const std::string& mr);
 
+/// Error of X_CB X_BA at the point of the second, X_CB, whose error is stated in frame A as well
+/// (CT space); both are independent. That of the first, X_BA, is taken there by its spread if it
+/// has one, else as it was stated at its own point. It has a spread if both have one.
+scene::RegistrationError chained(const scene::RegistrationError& second,
+                                 const scene::RegistrationError& first,
+                                 const core::RigidTransform& bFromA);
+
 /// Registers the MR; the case is not modified. Loads the two images.
 ///
 /// To another MR, the fit starts at the identity if both share a frame of reference (unless

@@ -38,8 +38,10 @@ std::string summaryOf(const scene::Case& value, const scene::Measurement& measur
 /// Half-width of a value of these points, by linear propagation: each may lie half a voxel of its
 /// image off along each of that one's axes. Points of several images lie besides as far off each
 /// other as the registrations are in error (p95), and the half-width is at least that of the worst
-/// image alone. None where the value depends on them in no linear way, as a distance of 0, or where
-/// an image or the error of its registration is not known.
+/// image alone. One point of an MR has the length of the displacement there, in any direction;
+/// several shift and turn together by the registration's spread, or shift alone where there is
+/// none. None where the value depends on them in no linear way, as a distance of 0, or where an
+/// image or the error of its registration is not known.
 std::optional<double> propagated(const scene::Case& value, const scene::Measurement& measurement);
 
 /// Volumes of the structures and of what was drilled. Reads no voxels.

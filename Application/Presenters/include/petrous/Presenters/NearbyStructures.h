@@ -3,6 +3,7 @@
 #include <future>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,18 @@ std::string toString(const NearbyStructure& structure);
 std::string warningsOf(const std::vector<NearbyStructure>& structures);
 constexpr std::size_t kMaxWarnings = 3;
 
+/// Names of structures that ought to be measured and are not.
+struct UnmeasuredStructures
+{
+  std::vector<std::string> pending; ///< still being measured
+  std::vector<std::string> failed;
+};
+
+/// A line for each of both kinds, with at most kMaxWarnings names: "no warnings of facial nerve
+/// yet: still being measured", "no warnings of carotid: cannot be measured"; empty: all are
+/// measured.
+std::string toString(const UnmeasuredStructures& structures);
+
 /// "0.72 mm³", "under 0.01 mm³".
 std::string cubicMillimetres(double volume);
 
@@ -57,8 +70,8 @@ std::map<std::string, double> injuredVolumes(const scene::Case& value,
 ///
 /// The structures' distance fields are computed in a separate thread; until then there is no
 /// result. One that is shown or gets a warning distance later is computed in such a thread, too,
-/// and left out until then. Not thread-safe; the case may change meanwhile, except its labels and
-/// meshes.
+/// and left out until then; one that cannot be computed is left out, and the others are not. Not
+/// thread-safe; the case may change meanwhile, except its labels and meshes.
 class NearbyStructures
 {
 public:
@@ -70,7 +83,7 @@ public:
 
   /// Visible structures of the case, nearest first; injured ones at any distance, and hidden ones
   /// that are warned of, touched or injured and have a warning distance. Empty until `ready`.
-  /// Throws what made the computation fail.
+  /// Throws where the case's labels cannot be read.
   ///
   /// value   the same case in its current state: appearances, strokes
   /// center  of the burr, patient LPS mm; `radius` mm
@@ -80,21 +93,24 @@ public:
                                       double radius, double reach,
                                       const dissection::RemovedVolume& open = {});
 
-  /// Whether the last `around` left out structures that are still being measured.
-  bool measuring() const noexcept { return m_later.valid(); }
+  /// What the last `around` left out.
+  const UnmeasuredStructures& unmeasured() const noexcept { return m_unmeasured; }
 
   /// The distance fields.
   StructureSurfaces& surfaces() const; ///< waits until they are computed
 
 private:
-  using Measured = std::vector<
-      std::pair<std::size_t, std::shared_ptr<const volume::SurfaceDistance>>>; // by structure
+  // By structure; nullptr: has failed.
+  using Measured =
+      std::vector<std::pair<std::size_t, std::shared_ptr<const volume::SurfaceDistance>>>;
 
   void measureLater(const scene::Case& value);
 
   std::shared_ptr<core::CancelToken> m_stop;
   std::shared_future<std::shared_ptr<StructureSurfaces>> m_surfaces;
-  std::shared_future<Measured> m_later; // not valid: nothing is missing
+  std::shared_future<Measured> m_later; // not valid: nothing is being measured
+  std::set<std::size_t> m_failed;       // structures
+  UnmeasuredStructures m_unmeasured;
 };
 
 } // namespace petrous::presenters

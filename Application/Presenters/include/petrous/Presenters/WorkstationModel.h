@@ -321,6 +321,8 @@ public:
   /// What of that the surgeon must see now (warningsOf); measures no more than needed: cheap enough
   /// for every frame. Likewise none until the distance fields are computed.
   std::optional<std::string> warnings(const Eigen::Vector3d& burr, double radius);
+  /// What the last of both left out, in words (UnmeasuredStructures): to be shown beside them.
+  std::string unmeasuredNearby() const;
   /// What the open stroke has removed so far, see RemovedVolumeEstimator; empty while none is open.
   const dissection::RemovedVolume& strokeSoFar();
   bool measuresNearby() const noexcept { return m_nearby != nullptr; }

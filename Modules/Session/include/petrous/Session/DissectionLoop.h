@@ -58,7 +58,8 @@ public:
   bool undo();
   bool redo();
 
-  /// Repeats a recorded edit. False if the resulting state differs from the recorded one.
+  /// Repeats a recorded edit. False if the resulting state differs from the recorded one: its
+  /// number, or after a redo the mask, if the recording knows it.
   bool apply(const MaskEdit& edit);
 
   /// Number of the current mask state.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include "petrous/Dissection/SweptSphereCut.h"
@@ -24,8 +25,19 @@ struct MaskEdit
   std::uint64_t state = 0;          ///< number of the mask state published by this edit
   double from[3] = {0.0, 0.0, 0.0}; ///< of a cut: dissection::SweptSphere, patient mm
   double to[3] = {0.0, 0.0, 0.0};
-  double radius = 0.0;   ///< mm
-  double duration = 0.0; ///< of an end: duration of the stroke, s
+  double radius = 0.0; ///< mm
+  /// Of an end: duration of the stroke, s. Of a redo the bits of the mask's fingerprint.
+  double duration = 0.0;
+
+  /// Of a redo: fingerprintOf the mask after it, which tells the stroke that was redone; 0: not
+  /// known, as in recordings of older programs.
+  std::uint64_t redone() const noexcept
+  {
+    std::uint64_t print = 0;
+    std::memcpy(&print, &duration, sizeof print);
+    return print;
+  }
+  void setRedone(std::uint64_t print) noexcept { std::memcpy(&duration, &print, sizeof print); }
 
   dissection::SweptSphere burr() const noexcept
   {

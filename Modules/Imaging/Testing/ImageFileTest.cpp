@@ -1091,6 +1091,81 @@ TEST(ImageFile, AppliesTheRescaleOfMetaImageAndComparesItsAxes)
   EXPECT_TRUE(noted(read("AnatomicalOrientation = RAI\n"), "ALI"));
 }
 
+TEST(ImageFile, RefusesMetaImageThatContradictsItself)
+{
+  const TestFolder folder;
+  const std::string voxels = bytesOf(counting<std::int16_t>(24));
+  const auto read = [&](const std::string& more)
+  {
+    return readImageFile(putFile(
+        folder / "a.mha", "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
+                          "BinaryDataByteOrderMSB = False\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n"
+                          "Offset = 1 2 3\nElementSpacing = 1 4 2\nDimSize = 4 3 2\n"
+                          "DistanceUnits = mm\nElementType = MET_SHORT\n" +
+                              more + "ElementDataFile = LOCAL\n" + voxels));
+  };
+  const std::pair<const char*, const char*> cases[] = {
+      {"TransformMatrix = -1 0 0 0 1 0 0 0 1", "TransformMatrix twice"},
+      {"Rotation = -1 0 0 0 1 0 0 0 1", "TransformMatrix and Rotation"},
+      {"Orientation = -1 0 0 0 1 0 0 0 1", "TransformMatrix and Orientation"},
+      {"Offset = 50 2 3", "Offset twice"},
+      {"Origin = 50 2 3", "Offset and Origin"},
+      {"Position = 50 2 3", "Offset and Position"},
+      {"ElementSpacing = 1 4 3", "ElementSpacing twice"},
+      {"DimSize = 3 4 2", "DimSize twice"},
+      {"NDims = 4", "NDims twice"},
+      {"ElementType = MET_USHORT", "ElementType twice"},
+      {"DistanceUnits = um", "DistanceUnits twice"},
+      {"ElementByteOrderMSB = True", "BinaryDataByteOrderMSB and ElementByteOrderMSB"}};
+  for (const auto& [line, words] : cases)
+    expectRefused(refusalOf([&, text = line] { read(std::string(text) + "\n"); }),
+                  Reason::Unreadable, words);
+  // The same value is no contradiction, nor is a slice thicker than the distance of slices.
+  for (const char* line : {"Offset = 1 2 3", "Position = 1.0 2.0 3.0", "ElementSize = 1 4 5",
+                           "Rotation = 1 0 0 0 1 0 0 0 1", "Comment = a\nComment = b"})
+  {
+    const auto image = read(std::string(line) + "\n");
+    EXPECT_TRUE(image.volume->geometry().spacing().isApprox(Eigen::Vector3d(1.0, 4.0, 2.0)));
+    EXPECT_TRUE(image.notes.empty()) << image.notes.front();
+  }
+}
+
+TEST(ImageFile, SaysThatANegativeSpacingOfMetaImageMirrors)
+{
+  const TestFolder folder;
+  const auto read = [&](const std::string& spacing, const std::string& orientation)
+  {
+    return readImageFile(putFile(
+        folder / "a.mha", "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
+                          "TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 1 2 3\nElementSpacing = " +
+                              spacing + "\nDimSize = 4 3 2\nAnatomicalOrientation = " +
+                              orientation + "\nElementType = MET_SHORT\nElementDataFile = LOCAL\n" +
+                              bytesOf(counting<std::int16_t>(24))));
+  };
+  EXPECT_FALSE(noted(read("1 4 2", "RAI"), "negative"));
+  const auto mirrored = read("-1 4 2", "LAI"); // the first axis starts at the left
+  EXPECT_TRUE(noted(mirrored, "negative voxel size (ElementSpacing)"));
+  EXPECT_FALSE(noted(mirrored, "AnatomicalOrientation"));
+  EXPECT_TRUE(noted(read("-1 4 2", "RAI"), "LAI"));
+  // ITK's ImageFileReader: the origin stays, the axis is turned round.
+  const core::GridGeometry& grid = mirrored.volume->geometry();
+  double least = 100.0;
+  double most = -100.0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 2; ++k)
+      {
+        const Eigen::Vector3d at = grid.patientFromVoxel(Eigen::Vector3d(i, j, k));
+        least = std::min(least, at[0]);
+        most = std::max(most, at[0]);
+        const double column = std::round(1.0 - at[0]); // of the file
+        EXPECT_EQ(mirrored.volume->at(i, j, k), column + 4.0 * std::round((at[1] - 2.0) / 4.0) +
+                                                    12.0 * std::round((at[2] - 3.0) / 2.0));
+      }
+  EXPECT_NEAR(least, -2.0, 1e-9);
+  EXPECT_NEAR(most, 1.0, 1e-9);
+}
+
 TEST(ImageFile, KeepsOnlyTheRegionOfInterest)
 {
   const TestFolder folder;

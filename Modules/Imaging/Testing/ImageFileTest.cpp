@@ -887,6 +887,65 @@ TEST(ImageFile, ReadsNrrdWhoseVoxelsAreInSeveralFiles)
   expectRefused(refusalOf([&] { readImageFile(folder / "b.nhdr"); }), Reason::NotFound);
 }
 
+TEST(ImageFile, NotesBytesThatTheHeaderOfRawVoxelsDoesNotSpeakOf)
+{
+  const TestFolder folder;
+  const std::string voxels = bytesOf(counting<std::int16_t>(24));
+  const auto read = [&](const std::string& fields, const std::string& data)
+  {
+    std::string header = nrrd("short", "");
+    header.insert(header.find("endian"), "data file: b.raw\n" + fields);
+    putFile(folder / "b.raw", data);
+    return readImageFile(putFile(folder / "b.nhdr", header));
+  };
+  EXPECT_FALSE(noted(read("", voxels), "byte"));
+  EXPECT_FALSE(noted(read("byte skip: 3\n", "abc" + voxels), "byte"));
+  EXPECT_FALSE(noted(read("byte skip: -1\n", "abc" + voxels), "byte"));
+  EXPECT_TRUE(noted(read("", voxels + "x"), "1 byte more"));
+  EXPECT_TRUE(noted(read("", voxels + "xy"), "2 bytes more"));
+  const auto shifted = read("", std::string(348, '\0') + voxels);
+  EXPECT_NE(shifted.volume->at(3, 2, 1), 23);
+  EXPECT_TRUE(noted(shifted, "348 bytes more"));
+  EXPECT_TRUE(noted(shifted, "shifted"));
+  const auto skipped = read("byte skip: 3\n", "abc" + voxels + "xy");
+  EXPECT_EQ(skipped.volume->at(3, 2, 1), 23);
+  EXPECT_TRUE(noted(skipped, "2 bytes behind"));
+  EXPECT_FALSE(noted(readImageFile(putFile(folder / "a.nrrd", nrrd("short", voxels))), "byte"));
+  EXPECT_TRUE(noted(readImageFile(putFile(folder / "a.nrrd", nrrd("short", voxels + "x"))),
+                    "1 byte behind"));
+}
+
+TEST(ImageFile, NotesVoxelsOutsideTheFolderOfTheirHeader)
+{
+  const TestFolder folder;
+  const TestFolder other;
+  const std::string voxels = bytesOf(counting<std::int16_t>(24));
+  std::filesystem::create_directory(folder / "sub");
+  for (const auto& file : {folder / "b.raw", folder / "sub" / "b.raw", other / "b.raw"})
+    putFile(file, voxels);
+  const auto isNoted = [&](const std::filesystem::path& header, const std::string& name)
+  {
+    std::string text = nrrd("short", "");
+    text.insert(text.find("endian"), "data file: " + name + "\n");
+    const auto image = readImageFile(putFile(header, text));
+    EXPECT_EQ(image.volume->at(3, 2, 1), 23);
+    return noted(image, "outside the folder");
+  };
+  EXPECT_FALSE(isNoted(folder / "b.nhdr", "b.raw"));
+  EXPECT_FALSE(isNoted(folder / "b.nhdr", "sub/b.raw"));
+  EXPECT_FALSE(isNoted(folder / "b.nhdr", (folder / "b.raw").string()));
+  EXPECT_TRUE(isNoted(folder / "b.nhdr", (other / "b.raw").string()));
+  EXPECT_TRUE(isNoted(folder / "sub" / "b.nhdr", "../b.raw"));
+  EXPECT_TRUE(noted(
+      readImageFile(putFile(folder / "b.mhd", "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
+                                              "TransformMatrix = 1 0 0 0 1 0 0 0 1\n"
+                                              "Offset = 1 2 3\nElementSpacing = 1 1 2\n"
+                                              "DimSize = 4 3 2\nElementType = MET_SHORT\n"
+                                              "ElementDataFile = " +
+                                                  (other / "b.raw").string() + "\n")),
+      "outside the folder"));
+}
+
 // As where a disk is pulled out: the file is shorter than it was when its header was read.
 TEST(ImageFile, NamesAFileThatChangesWhileItIsRead)
 {

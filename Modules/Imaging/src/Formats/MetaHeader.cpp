@@ -173,7 +173,7 @@ void findVoxels(const std::filesystem::path& path, const Fields& fields, MetaHea
   }
   else
   {
-    header.file = detachedFile(path, data);
+    header.file = detachedFile(path, data, header.notes);
     header.dataBytes = checkedFileSize(header.file);
   }
 }

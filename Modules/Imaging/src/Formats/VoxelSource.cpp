@@ -427,16 +427,14 @@ void VoxelSource::checkRoom()
 /// them as well.
 void VoxelSource::noteSurplus(std::uint64_t bytes)
 {
-  const std::string count = std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes");
   if (m_place.parts.front().offset == 0 && m_place.packedOffset == 0)
-    m_notes.push_back(
-        "its file of voxels holds " + count +
-        " more than its header speaks of, which were left out at the end; if they are "
-        "another header at the beginning, all voxels are shifted: check the image");
+    m_notes.push_back("its file of voxels holds " + std::to_string(bytes) +
+                      (bytes == 1 ? " byte" : " bytes") +
+                      " more than its header speaks of, left out at the end; if they are another "
+                      "header at the beginning, all voxels are shifted: check the image");
   else
-    m_notes.push_back("holds " + count +
-                      " behind its voxels, which its header does not speak of; "
-                      "left out");
+    m_notes.push_back("holds " + std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes") +
+                      " behind its voxels, of which its header does not speak; left out");
 }
 
 std::shared_ptr<void> VoxelSource::rescaledCopy(const void* stored, std::size_t count,

@@ -241,7 +241,8 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
     const auto scale = isMr ? volume::suggestMrScale(histogram) : volume::suggestScale(histogram);
     context.refuseDamaged();
     value.iso = scale.iso;
-    value.denseBone = scale.dense;
+    if (!scale.calibrated || presenters::calibratedScale(value).calibrated)
+      value.denseBone = scale.dense; // else the file did not call its values Hounsfield units
     if (isMr)
       context.warn("the image is an MR; tissue is taken to begin at " + fixed(scale.iso, 1) +
                    ", and bone is as dark as air");

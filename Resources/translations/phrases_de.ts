@@ -104,6 +104,10 @@
         <translation>Laut Datei weder CT noch MR, sondern Modalität %~1.</translation>
     </message>
     <message>
+        <source>The file says that its values are of an unspecified type (US), and not that they are Hounsfield units.</source>
+        <translation>Die Datei nennt für ihre Werte eine unbestimmte Art (US) und nicht, dass sie Hounsfield-Einheiten sind.</translation>
+    </message>
+    <message>
         <source>The file says that its values are no Hounsfield units, but of the type %~1.</source>
         <translation>Laut Datei sind die Werte keine Hounsfield-Einheiten, sondern vom Typ %~1.</translation>
     </message>
@@ -144,8 +148,12 @@
         <translation>Ein MR zeigt keinen Knochen: Seine Intensitäten sind keine Hounsfield-Einheiten, und Knochen ist darin so dunkel wie Luft. Die Oberfläche liegt, wo Gewebe beginnt, nach dem Histogramm des Bildes bei %#1; gebohrt wird dieses Gewebe, nicht Knochen. Die Oberflächenschwelle (F9) verschiebt die Oberfläche.</translation>
     </message>
     <message>
-        <source>%1 It is shown as it is: nothing in it is known to be bone, and the surface is put at %#2 by the image's histogram; 'petrous appearance --iso' moves it. Build the case with --modality CT if it is a CT in Hounsfield units all the same.</source>
-        <translation>%1 Gezeigt wird es, wie es ist: Nichts darin ist als Knochen bekannt, und die Oberfläche liegt nach dem Histogramm des Bildes bei %#2; die Oberflächenschwelle (F9) verschiebt sie. Ist es doch ein CT in Hounsfield-Einheiten, öffnen Sie es noch einmal und geben Sie es auf die Frage an.</translation>
+        <source>%~1 It is shown as it is: nothing in it is known to be bone, and the surface is put at %#2 by the image's histogram; 'petrous appearance --iso' moves it. Build the case with --modality CT if it is a CT in Hounsfield units all the same.</source>
+        <translation>%~1 Gezeigt wird es, wie es ist: Nichts darin ist als Knochen bekannt, und die Oberfläche liegt nach dem Histogramm des Bildes bei %#2; die Oberflächenschwelle (F9) verschiebt sie. Ist es doch ein CT in Hounsfield-Einheiten, öffnen Sie es noch einmal und geben Sie es auf die Frage an.</translation>
+    </message>
+    <message>
+        <source>%~1 Air and soft tissue have in it the values of a CT, so the surface of bone is put at %#2, but no value is called HU. Build the case with --modality CT if it is a CT in Hounsfield units.</source>
+        <translation>%~1 Luft und Weichteile haben darin die Werte eines CT, deshalb liegt die Knochenoberfläche bei %#2, aber kein Wert wird HU genannt. Ist es ein CT in Hounsfield-Einheiten, öffnen Sie es noch einmal und geben Sie es auf die Frage an.</translation>
     </message>
     <message>
         <source>The file does not say whether it is a CT or an MR; it is taken for a CT with units of its own, such as cone beam. Build the case with --modality MR if it is an MR, --modality CT if it is not.</source>
@@ -3838,6 +3846,10 @@
         <translation>sagt auf mehrere Weisen, was die Werte bedeuten (Real World Value Mappings)</translation>
     </message>
     <message>
+        <source>contradicts itself about how many frames it holds: %#1 (Number of Frames), and %#2 (Per-Frame Functional Groups Sequence)</source>
+        <translation>widerspricht sich darin, wie viele Bilder sie enthält: %#1 (Number of Frames) und %#2 (Per-Frame Functional Groups Sequence)</translation>
+    </message>
+    <message>
         <source>states place or values twice, for all frames and for one, and they differ</source>
         <translation>gibt Ort oder Werte zweimal an, für alle Bilder und für eines, und sie sind verschieden</translation>
     </message>
@@ -4306,8 +4318,24 @@
         <translation>%#1 Übersichtsaufnahmen (Scouts) liegen zwischen den %#2 Schichten des Stapels und blieben weg.</translation>
     </message>
     <message>
-        <source>%1 are turned against the others, their normals by up to %#2 degrees; read as one stack, their corners would lie up to %#3 mm off.</source>
-        <translation>%1 sind gegen die anderen gedreht, ihre Normalen um bis zu %#2 Grad; als ein Stapel gelesen, lägen ihre Ecken bis zu %#3 mm falsch.</translation>
+        <source>%1 are turned or mirrored against the others, their rows or columns by up to %#2 degrees, within their plane; read as one stack, their corners would lie up to %#3 mm off.</source>
+        <translation>%1 sind gegen die anderen gedreht oder gespiegelt, ihre Zeilen oder Spalten um bis zu %#2 Grad, in ihrer Ebene; als ein Stapel gelesen, lägen ihre Ecken bis zu %#3 mm falsch.</translation>
+    </message>
+    <message>
+        <source>%1 are turned or mirrored against the others, their rows or columns by up to %#2 degrees, their normals by up to %#3 degrees; read as one stack, their corners would lie up to %#4 mm off.</source>
+        <translation>%1 sind gegen die anderen gedreht oder gespiegelt, ihre Zeilen oder Spalten um bis zu %#2 Grad, ihre Normalen um bis zu %#3 Grad; als ein Stapel gelesen, lägen ihre Ecken bis zu %#4 mm falsch.</translation>
+    </message>
+    <message>
+        <source>%1 are turned against the others, their rows or columns by up to %#2 degrees, within their plane; read as one stack, their corners would lie up to %#3 mm off.</source>
+        <translation>%1 sind gegen die anderen gedreht, ihre Zeilen oder Spalten um bis zu %#2 Grad, in ihrer Ebene; als ein Stapel gelesen, lägen ihre Ecken bis zu %#3 mm falsch.</translation>
+    </message>
+    <message>
+        <source>%1 are turned against the others, their rows or columns by up to %#2 degrees, their normals by up to %#3 degrees; read as one stack, their corners would lie up to %#4 mm off.</source>
+        <translation>%1 sind gegen die anderen gedreht, ihre Zeilen oder Spalten um bis zu %#2 Grad, ihre Normalen um bis zu %#3 Grad; als ein Stapel gelesen, lägen ihre Ecken bis zu %#4 mm falsch.</translation>
+    </message>
+    <message>
+        <source>within their plane</source>
+        <translation>in ihrer Ebene</translation>
     </message>
     <message>
         <source>%1 have another size than %#2 x %#3 pixels of %#4 x %#5 mm: their fields of view differ by %#6 mm.</source>
@@ -4316,6 +4344,10 @@
     <message>
         <source>A table (Modality LUT) says what the values mean in %1, and tables are not read; export the series with rescale slope and intercept.</source>
         <translation>Eine Tabelle (Modality LUT) sagt, was die Werte bedeuten in %1, und Tabellen werden nicht gelesen; exportieren Sie die Serie mit Rescale Slope und Intercept.</translation>
+    </message>
+    <message>
+        <source>The slices do not share one unit of their values (Rescale Type): another than that of the first is stated in %1, and no slope and intercept turns one into the other; keep the files of one in the folder.</source>
+        <translation>Die Schichten haben nicht eine Einheit ihrer Werte (Rescale Type): Eine andere als die der ersten nennen %1, und keine Steigung und kein Achsenabschnitt macht aus der einen die andere; lassen Sie nur die Dateien der einen im Ordner.</translation>
     </message>
     <message>
         <source>The slices do not share one rescale slope and intercept, so equal tissue may have unequal values; no position is affected (0 mm).</source>
@@ -4602,6 +4634,10 @@
         <translation>ist ein Header, dessen Datei mit den Voxeln nicht da ist; lassen Sie beide in einem Ordner</translation>
     </message>
     <message>
+        <source>names a file of voxels that lies outside the folder of the header; check that it is the one that belongs to it</source>
+        <translation>nennt eine Datei der Voxel, die außerhalb des Ordners des Kopfes liegt; prüfen Sie, ob es die zugehörige ist</translation>
+    </message>
+    <message>
         <source>its header gives impossible dimensions, %~1; export it again from where it came</source>
         <translation>ihr Header nennt unmögliche Abmessungen, %~1; exportieren Sie sie noch einmal vom Ursprung</translation>
     </message>
@@ -4846,6 +4882,14 @@
         <translation>braucht %#1 GB Speicher, die nicht frei sind; schließen Sie Programme, oder %~2</translation>
     </message>
     <message>
+        <source>its MetaImage header has %1 twice, with another value each; export it again</source>
+        <translation>ihr MetaImage-Kopf hat %1 zweimal, mit je anderem Wert; exportieren Sie sie neu</translation>
+    </message>
+    <message>
+        <source>its MetaImage header has %1 and %2, which are one field, with another value each; export it again</source>
+        <translation>ihr MetaImage-Kopf hat %1 und %2, die ein Feld sind, mit je anderem Wert; exportieren Sie sie neu</translation>
+    </message>
+    <message>
         <source>its header gives no valid dimensions (NDims, DimSize); export it again</source>
         <translation>ihr Header nennt keine gültigen Abmessungen (NDims, DimSize); exportieren Sie sie neu</translation>
     </message>
@@ -4872,6 +4916,10 @@
     <message>
         <source>states no full place in the patient (Offset, TransformMatrix): what is missing is taken as 0, 0, 0 and the patient's axes</source>
         <translation>nennt keine vollständige Lage im Patienten (Offset, TransformMatrix): Was fehlt, wird als 0, 0, 0 und die Achsen des Patienten genommen</translation>
+    </message>
+    <message>
+        <source>states a negative voxel size (ElementSpacing), by which an axis runs the other way and the image is mirrored; check left and right</source>
+        <translation>nennt eine negative Voxelgröße (ElementSpacing), durch die eine Achse umgekehrt läuft und das Bild gespiegelt ist; prüfen Sie links und rechts</translation>
     </message>
     <message>
         <source>its voxels are of a type that is not read; save them as one whole number or float each</source>
@@ -5168,6 +5216,22 @@
     <message>
         <source>its header speaks of %~1 voxels, which the file is too short to hold; copy it again from where it came</source>
         <translation>ihr Header spricht von %~1 Voxeln, für die die Datei zu kurz ist; kopieren Sie sie noch einmal vom Ursprung</translation>
+    </message>
+    <message>
+        <source>its file of voxels holds %#1 byte more than its header speaks of, left out at the end; if they are another header at the beginning, all voxels are shifted: check the image</source>
+        <translation>ihre Datei der Voxel enthält %#1 Byte mehr, als ihr Kopf nennt, am Ende weggelassen; sind sie ein weiterer Kopf am Anfang, sind alle Voxel verschoben: prüfen Sie das Bild</translation>
+    </message>
+    <message>
+        <source>its file of voxels holds %#1 bytes more than its header speaks of, left out at the end; if they are another header at the beginning, all voxels are shifted: check the image</source>
+        <translation>ihre Datei der Voxel enthält %#1 Byte mehr, als ihr Kopf nennt, am Ende weggelassen; sind sie ein weiterer Kopf am Anfang, sind alle Voxel verschoben: prüfen Sie das Bild</translation>
+    </message>
+    <message>
+        <source>holds %#1 byte behind its voxels, of which its header does not speak; left out</source>
+        <translation>enthält hinter ihren Voxeln %#1 Byte, von denen ihr Kopf nicht spricht; weggelassen</translation>
+    </message>
+    <message>
+        <source>holds %#1 bytes behind its voxels, of which its header does not speak; left out</source>
+        <translation>enthält hinter ihren Voxeln %#1 Byte, von denen ihr Kopf nicht spricht; weggelassen</translation>
     </message>
     <message>
         <source>breaks off or is damaged within its voxels; copy it again from where it came</source>
@@ -5788,6 +5852,10 @@
     <message>
         <source>has contours of a structure that it does not describe; export it again</source>
         <translation>hat Konturen einer Struktur, die sie nicht beschreibt; exportieren Sie sie neu</translation>
+    </message>
+    <message>
+        <source>describes the contours of one structure twice (ROI Contour Sequence), which may be two structures; export it again</source>
+        <translation>beschreibt die Konturen einer Struktur zweimal (ROI Contour Sequence), was zwei Strukturen sein können; exportieren Sie sie neu</translation>
     </message>
     <message>
         <source>'%1': %#2 contour that is there twice in one plane was taken once</source>

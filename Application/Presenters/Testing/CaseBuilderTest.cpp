@@ -491,6 +491,15 @@ TEST_F(CaseBuilder, CallsNothingHounsfieldUnitsThatTheFileDoesNot)
   EXPECT_NE(notesOf(pet).find("modality PT"), std::string::npos) << notesOf(pet);
   EXPECT_EQ(notesOf(pet).find("does not say whether"), std::string::npos) << notesOf(pet);
   EXPECT_TRUE(presenters::displayOf(build("MGML", "CT", scene::Modality::Ct)).hounsfield);
+  // Unspecified: programs that write CTs without knowing say so.
+  const auto unspecified = build("US", "CT");
+  EXPECT_FALSE(presenters::displayOf(unspecified).hounsfield);
+  EXPECT_NE(notesOf(unspecified).find("unspecified type (US)"), std::string::npos)
+      << notesOf(unspecified);
+  EXPECT_EQ(unspecified.iso, 300.0) << "its air and soft tissue are those of a CT";
+  const auto asked = build("US", "CT", scene::Modality::Ct);
+  EXPECT_TRUE(presenters::displayOf(asked).hounsfield);
+  EXPECT_EQ(notesOf(asked).find("unspecified"), std::string::npos) << notesOf(asked);
 }
 
 TEST_F(CaseBuilder, AsksWhichSideIsLeft)

@@ -57,6 +57,7 @@ struct MultiFrame
   std::vector<int> order;       ///< slice of each frame
   bool sharesPlane = true; ///< orientation, pixel measures and rescale are groups of all frames
   std::function<double(int k)> slope = [](int) { return 1.0; };
+  std::function<std::string(int k)> type = [](int) { return "HU"; };
   std::string sopClass = UID_EnhancedCTImageStorage;
   std::string modality = "CT";
   E_TransferSyntax syntax = EXS_LittleEndianExplicit;
@@ -86,7 +87,7 @@ struct MultiFrame
       FGPixelValueTransformation group;
       group.setRescaleIntercept("-100");
       group.setRescaleSlope(text(slope(k)).c_str());
-      group.setRescaleType("HU");
+      group.setRescaleType(type(k).c_str());
       return group;
     };
     FGPixelValueTransformation shared = transformation(0);
@@ -237,7 +238,8 @@ TEST(EnhancedCt, WhatIsStatedTwiceAndDiffersIsRefused)
   };
   const Contradiction all[] = {
       {DCM_PlaneOrientationSequence, DCM_ImageOrientationPatient, "-1\\0\\0\\0\\1\\0"},
-      {DCM_PixelValueTransformationSequence, DCM_RescaleIntercept, "-1024"}};
+      {DCM_PixelValueTransformationSequence, DCM_RescaleIntercept, "-1024"},
+      {DCM_PixelValueTransformationSequence, DCM_RescaleType, "OD"}};
   for (const Contradiction& one : all)
     for (const bool differs : {false, true})
     {
@@ -264,13 +266,62 @@ TEST(EnhancedCt, WhatIsStatedTwiceAndDiffersIsRefused)
       ASSERT_TRUE(frame->findAndGetSequenceItem(one.group, own).good());
       ASSERT_TRUE(own->findAndGetOFStringArray(one.value, stated).good());
       // The same number in other digits is no contradiction.
-      group->putAndInsertString(one.value, differs ? one.other : ("+" + stated).c_str());
+      const OFString again = one.value == DCM_RescaleType ? stated : "+" + stated;
+      group->putAndInsertString(one.value, differs ? one.other : again.c_str());
       ASSERT_TRUE(whole.saveFile(path.c_str(), EXS_LittleEndianExplicit).good());
       const ScanResult result = scanDicom(folder.path(), {});
       ASSERT_EQ(result.series.size(), 1U);
       EXPECT_EQ(result.series.front().geometry.verdict == Verdict::Ok, !differs)
           << one.value.toString();
     }
+}
+
+TEST(EnhancedCt, FramesOfSeveralRescaleTypesAreRefused)
+{
+  for (const bool differs : {false, true})
+  {
+    MultiFrame file;
+    file.order = inOrder(6);
+    file.sharesPlane = false;
+    file.type = [differs](int k) { return differs && k > 0 ? "OD" : "HU"; };
+    const TemporaryFolder folder;
+    const SeriesGeometry geometry = scanned(file, folder.path()).geometry;
+    EXPECT_EQ(geometry.verdict, differs ? Verdict::Refused : Verdict::Ok);
+    ASSERT_EQ(geometry.findings.size(), differs ? 1U : 0U);
+    if (differs)
+      EXPECT_EQ(geometry.findings.front().kind, FindingKind::MixedRescale);
+  }
+}
+
+TEST(EnhancedCt, ACountOfFramesThatIsNotThatOfTheGroupsIsNamed)
+{
+  for (const char* count : {"12", "11", "1"})
+  {
+    MultiFrame file;
+    file.order = inOrder(12);
+    const TemporaryFolder folder;
+    const fs::path path = folder.path() / "ct.dcm";
+    file.write(path);
+    DcmFileFormat whole;
+    ASSERT_TRUE(whole.loadFile(path.c_str()).good());
+    whole.getDataset()->putAndInsertString(DCM_NumberOfFrames, count);
+    ASSERT_TRUE(whole.saveFile(path.c_str(), EXS_LittleEndianExplicit).good());
+    const ScanResult result = scanDicom(folder.path(), {});
+    ASSERT_EQ(result.series.size(), 1U);
+    const SeriesGeometry& geometry = result.series.front().geometry;
+    if (std::string(count) == "12")
+    {
+      EXPECT_EQ(geometry.verdict, Verdict::Ok);
+      continue;
+    }
+    ASSERT_FALSE(geometry.findings.empty()) << count;
+    EXPECT_EQ(geometry.verdict, Verdict::Refused);
+    EXPECT_EQ(geometry.findings.front().kind, FindingKind::Unreadable);
+    EXPECT_NE(geometry.findings.front().text.find(std::string(count) +
+                                                  " (Number of Frames), and 12 (Per-Frame"),
+              std::string::npos)
+        << geometry.findings.front().text;
+  }
 }
 
 // A curved reformat: its pixels lie where no position and orientation says (PS3.3 C.8.16.2.1.4).

@@ -888,6 +888,65 @@ TEST(ImageFile, ReadsNrrdWhoseVoxelsAreInSeveralFiles)
   expectRefused(refusalOf([&] { readImageFile(folder / "b.nhdr"); }), Reason::NotFound);
 }
 
+TEST(ImageFile, NotesBytesThatTheHeaderOfRawVoxelsDoesNotSpeakOf)
+{
+  const TestFolder folder;
+  const std::string voxels = bytesOf(counting<std::int16_t>(24));
+  const auto read = [&](const std::string& fields, const std::string& data)
+  {
+    std::string header = nrrd("short", "");
+    header.insert(header.find("endian"), "data file: b.raw\n" + fields);
+    putFile(folder / "b.raw", data);
+    return readImageFile(putFile(folder / "b.nhdr", header));
+  };
+  EXPECT_FALSE(noted(read("", voxels), "byte"));
+  EXPECT_FALSE(noted(read("byte skip: 3\n", "abc" + voxels), "byte"));
+  EXPECT_FALSE(noted(read("byte skip: -1\n", "abc" + voxels), "byte"));
+  EXPECT_TRUE(noted(read("", voxels + "x"), "1 byte more"));
+  EXPECT_TRUE(noted(read("", voxels + "xy"), "2 bytes more"));
+  const auto shifted = read("", std::string(348, '\0') + voxels);
+  EXPECT_NE(shifted.volume->at(3, 2, 1), 23);
+  EXPECT_TRUE(noted(shifted, "348 bytes more"));
+  EXPECT_TRUE(noted(shifted, "shifted"));
+  const auto skipped = read("byte skip: 3\n", "abc" + voxels + "xy");
+  EXPECT_EQ(skipped.volume->at(3, 2, 1), 23);
+  EXPECT_TRUE(noted(skipped, "2 bytes behind"));
+  EXPECT_FALSE(noted(readImageFile(putFile(folder / "a.nrrd", nrrd("short", voxels))), "byte"));
+  EXPECT_TRUE(noted(readImageFile(putFile(folder / "a.nrrd", nrrd("short", voxels + "x"))),
+                    "1 byte behind"));
+}
+
+TEST(ImageFile, NotesVoxelsOutsideTheFolderOfTheirHeader)
+{
+  const TestFolder folder;
+  const TestFolder other;
+  const std::string voxels = bytesOf(counting<std::int16_t>(24));
+  std::filesystem::create_directory(folder / "sub");
+  for (const auto& file : {folder / "b.raw", folder / "sub" / "b.raw", other / "b.raw"})
+    putFile(file, voxels);
+  const auto isNoted = [&](const std::filesystem::path& header, const std::string& name)
+  {
+    std::string text = nrrd("short", "");
+    text.insert(text.find("endian"), "data file: " + name + "\n");
+    const auto image = readImageFile(putFile(header, text));
+    EXPECT_EQ(image.volume->at(3, 2, 1), 23);
+    return noted(image, "outside the folder");
+  };
+  EXPECT_FALSE(isNoted(folder / "b.nhdr", "b.raw"));
+  EXPECT_FALSE(isNoted(folder / "b.nhdr", "sub/b.raw"));
+  EXPECT_FALSE(isNoted(folder / "b.nhdr", (folder / "b.raw").string()));
+  EXPECT_TRUE(isNoted(folder / "b.nhdr", (other / "b.raw").string()));
+  EXPECT_TRUE(isNoted(folder / "sub" / "b.nhdr", "../b.raw"));
+  EXPECT_TRUE(noted(
+      readImageFile(putFile(folder / "b.mhd", "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
+                                              "TransformMatrix = 1 0 0 0 1 0 0 0 1\n"
+                                              "Offset = 1 2 3\nElementSpacing = 1 1 2\n"
+                                              "DimSize = 4 3 2\nElementType = MET_SHORT\n"
+                                              "ElementDataFile = " +
+                                                  (other / "b.raw").string() + "\n")),
+      "outside the folder"));
+}
+
 // As where a disk is pulled out: the file is shorter than it was when its header was read.
 TEST(ImageFile, NamesAFileThatChangesWhileItIsRead)
 {
@@ -1090,6 +1149,81 @@ TEST(ImageFile, AppliesTheRescaleOfMetaImageAndComparesItsAxes)
   // The first axis starts anterior (A), the second at the left (L), the third inferior.
   EXPECT_TRUE(read("AnatomicalOrientation = ALI\n").notes.empty());
   EXPECT_TRUE(noted(read("AnatomicalOrientation = RAI\n"), "ALI"));
+}
+
+TEST(ImageFile, RefusesMetaImageThatContradictsItself)
+{
+  const TestFolder folder;
+  const std::string voxels = bytesOf(counting<std::int16_t>(24));
+  const auto read = [&](const std::string& more)
+  {
+    return readImageFile(putFile(
+        folder / "a.mha", "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
+                          "BinaryDataByteOrderMSB = False\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n"
+                          "Offset = 1 2 3\nElementSpacing = 1 4 2\nDimSize = 4 3 2\n"
+                          "DistanceUnits = mm\nElementType = MET_SHORT\n" +
+                              more + "ElementDataFile = LOCAL\n" + voxels));
+  };
+  const std::pair<const char*, const char*> cases[] = {
+      {"TransformMatrix = -1 0 0 0 1 0 0 0 1", "TransformMatrix twice"},
+      {"Rotation = -1 0 0 0 1 0 0 0 1", "TransformMatrix and Rotation"},
+      {"Orientation = -1 0 0 0 1 0 0 0 1", "TransformMatrix and Orientation"},
+      {"Offset = 50 2 3", "Offset twice"},
+      {"Origin = 50 2 3", "Offset and Origin"},
+      {"Position = 50 2 3", "Offset and Position"},
+      {"ElementSpacing = 1 4 3", "ElementSpacing twice"},
+      {"DimSize = 3 4 2", "DimSize twice"},
+      {"NDims = 4", "NDims twice"},
+      {"ElementType = MET_USHORT", "ElementType twice"},
+      {"DistanceUnits = um", "DistanceUnits twice"},
+      {"ElementByteOrderMSB = True", "BinaryDataByteOrderMSB and ElementByteOrderMSB"}};
+  for (const auto& [line, words] : cases)
+    expectRefused(refusalOf([&, text = line] { read(std::string(text) + "\n"); }),
+                  Reason::Unreadable, words);
+  // The same value is no contradiction, nor is a slice thicker than the distance of slices.
+  for (const char* line : {"Offset = 1 2 3", "Position = 1.0 2.0 3.0", "ElementSize = 1 4 5",
+                           "Rotation = 1 0 0 0 1 0 0 0 1", "Comment = a\nComment = b"})
+  {
+    const auto image = read(std::string(line) + "\n");
+    EXPECT_TRUE(image.volume->geometry().spacing().isApprox(Eigen::Vector3d(1.0, 4.0, 2.0)));
+    EXPECT_TRUE(image.notes.empty()) << image.notes.front();
+  }
+}
+
+TEST(ImageFile, SaysThatANegativeSpacingOfMetaImageMirrors)
+{
+  const TestFolder folder;
+  const auto read = [&](const std::string& spacing, const std::string& orientation)
+  {
+    return readImageFile(putFile(
+        folder / "a.mha", "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
+                          "TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 1 2 3\nElementSpacing = " +
+                              spacing + "\nDimSize = 4 3 2\nAnatomicalOrientation = " +
+                              orientation + "\nElementType = MET_SHORT\nElementDataFile = LOCAL\n" +
+                              bytesOf(counting<std::int16_t>(24))));
+  };
+  EXPECT_FALSE(noted(read("1 4 2", "RAI"), "negative"));
+  const auto mirrored = read("-1 4 2", "LAI"); // the first axis starts at the left
+  EXPECT_TRUE(noted(mirrored, "negative voxel size (ElementSpacing)"));
+  EXPECT_FALSE(noted(mirrored, "AnatomicalOrientation"));
+  EXPECT_TRUE(noted(read("-1 4 2", "RAI"), "LAI"));
+  // ITK's ImageFileReader: the origin stays, the axis is turned round.
+  const core::GridGeometry& grid = mirrored.volume->geometry();
+  double least = 100.0;
+  double most = -100.0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 2; ++k)
+      {
+        const Eigen::Vector3d at = grid.patientFromVoxel(Eigen::Vector3d(i, j, k));
+        least = std::min(least, at[0]);
+        most = std::max(most, at[0]);
+        const double column = std::round(1.0 - at[0]); // of the file
+        EXPECT_EQ(mirrored.volume->at(i, j, k), column + 4.0 * std::round((at[1] - 2.0) / 4.0) +
+                                                    12.0 * std::round((at[2] - 3.0) / 2.0));
+      }
+  EXPECT_NEAR(least, -2.0, 1e-9);
+  EXPECT_NEAR(most, 1.0, 1e-9);
 }
 
 TEST(ImageFile, KeepsOnlyTheRegionOfInterest)

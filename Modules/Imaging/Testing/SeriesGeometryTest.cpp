@@ -497,7 +497,29 @@ TEST(SeriesGeometry, SetsATurnedSliceAside)
   const Finding finding = only(series);
   EXPECT_EQ(finding.kind, FindingKind::OddOrientation);
   EXPECT_NEAR(finding.errorMm, 2.0 * std::sin(0.05) * 80 * 0.4, 1e-6);
+  EXPECT_NE(finding.text.find("rows or columns by up to 5.7 degrees, their normals by up to 5.7"),
+            std::string::npos)
+      << finding.text;
   EXPECT_EQ(series.slices.size(), 19U);
+}
+
+TEST(SeriesGeometry, SaysHowFarASliceIsTurnedInItsPlane)
+{
+  Headers slices = stack(20, 1.0);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  slices[19].rowDirection = turn.col(0);
+  slices[19].columnDirection = turn.col(1);
+  const Finding turned = only(assess(slices));
+  EXPECT_EQ(turned.kind, FindingKind::OddOrientation);
+  EXPECT_NE(turned.text.find("are turned against"), std::string::npos) << turned.text;
+  EXPECT_NE(turned.text.find("up to 28.6 degrees, within their plane"), std::string::npos)
+      << turned.text;
+  slices = stack(20, 1.0);
+  slices[19].rowDirection = -*slices[19].rowDirection;
+  const Finding mirrored = only(assess(slices));
+  EXPECT_EQ(mirrored.kind, FindingKind::OddOrientation);
+  EXPECT_NE(mirrored.text.find("turned or mirrored"), std::string::npos) << mirrored.text;
+  EXPECT_NE(mirrored.text.find("up to 180.0 degrees"), std::string::npos) << mirrored.text;
 }
 
 TEST(SeriesGeometry, SetsASliceOfAnotherSizeAside)
@@ -519,6 +541,29 @@ TEST(SeriesGeometry, NamesMixedRescale)
   const Finding finding = only(assess(slices));
   EXPECT_EQ(finding.kind, FindingKind::MixedRescale);
   EXPECT_EQ(finding.errorMm, 0.0);
+}
+
+TEST(SeriesGeometry, RefusesMixedRescaleTypes)
+{
+  Headers slices = stack(50, 1.0);
+  for (SliceHeader& slice : slices)
+    slice.rescaleType = "OD";
+  EXPECT_EQ(assess(slices).verdict, Verdict::Ok);
+  slices[7].rescaleType.clear(); // states nothing
+  EXPECT_EQ(assess(slices).verdict, Verdict::Ok);
+  slices = stack(50, 1.0);
+  for (SliceHeader& slice : slices)
+    slice.rescaleType = slice.instanceNumber == 1 ? "HU" : "OD";
+  const SeriesGeometry series = assess(slices);
+  const Finding finding = only(series);
+  EXPECT_EQ(finding.kind, FindingKind::MixedRescale);
+  EXPECT_NE(finding.text.find("49 of 50"), std::string::npos) << finding.text;
+  EXPECT_EQ(series.verdict, Verdict::Refused) << "no slope makes one of the other";
+  // Those of one type with a rescale of their own are repaired as before.
+  for (SliceHeader& slice : slices)
+    slice.rescaleType = "HU";
+  slices[3].intercept = -1024.0;
+  EXPECT_EQ(assess(slices).verdict, Verdict::Repairable);
 }
 
 // A slice that states nothing agrees with every patient and must not make them one.

@@ -560,6 +560,19 @@ TEST(StructureSet, WhatMakesNoSenseIsRefusedInOneLine)
   }
   EXPECT_NE(with([](TestSet& file) { file.add(2, "b", {}, "CLOSED_PLANAR", "1.2.77"); }), "");
   EXPECT_NE(with([](TestSet& file) { file.rois.clear(); }), "");
+  // A second item of one structure: its contours would be holes of the first.
+  const auto again = [](const std::vector<std::string>& contours)
+  {
+    return [contours](TestSet& file)
+    {
+      const std::string described = file.rois;
+      file.add(1, "a", contours);
+      file.rois = described;
+    };
+  };
+  const std::string twice = with(again({"2\\3\\3\\3\\3\\3\\3\\4\\3"}));
+  EXPECT_NE(twice.find("one structure twice"), std::string::npos) << twice;
+  EXPECT_EQ(with(again({})), "") << "without contours it takes nothing away";
   EXPECT_NE(with([](TestSet& file) { file.code.bigEndian = true; }), "") << "items are not";
 
   TestSet file;

@@ -244,26 +244,39 @@ std::string unitText(const std::string& unit)
                                                                                 : codeText(unit);
 }
 
-// Why the values of a series are not the intensities of a CT or MR; empty if they may be. X-ray
-// volumes (cone beam) are CTs under other names, of old converters too.
-std::string otherQuantity(const imaging::DicomSeries& series)
+// Why the values of a series are not the intensities of a CT or MR.
+struct OtherQuantity
+{
+  std::string why;            // empty: they may be
+  bool isUnspecified = false; // they may be Hounsfield units all the same
+};
+
+// X-ray volumes (cone beam) are CTs under other names, of old converters too.
+OtherQuantity otherQuantity(const imaging::DicomSeries& series)
 {
   static const char* const kImages[] = {"", "CT", "MR", "DX", "XA", "RF", "PX", "IO", "RG", "OT"};
   if (std::find(std::begin(kImages), std::end(kImages), series.modality) == std::end(kImages))
-    return "The file says that it is neither a CT nor an MR, but of modality " +
-           codeText(series.modality) + ".";
-  if (series.modality != "MR" && !series.geometry.slices.empty())
-    if (const std::string& unit = series.geometry.slices.front().rescaleType;
-        !unit.empty() && unit != "HU" && unit != "US")
-      return "The file says that its values are no Hounsfield units, but of the type " +
-             unitText(unit) + ".";
-  return {};
+    return {"The file says that it is neither a CT nor an MR, but of modality " +
+            codeText(series.modality) + "."};
+  if (series.modality == "MR")
+    return {};
+  const auto& slices = series.geometry.slices; // of one type, some without
+  const auto stated = std::find_if(slices.begin(), slices.end(),
+                                   [](const auto& slice) { return !slice.rescaleType.empty(); });
+  if (stated == slices.end() || stated->rescaleType == "HU")
+    return {};
+  if (stated->rescaleType == "US") // PS3.3 C.11.1.1.2
+    return {"The file says that its values are of an unspecified type (US), and not that they are "
+            "Hounsfield units.",
+            true};
+  return {"The file says that its values are no Hounsfield units, but of the type " +
+          unitText(stated->rescaleType) + "."};
 }
 
 struct ReadImage
 {
   scene::ImagePart part;
-  std::string otherQuantity; ///< as the function says
+  OtherQuantity otherQuantity;
 };
 
 // Before minutes of reading. `option`: as ImageSideUnclear.
@@ -359,7 +372,7 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
 
 // Cone-beam and micro-CT have units of their own, in which 300 may be air or nothing at all; an MR
 // always has, and shows no surface of bone.
-void placeSurface(scene::Case& value, scene::Modality wanted, const std::string& otherQuantity)
+void placeSurface(scene::Case& value, scene::Modality wanted, const OtherQuantity& other)
 {
   using scene::Modality;
   scene::ImagePart& image = value.ct;
@@ -387,12 +400,13 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const std::string&
         "--iso' moves the surface.");
     return;
   }
-  if (!otherQuantity.empty() && wanted == Modality::Unknown)
+  const bool isOther = !other.why.empty() && wanted == Modality::Unknown;
+  if (isOther && !other.isUnspecified)
   {
     const auto scale = volume::suggestMrScale(histogram);
     value.iso = scale.iso;
     value.denseBone = scale.dense;
-    image.notes.push_back(otherQuantity +
+    image.notes.push_back(other.why +
                           " It is shown as it is: nothing in it is known to be bone, and the "
                           "surface is put at " +
                           core::generalText(scale.iso, 4) +
@@ -402,11 +416,26 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const std::string&
     return;
   }
   const auto scale = volume::suggestScale(histogram);
+  if (scale.calibrated && isOther)
+  {
+    // Bone looks as in Hounsfield units; calibratedScale tells these by the value of dense bone.
+    value.iso = scale.iso;
+    value.denseBone = scale.dense + 1.0;
+    image.notes.push_back(other.why +
+                          " Air and soft tissue have in it the values of a CT, so the surface of "
+                          "bone is put at " +
+                          core::generalText(scale.iso, 4) +
+                          ", but no value is called HU. Build the case with --modality CT if it is "
+                          "a CT in Hounsfield units.");
+    return;
+  }
   if (scale.calibrated)
   {
     image.modality = Modality::Ct;
     return;
   }
+  if (isOther)
+    image.notes.push_back(other.why);
   value.iso = scale.iso;
   value.denseBone = scale.dense;
   if (image.modality == Modality::Unknown)
@@ -531,8 +560,8 @@ void addMr(scene::Case& value, const PartSource& source, const scene::IdentitySa
                              optionsOf(source.repair, source.roi, source.undeclaredBits), false,
                              source.assumeRas, source.unit, progress);
   scene::ImagePart& part = read.part;
-  if (!read.otherQuantity.empty())
-    part.notes.push_back(read.otherQuantity);
+  if (!read.otherQuantity.why.empty() && !read.otherQuantity.isUnspecified)
+    part.notes.push_back(read.otherQuantity.why);
   part.name = name;
   part.notes.insert(part.notes.end(), notes.begin(), notes.end());
   if (source.roi)

@@ -399,8 +399,7 @@ const char* readMapping(const DicomElements& elements, SliceHeader& slice)
   return "";
 }
 
-/// Each frame as a slice. None if the functional groups are not those of the frames; several frames
-/// are then refused.
+/// Each frame as a slice. None without functional groups; several frames are then refused.
 ///
 /// isMap  the values are those of the real world value mapping
 void readFrames(DicomElements& elements, FileHeader& header, bool isMap)
@@ -408,7 +407,14 @@ void readFrames(DicomElements& elements, FileHeader& header, bool isMap)
   const SliceHeader& file = header.slice;
   const auto count = static_cast<std::size_t>(file.frames);
   if (elements.frameCount() != count)
+  {
+    if (elements.frameCount() > 0)
+      header.slice.damage =
+          "contradicts itself about how many frames it holds: " + std::to_string(count) +
+          " (Number of Frames), and " + std::to_string(elements.frameCount()) +
+          " (Per-Frame Functional Groups Sequence)";
     return;
+  }
   const std::uint64_t bytes = static_cast<std::uint64_t>(file.rows) * file.columns *
                               static_cast<std::uint64_t>(file.pixels.bitsAllocated) / 8;
   for (std::size_t f = 0; f < count; ++f)
@@ -418,8 +424,9 @@ void readFrames(DicomElements& elements, FileHeader& header, bool isMap)
     readPlace(elements, slice);
     readTraits(elements, slice);
     slice.damage = isMap ? readMapping(elements, slice) : readRescale(elements, slice);
-    // Position, orientation, pixel spacing, rescale intercept and slope.
-    for (const Tag tag : {0x00200032U, 0x00200037U, 0x00280030U, 0x00281052U, 0x00281053U})
+    // Position, orientation, pixel spacing, rescale intercept, slope and type.
+    for (const Tag tag :
+         {0x00200032U, 0x00200037U, 0x00280030U, 0x00281052U, 0x00281053U, 0x00281054U})
       if (elements.contradictsShared(tag))
         slice.damage = "states place or values twice, for all frames and for one, and they differ";
     // Not Volumetric Properties: Siemens calls echo-planar MR that lies on a grid DISTORTED.

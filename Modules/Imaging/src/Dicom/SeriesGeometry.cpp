@@ -138,6 +138,24 @@ double normalAngle(const SliceHeader& a, const SliceHeader& b) ///< degrees, 0 t
   return std::acos(std::min(1.0, std::abs(na.dot(nb)))) * 180.0 / M_PI;
 }
 
+/// Largest angle between the rows, or the columns, of two slices, degrees, 0 to 180.
+double axesAngle(const SliceHeader& a, const SliceHeader& b)
+{
+  const auto cosine = [](const Eigen::Vector3d& u, const Eigen::Vector3d& v)
+  { return u.normalized().dot(v.normalized()); };
+  return std::acos(std::clamp(std::min(cosine(*a.rowDirection, *b.rowDirection),
+                                       cosine(*a.columnDirection, *b.columnDirection)),
+                              -1.0, 1.0)) *
+         180.0 / M_PI;
+}
+
+/// Whether the one is seen from the other side.
+bool isMirrored(const SliceHeader& a, const SliceHeader& b)
+{
+  return a.rowDirection->cross(*a.columnDirection).dot(b.rowDirection->cross(*b.columnDirection)) <
+         0.0;
+}
+
 /// Equal, or one of them not stated.
 template <class T>
 bool agree(const T& a, const T& b)
@@ -224,8 +242,9 @@ private:
     switch (kind)
     {
     case FindingKind::GantryTilt:
-    case FindingKind::MixedRescale:
       return true;
+    case FindingKind::MixedRescale:
+      return !m_hasMixedTypes;
     case FindingKind::UnevenSpacing:
     case FindingKind::MissingSlice:
       return m_result.isBridgeable;
@@ -324,7 +343,9 @@ private:
     const Headers turned = takeMinority(m_slices, sameTurn);
     std::size_t odd = 0;
     double worst = 0.0;
-    double angle = 0.0;
+    double angle = 0.0; // between normals
+    double turn = 0.0;  // between rows or columns
+    bool hasMirrored = false;
     std::vector<std::pair<const SliceHeader*, std::size_t>> stacks; // first, and how many
     for (const SliceHeader& slice : turned)
     {
@@ -351,6 +372,8 @@ private:
       ++odd;
       worst = std::max(worst, turnError(m_slices.front(), slice));
       angle = std::max(angle, slant);
+      turn = std::max(turn, axesAngle(slice, m_slices.front()));
+      hasMirrored = hasMirrored || isMirrored(slice, m_slices.front());
     }
     if (m_scouts > 0)
       find(FindingKind::LocalizerMixedIn,
@@ -360,9 +383,13 @@ private:
                " slices of the stack, and left out.");
     if (odd > 0)
       find(FindingKind::OddOrientation,
-           countOf(odd, placed) + " are turned against the others, their normals by up to " +
-               decimals(angle, 1) + " degrees; read as one stack, their corners would lie up to " +
-               decimals(worst, 1) + " mm off.",
+           countOf(odd, placed) + (hasMirrored ? " are turned or mirrored" : " are turned") +
+               " against the others, their rows or columns by up to " + decimals(turn, 1) +
+               " degrees" +
+               (angle < 0.05 ? std::string(", within their plane")
+                             : ", their normals by up to " + decimals(angle, 1) + " degrees") +
+               "; read as one stack, their corners would lie up to " + decimals(worst, 1) +
+               " mm off.",
            worst);
 
     const std::size_t straight = m_slices.size();
@@ -396,6 +423,19 @@ private:
            "A table (Modality LUT) says what the values mean in " +
                countOf(static_cast<std::size_t>(tables), s.size()) +
                ", and tables are not read; export the series with rescale slope and intercept.");
+    std::string type; // of the first slice that states it
+    for (const SliceHeader& slice : s)
+      type = type.empty() ? slice.rescaleType : type;
+    const auto otherTypes = std::count_if(
+        s.begin(), s.end(), [&type](const SliceHeader& a) { return !agree(type, a.rescaleType); });
+    m_hasMixedTypes = otherTypes > 0;
+    if (otherTypes > 0)
+      find(FindingKind::MixedRescale,
+           "The slices do not share one unit of their values (Rescale Type): another than that of "
+           "the first is stated in " +
+               countOf(static_cast<std::size_t>(otherTypes), s.size()) +
+               ", and no slope and intercept turns one into the other; keep the files of one in "
+               "the folder.");
     if (different > 0)
       find(FindingKind::MixedRescale,
            "The slices do not share one rescale slope and intercept, so equal tissue may have "
@@ -564,6 +604,7 @@ private:
   const core::Progress& m_progress;
   Headers m_slices;
   Headers m_damaged;
+  bool m_hasMixedTypes = false;   ///< of the rescaled values
   bool m_damageIsMissing = false; ///< each damaged file is one of the missing slices
   std::size_t m_all;
   std::size_t m_scouts = 0;

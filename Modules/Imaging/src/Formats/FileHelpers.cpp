@@ -164,13 +164,25 @@ catch (const core::InputFileError&)
   fail(FileError::Reason::Unreadable, path, "broke off while it was read; check the disk");
 }
 
-std::filesystem::path detachedFile(const std::filesystem::path& header, const std::string& name)
+std::filesystem::path detachedFile(const std::filesystem::path& header, const std::string& name,
+                                   std::vector<std::string>& notes)
 {
   const std::filesystem::path file = header.parent_path() / name;
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     fail(FileError::Reason::NotFound, header,
          "is a header whose file of voxels is not there; keep both in one folder");
+  // Absolute paths and those upwards are allowed, as in teem and MetaIO. Files may be links.
+  const auto folderOf = [&error](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path).parent_path(), error);
+  };
+  const std::filesystem::path within = folderOf(file).lexically_relative(folderOf(header));
+  const std::string note =
+      "names a file of voxels that lies outside the folder of the header; check "
+      "that it is the one that belongs to it";
+  if ((within.empty() || *within.begin() == "..") &&
+      std::find(notes.begin(), notes.end(), note) == notes.end())
+    notes.push_back(note);
   return file;
 }
 

@@ -48,8 +48,10 @@ std::string readWholeFile(const std::filesystem::path& path, const core::Progres
 /// The first `limit` bytes of a file, or fewer if it is shorter.
 std::string readBytes(const std::filesystem::path& path, std::uintmax_t limit);
 
-/// The voxel file named by a detached header, relative to the header. Throws NotFound.
-std::filesystem::path detachedFile(const std::filesystem::path& header, const std::string& name);
+/// The voxel file named by a detached header, relative to the header. One that lies neither beside
+/// the header nor below is noted, once. Throws NotFound.
+std::filesystem::path detachedFile(const std::filesystem::path& header, const std::string& name,
+                                   std::vector<std::string>& notes);
 
 using core::exactText;
 using core::PlainNumbers;

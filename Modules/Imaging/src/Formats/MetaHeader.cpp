@@ -20,6 +20,11 @@ constexpr std::uintmax_t kLargestHeader = 65536;
 constexpr std::size_t kMaxDims = 8;
 
 using Fields = std::vector<std::pair<std::string, std::string>>;
+using Names = std::initializer_list<const char*>; // of one field
+
+constexpr Names kPlace = {"Offset", "Position", "Origin"};
+constexpr Names kAxes = {"TransformMatrix", "Rotation", "Orientation"};
+constexpr Names kByteOrder = {"BinaryDataByteOrderMSB", "ElementByteOrderMSB"};
 
 /// The `key = value` lines at the start, up to ElementDataFile.
 Fields fieldsOf(const std::filesystem::path& path)
@@ -41,7 +46,7 @@ Fields fieldsOf(const std::filesystem::path& path)
 }
 
 /// The first of these synonymous keys that the header has.
-const std::string* valueOf(const Fields& fields, std::initializer_list<const char*> names)
+const std::string* valueOf(const Fields& fields, Names names)
 {
   for (const char* name : names)
     for (const auto& field : fields)
@@ -50,9 +55,9 @@ const std::string* valueOf(const Fields& fields, std::initializer_list<const cha
   return nullptr;
 }
 
-bool isTrue(const Fields& fields, const char* name)
+bool isTrue(const Fields& fields, Names names)
 {
-  const std::string* value = valueOf(fields, {name});
+  const std::string* value = valueOf(fields, names);
   return value && !value->empty() &&
          (value->front() == 'T' || value->front() == 't' || value->front() == '1');
 }
@@ -92,6 +97,45 @@ std::vector<double> numbersOf(const std::string* text)
   return values;
 }
 
+/// Refuses a field that is stated twice, with another value each: programs differ in which they
+/// take. ElementSize is not another name of ElementSpacing: slices may be thicker than their
+/// distance.
+void refuseContradictions(const std::filesystem::path& path, const Fields& fields)
+{
+  const auto check = [&](Names names)
+  {
+    const char* firstName = nullptr;
+    const std::string* first = nullptr;
+    for (const auto& [key, value] : fields)
+    {
+      const auto* const name = std::find(names.begin(), names.end(), key);
+      if (name == names.end())
+        continue;
+      if (!first)
+      {
+        firstName = *name;
+        first = &value;
+        continue;
+      }
+      const auto numbers = numbersOf(&value);
+      if (value != *first && (numbers.empty() || numbers != numbersOf(first)))
+        fail(FileError::Reason::Unreadable, path,
+             std::string("its MetaImage header has ") + firstName +
+                 (key == firstName ? std::string(" twice")
+                                   : std::string(" and ") + *name + ", which are one field") +
+                 ", with another value each; export it again");
+    }
+  };
+  for (const char* name : {"NDims", "DimSize", "ElementType", "ElementNumberOfChannels",
+                           "BinaryData", "CompressedData", "HeaderSize", "ElementSpacing",
+                           "ElementSize", "DistanceUnits", "AnatomicalOrientation",
+                           "ElementToIntensityFunctionSlope", "ElementToIntensityFunctionOffset"})
+    check({name});
+  check(kByteOrder);
+  check(kPlace);
+  check(kAxes);
+}
+
 void readDims(const std::filesystem::path& path, const Fields& fields, MetaHeader& header)
 {
   const auto sizes = numbersOf(valueOf(fields, {"DimSize"}));
@@ -113,13 +157,12 @@ void findVoxels(const std::filesystem::path& path, const Fields& fields, MetaHea
 {
   const std::string data = *valueOf(fields, {"ElementDataFile"});
   const std::string* skip = valueOf(fields, {"HeaderSize"});
-  header.saysBinary = isTrue(fields, "BinaryData");
+  header.saysBinary = isTrue(fields, {"BinaryData"});
   if ((valueOf(fields, {"BinaryData"}) && !header.saysBinary) || data.rfind("LIST", 0) == 0 ||
       data.find('%') != data.npos || (skip && *skip != "0"))
     failMetaKind(path);
-  header.packed = isTrue(fields, "CompressedData");
-  header.swapped =
-      isTrue(fields, "BinaryDataByteOrderMSB") || isTrue(fields, "ElementByteOrderMSB");
+  header.packed = isTrue(fields, {"CompressedData"});
+  header.swapped = isTrue(fields, kByteOrder);
   if (data == "LOCAL" || data == "Local" || data == "local")
   {
     const std::string start = readBytes(path, kLargestHeader);
@@ -130,28 +173,27 @@ void findVoxels(const std::filesystem::path& path, const Fields& fields, MetaHea
   }
   else
   {
-    header.file = detachedFile(path, data);
+    header.file = detachedFile(path, data, header.notes);
     header.dataBytes = checkedFileSize(header.file);
   }
 }
 
 /// The letters denote the side of the patient from which each axis starts ("RAI": LPS), if present.
 /// ITK and everything based on it uses TransformMatrix, so the letters are only compared.
-void noteOrientation(const Fields& fields, bool hasAxes, const std::vector<double>& cosines,
-                     std::size_t n, std::vector<std::string>& notes)
+void noteOrientation(const Fields& fields, bool hasAxes, const Eigen::Matrix3d& linear,
+                     std::vector<std::string>& notes)
 {
   const std::string* said = valueOf(fields, {"AnatomicalOrientation"});
   if (!said || said->size() < 3 || said->find('?') != said->npos)
     return;
   std::string real;
-  for (std::size_t a = 0; a < 3; ++a)
+  for (Eigen::Index a = 0; a < 3; ++a)
   {
-    std::size_t along = a;
-    if (hasAxes)
-      for (std::size_t row = 0; row < 3; ++row)
-        if (std::abs(cosines[a * n + row]) > std::abs(cosines[a * n + along]))
-          along = row;
-    real += (hasAxes && cosines[a * n + along] < 0.0 ? "LPS" : "RAI")[along];
+    Eigen::Index along = a;
+    for (Eigen::Index row = 0; row < 3; ++row)
+      if (std::abs(linear(row, a)) > std::abs(linear(along, a)))
+        along = row;
+    real += (linear(along, a) < 0.0 ? "LPS" : "RAI")[along];
   }
   if (said->compare(0, 3, real) != 0)
     notes.push_back("names its axes otherwise (AnatomicalOrientation) than " + real + ", as its " +
@@ -180,8 +222,8 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Meta
   header.unit = namedUnit(units ? *units : "", header.notes);
   const double unit = header.unit.mm;
   const auto spacing = numbersOf(valueOf(fields, {"ElementSpacing", "ElementSize"}));
-  const std::string* place = valueOf(fields, {"Offset", "Position", "Origin"});
-  const std::string* axes = valueOf(fields, {"TransformMatrix", "Rotation", "Orientation"});
+  const std::string* place = valueOf(fields, kPlace);
+  const std::string* axes = valueOf(fields, kAxes);
   const auto origin = place ? numbersOf(place) : std::vector<double>(n, 0.0);
   const auto cosines = axes ? numbersOf(axes) : std::vector<double>(n * n, 0.0);
   if (spacing.size() != n || origin.size() != n || cosines.size() != n * n)
@@ -192,7 +234,11 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Meta
   if (!place || !axes)
     header.notes.emplace_back("states no full place in the patient (Offset, TransformMatrix): what "
                               "is missing is taken as 0, 0, 0 and the patient's axes");
-  noteOrientation(fields, axes != nullptr, cosines, n, header.notes);
+  // The sign is kept, as ITK's ImageFileReader keeps it: it turns the axis round.
+  if (std::min({spacing[0], spacing[1], spacing[2]}) < 0.0)
+    header.notes.emplace_back(
+        "states a negative voxel size (ElementSpacing), by which an axis runs "
+        "the other way and the image is mirrored; check left and right");
   for (std::size_t a = 0; a < 3; ++a)
   {
     const auto column = static_cast<Eigen::Index>(a);
@@ -202,6 +248,7 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Meta
       header.linear(static_cast<Eigen::Index>(row), column) =
           (axes ? cosines[a * n + row] : (a == row ? 1.0 : 0.0)) * spacing[a] * unit;
   }
+  noteOrientation(fields, axes != nullptr, header.linear, header.notes);
 }
 
 } // namespace
@@ -211,6 +258,7 @@ MetaHeader readMetaHeader(const std::filesystem::path& path)
   const Fields fields = fieldsOf(path);
   if (!valueOf(fields, {"ElementDataFile"}) || !valueOf(fields, {"NDims"}))
     failFormat(path, "MetaImage");
+  refuseContradictions(path, fields);
   MetaHeader header;
   readDims(path, fields, header);
   const auto component = metaComponent(valueOf(fields, {"ElementType"}));

@@ -361,7 +361,7 @@ void findVoxels(const Path& path, const NrrdHeader& header, NrrdLayout& layout)
   {
     place.parts.clear();
     for (const std::string& name : dataFileNames(header, *data))
-      place.parts.push_back({detachedFile(path, name), 0});
+      place.parts.push_back({detachedFile(path, name, layout.notes), 0});
     // Each file holds as many slices.
     const std::uint64_t slices =
         layout.dims[2] * (layout.dims.size() > 3 ? layout.dims[3] : std::uint64_t{1});

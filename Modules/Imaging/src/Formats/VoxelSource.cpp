@@ -419,6 +419,22 @@ void VoxelSource::checkRoom()
          "its header speaks of " + dimsText(m_dims) +
              " voxels, which the file is too short to hold; copy it again from where it came");
   m_place.partBytes = static_cast<std::uint64_t>(voxelBytes()) / m_place.parts.size();
+  if (m_place.packing == Packing::None && !m_isText && there > needed)
+    noteSurplus(static_cast<std::uint64_t>(there - needed));
+}
+
+/// Of bytes behind the voxels. Those of a file that begins with its voxels may be a header before
+/// them as well.
+void VoxelSource::noteSurplus(std::uint64_t bytes)
+{
+  if (m_place.parts.front().offset == 0 && m_place.packedOffset == 0)
+    m_notes.push_back("its file of voxels holds " + std::to_string(bytes) +
+                      (bytes == 1 ? " byte" : " bytes") +
+                      " more than its header speaks of, left out at the end; if they are another "
+                      "header at the beginning, all voxels are shifted: check the image");
+  else
+    m_notes.push_back("holds " + std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes") +
+                      " behind its voxels, of which its header does not speak; left out");
 }
 
 std::shared_ptr<void> VoxelSource::rescaledCopy(const void* stored, std::size_t count,

@@ -89,6 +89,7 @@ private:
   void scaleTo(double unit, bool isUnitKnown = true);
   long double voxelBytes() const;
   void checkRoom();
+  void noteSurplus(std::uint64_t bytes);
   void readText(const core::IndexBox& box, void* out, const core::Progress& progress) const;
   void readList(const core::IndexBox& box, void* out, const core::Progress& progress) const;
   void takeFromList(const void* voxels, std::size_t count, void* out) const;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <Eigen/Geometry>
 
@@ -952,6 +953,7 @@ StructureSet readStructureSet(const std::filesystem::path& path, const core::Pro
         roi.meaning = toUtf8(item.text(0x300600a4), characters);
     }
   progress.report(0.5, kTask);
+  std::set<std::size_t> drawn; // places
   for (const DicomItem& item : data.items(0x30060039))
   {
     checkDamage(item);
@@ -966,7 +968,12 @@ StructureSet readStructureSet(const std::filesystem::path& path, const core::Pro
       for (std::size_t c = 0; c < 3; ++c)
         roi.color[c] = static_cast<float>(std::clamp(color[c] / 255.0, 0.0, 1.0));
     roi.planeSpacing = item.item(0x3006004a).number(0x00180088).value_or(0.0);
-    for (const DicomItem& contour : item.items(0x30060040))
+    const std::vector<DicomItem> contours = item.items(0x30060040);
+    if (!contours.empty() && !drawn.insert(found->second).second) // would cut holes into the first
+      fail(Reason::Unreadable, path,
+           "describes the contours of one structure twice (ROI Contour Sequence), which may be two "
+           "structures; export it again");
+    for (const DicomItem& contour : contours)
     {
       checkDamage(contour);
       const std::string type = contour.text(0x30060042);

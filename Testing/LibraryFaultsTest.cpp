@@ -147,7 +147,7 @@ protected:
       }
       if (fault.largestFile != RLIM_INFINITY)
       {
-        std::signal(SIGXFSZ, SIG_IGN);
+        std::signal(SIGXFSZ, SIG_DFL); // as a shell starts it
         const rlimit limit{fault.largestFile, fault.largestFile};
         ::setrlimit(RLIMIT_FSIZE, &limit);
       }

@@ -204,7 +204,7 @@ protected:
       if (entry.path().extension() == ".json")
       {
         auto manifest = nlohmann::json::parse(textOf(entry.path()), nullptr, false);
-        for (const char* own : {"id", "revision"})
+        for (const char* own : {"id", "revision", "sha256"})
           manifest.erase(own);
         withoutTimes(manifest);
         manifest["name"] = entry.path().stem().string(); // which counts

@@ -893,6 +893,31 @@ TEST_F(CommandLine, AddTellsOnlyWhatIsNew)
   EXPECT_EQ(notices("Roe Rick.nii.gz"), first);
 }
 
+TEST_F(CommandLine, ACaseWhoseFileWasChangedOutsideOpensAndSaysSo)
+{
+  makePatient("--dims 24,24,24 --spacing 2.5");
+  json("new ear --ct " + quoted(m_folder / "patient/ct"));
+  EXPECT_EQ(json("info ear").count("notices"), 0U);
+  const auto manifest = library() / "cases/ear.json";
+  std::string text = textOf(manifest);
+  const std::size_t at = text.find("\"iso_hu\": ");
+  ASSERT_NE(at, text.npos);
+  char& digit = text[at + 10];
+  digit = digit == '1' ? '2' : '1';
+  std::ofstream(manifest, std::ios::binary) << text;
+  const auto info = run("info ear --json");
+  EXPECT_EQ(info.code, 0);
+  EXPECT_NE(info.err.find("does not have the checksum that it states"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(info.out)["notices"].size(), 1U);
+  EXPECT_EQ(run("library verify").code, 3);
+  EXPECT_EQ(run("library list --accept-changed").code, 2);
+  json("library repair");
+  EXPECT_EQ(run("library verify").code, 3) << "it is kept only where that is wanted";
+  json("library repair --accept-changed");
+  EXPECT_EQ(run("library verify").code, 0);
+  EXPECT_EQ(json("info ear").count("notices"), 0U);
+}
+
 TEST_F(CommandLine, CasesAreRenamedCopiedAndDeleted)
 {
   makePatient();

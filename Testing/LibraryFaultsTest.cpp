@@ -147,7 +147,7 @@ protected:
       }
       if (fault.largestFile != RLIM_INFINITY)
       {
-        std::signal(SIGXFSZ, SIG_IGN);
+        std::signal(SIGXFSZ, SIG_DFL); // as a shell starts it
         const rlimit limit{fault.largestFile, fault.largestFile};
         ::setrlimit(RLIMIT_FSIZE, &limit);
       }
@@ -204,7 +204,7 @@ protected:
       if (entry.path().extension() == ".json")
       {
         auto manifest = nlohmann::json::parse(textOf(entry.path()), nullptr, false);
-        for (const char* own : {"id", "revision"})
+        for (const char* own : {"id", "revision", "sha256"})
           manifest.erase(own);
         withoutTimes(manifest);
         manifest["name"] = entry.path().stem().string(); // which counts

@@ -21,6 +21,7 @@ struct Options
   std::vector<std::string> names;
   library::CaseFilter filter;
   std::string side;
+  bool acceptsChanged = false;
 };
 
 void printCases(const Context& context, const library::Library& library,
@@ -132,9 +133,9 @@ void collect(const Context& context, library::Library& library)
                      {"derived_bytes", freed}});
 }
 
-void repair(const Context& context, library::Library& library)
+void repair(const Context& context, library::Library& library, bool acceptsChanged)
 {
-  const library::Repaired found = library.repair(context.progress());
+  const library::Repaired found = library.repair(context.progress(), acceptsChanged);
   for (const auto* lines : {&found.lost, &found.done})
     for (const std::string& line : *lines)
       context.print(line);
@@ -191,6 +192,8 @@ void run(const Context& context, const Options& options)
     throw UsageError("library " + action +
                      ": --notes, --tag, --diagnosis, --procedure, --side, "
                      "--from and --to go with list and search");
+  if (options.acceptsChanged && action != "repair")
+    throw UsageError("library " + action + ": --accept-changed goes with repair");
   if (action == "list")
   {
     names(0, "list");
@@ -215,7 +218,7 @@ void run(const Context& context, const Options& options)
   else if (action == "repair")
   {
     names(0, "repair");
-    repair(context, library);
+    repair(context, library, options.acceptsChanged);
   }
   else if (action == "rename")
   {
@@ -291,6 +294,9 @@ void addLibraryCommand(CLI::App& app, Context& context)
       ->check(CLI::Validator([](std::string&) { return std::string(); }, "", kMayBeEmpty));
   command->add_flag("--notes", options->filter.inNotes,
                     "Search: TEXT in the notes too (slower: they are not in the index)");
+  command->add_flag("--accept-changed", options->acceptsChanged,
+                    "Repair: keep cases whose file was changed outside of Petrous, or is damaged, "
+                    "as it is, and save them anew");
   command
       ->add_option("--tag", options->filter.tags,
                    "List, search: cases with this tag (and each more)")

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/FileSizeLimit.h"
 #include "petrous/Core/Log.h"
 #include "petrous/Core/StandardStreams.h"
 
@@ -274,6 +275,7 @@ std::filesystem::path programBeside(const std::string& name, const std::string& 
 int run(const Program& program, const std::vector<std::string>& words)
 {
   core::holdStandardStreams();
+  core::failBeyondFileSizeLimit();
   Context context;
   // Invalid command lines are answered in JSON too.
   const auto fail = [&](const std::string& text, const Failure& as, const std::exception& error)

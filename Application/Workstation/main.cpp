@@ -18,6 +18,7 @@
 #include "SceneDisplay.h"
 #include "Theme.h"
 #include "WindowSettings.h"
+#include "petrous/Core/FileSizeLimit.h"
 #include "petrous/Core/Log.h"
 #include "petrous/Core/StandardStreams.h"
 #include "petrous/Devices/ServerCatalogue.h"
@@ -113,6 +114,7 @@ int main(int argc, char** argv)
 {
   using namespace petrous;
   core::holdStandardStreams();
+  core::failBeyondFileSizeLimit();
   const bool isSafe = std::any_of(
       argv + 1, argv + argc, [](const char* one) { return std::string_view(one) == "--safe"; });
   if (isSafe) // before the first use of OpenGL: drawn by Mesa on the processor

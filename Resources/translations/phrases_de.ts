@@ -5957,6 +5957,22 @@
         <translation>er hat zwei Netze gleichen Namens</translation>
     </message>
     <message>
+        <source>the rotation of an MR is not a unit quaternion</source>
+        <translation>die Drehung eines MR ist kein Einheitsquaternion</translation>
+    </message>
+    <message>
+        <source>an MR is moved by more than 1 km</source>
+        <translation>ein MR ist um mehr als 1 km verschoben</translation>
+    </message>
+    <message>
+        <source>an image has a grid of more than three axes</source>
+        <translation>ein Bild hat ein Gitter mit mehr als drei Achsen</translation>
+    </message>
+    <message>
+        <source>an image is of an unknown modality</source>
+        <translation>ein Bild ist von unbekannter Modalität</translation>
+    </message>
+    <message>
         <source>'%1' is not what its hash says</source>
         <translation>„%1“ ist nicht, was seine Prüfsumme sagt</translation>
     </message>
@@ -6019,6 +6035,14 @@
     <message>
         <source>%~1 does not lie where its voxels say</source>
         <translation>%~1 liegt nicht, wo die Voxel es sagen</translation>
+    </message>
+    <message>
+        <source>an image has not the intensities that are stated</source>
+        <translation>ein Bild hat nicht die angegebenen Intensitäten</translation>
+    </message>
+    <message>
+        <source>an image cannot be read</source>
+        <translation>ein Bild kann nicht gelesen werden</translation>
     </message>
     <message>
         <source>a structure is not in its label map</source>
@@ -6353,6 +6377,10 @@
         <translation>ein Fall „%1“ ist schon in %2; wählen Sie einen anderen Namen als „%3“, der gleich aussieht</translation>
     </message>
     <message>
+        <source>%~1. Saving the case accepts it as it is, as 'petrous library repair --accept-changed' does</source>
+        <translation>%~1. Wer den Fall speichert, nimmt ihn so an, wie er ist; „petrous library repair --accept-changed“ tut dasselbe</translation>
+    </message>
+    <message>
         <source>stroke %#1 of case '%2'</source>
         <translation>Bohrzug %#1 des Falls „%2“</translation>
     </message>
@@ -6537,12 +6565,24 @@
         <translation>entfernt wird, was kein Fall braucht</translation>
     </message>
     <message>
+        <source>case '%1' is saved anew as its file says</source>
+        <translation>der Fall „%1“ ist neu gespeichert, wie seine Datei es sagt</translation>
+    </message>
+    <message>
         <source>case '%1': %~2</source>
         <translation>Fall „%1“: %~2</translation>
     </message>
     <message>
         <source>the index holds %#1 of %#2 cases</source>
         <translation>das Verzeichnis enthält %#1 von %#2 Fällen</translation>
+    </message>
+    <message>
+        <source>%1: the file of case '%2' was changed outside of Petrous, or is damaged: it does not have the checksum that it states. Where images and structures lie, how an MR is registered and all else in it may be wrong: do not rely on it before you have compared it with a copy of the library, or restored it from there</source>
+        <translation>%1: die Datei des Falls „%2“ wurde außerhalb von Petrous geändert oder ist beschädigt: Sie hat nicht die Prüfsumme, die sie angibt. Wo Bilder und Strukturen liegen, wie ein MR registriert ist und alles andere darin kann falsch sein: Verlassen Sie sich nicht darauf, bevor Sie sie mit einer Kopie der Bibliothek verglichen oder von dort wiederhergestellt haben</translation>
+    </message>
+    <message>
+        <source>%1: %~2 of case '%3' does not lie where its voxels say: what is placed by it may be wrong; restore the file from a copy of the library, or import the images again</source>
+        <translation>%1: %~2 des Falls „%3“ liegt nicht, wo die Voxel es sagen: Was danach platziert wird, kann falsch liegen; stellen Sie die Datei aus einer Kopie der Bibliothek wieder her, oder importieren Sie die Bilder noch einmal</translation>
     </message>
     <message>
         <source>%1: cannot be read (%~2); give the library's folder and check its permissions</source>

@@ -798,6 +798,31 @@ TEST_F(WorkstationModelTest, ARecordingReplacesNothingThatALibraryKeeps)
   EXPECT_NO_THROW(library.open("block"));
 }
 
+TEST_F(WorkstationModelTest, ACaseWhoseFileWasChangedOutsideOpensWithANotice)
+{
+  library::Library library(folder);
+  scene::Case value = block("block");
+  value.iso = 400.0;
+  library.save(value);
+  const std::filesystem::path manifest = folder / "cases/block.json";
+  std::string text;
+  {
+    std::ifstream file(manifest, std::ios::binary);
+    text.assign(std::istreambuf_iterator<char>(file), {});
+  }
+  const std::size_t at = text.find("\"iso_hu\": 400.0");
+  ASSERT_NE(at, text.npos);
+  text[at + 10] = '5';
+  std::ofstream(manifest, std::ios::binary) << text;
+  WorkstationModel model{library};
+  std::vector<std::string> notices;
+  model.events.noticed = [&notices](const std::string& words) { notices.push_back(words); };
+  model.opened(ReadCase::from(library, "block"));
+  ASSERT_EQ(notices.size(), 1U);
+  EXPECT_NE(notices[0].find("changed outside of Petrous"), std::string::npos) << notices[0];
+  EXPECT_EQ(model.value().iso, 500.0);
+}
+
 TEST_F(WorkstationModelTest, ACtOfTheLibraryIsCheckedBeforeAToolIsTakenUp)
 {
   library::Library library(folder);

@@ -976,6 +976,31 @@ TEST_F(Archives, ThatContradictThemselvesAreRefused)
   expectRefused("threshold of bone");
   with([](Json& j) { std::swap(j["ct"]["min"], j["ct"]["max"]); });
   expectRefused("least intensity");
+  for (const char* bound : {"min", "max"})
+  {
+    with([bound](Json& j)
+         { j["ct"][bound] = std::string(bound) == "min" ? Json(-5e9) : Json(1400); });
+    expectRefused("the intensities that are stated");
+  }
+  with([](Json& j) { j["mr"][0]["max"] = 1e6; });
+  expectRefused("the intensities that are stated");
+  with([](Json& j) { j["mr"][0]["grid"]["origin_mm"] = {0, 0, 0}; });
+  expectRefused("MR 'T2' does not lie where its voxels say");
+  with([](Json& j) { j["mr"][0]["grid"]["dims"] = {20, 20, 20, 20, 20, 20}; });
+  expectRefused("more than three axes");
+  with([](Json& j) { j["mr"][0]["mr_from_ct"]["translation_mm"] = {1e30, 0, 0}; });
+  expectRefused("more than 1 km");
+  with([](Json& j) { j["mr"][0]["mr_from_ct"]["quaternion_wxyz"] = {1000, 0, 0, 0}; });
+  expectRefused("not a unit quaternion");
+  with([](Json& j) { j["mr"][0]["mr_from_ct"]["quaternion_wxyz"] = {1, 0, 0, 0, "x"}; });
+  expectRefused("not a unit quaternion");
+  with([](Json& j) { j["mr"][0]["mr_from_ct"]["quaternion_wxyz"] = {0, 0, 0, 0}; });
+  expectRefused("is not a sound archive of a case: case.json: rigid transform: the quaternion");
+  expectRefused("nothing was restored; get the file again");
+  with([](Json& j) { j["ct"]["modality"] = "\x1b[31mred\n"; });
+  expectRefused("unknown modality");
+  with([](Json& j) { j["ct"]["name"] = "../../x"; });
+  expectRefused("not a valid one");
 
   // What older programs left in a case is mended.
   with(

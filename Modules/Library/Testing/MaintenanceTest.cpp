@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <nlohmann/json.hpp>
 #include <sqlite3.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -13,6 +14,7 @@
 #include "TestCase.h"
 #include "petrous/Library/Journal.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Scene/Manifest.h"
 
 using namespace petrous;
 using namespace petrous::library;
@@ -935,4 +937,152 @@ TEST_F(Maintenance, SavingUnderAnotherNameSaysWhatIsLost)
   value.revision = 0;
   m_library.save(value);
   EXPECT_NE(said.find("missing"), std::string::npos) << said;
+}
+
+namespace
+{
+
+class ChangedManifests : public Maintenance
+{
+protected:
+  void SetUp() override
+  {
+    scene::Case value = test::smallCase("a", 16);
+    scene::ImagePart mr = test::smallCase("mr", 20).ct;
+    mr.name = "T2";
+    mr.registered = true;
+    mr.mrFromCt = {Eigen::Quaterniond(0.8, 0.6, 0.0, 0.0), {12.5, -3.0, 40.0}};
+    value.mr.push_back(std::move(mr));
+    m_library.save(value);
+    m_library.onNotice([this](const std::string& words) { m_told.push_back(words); });
+  }
+
+  std::string text() const
+  {
+    std::ifstream file(manifest("a"), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  void write(const std::string& text) const
+  {
+    std::ofstream(manifest("a"), std::ios::binary) << text;
+  }
+
+  static std::string sumOf(const std::string& text)
+  {
+    return sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  }
+
+  /// As another program would lay the manifest out, with a checksum that is right.
+  void writeSealed(nlohmann::json all) const
+  {
+    all.erase("sha256");
+    all["sha256"] = sumOf(all.dump(1) + "\n");
+    write(all.dump());
+  }
+
+  std::vector<std::string> m_told;
+};
+
+} // namespace
+
+TEST_F(ChangedManifests, AreToldByASumOfAllTheRest)
+{
+  const std::string before = text();
+  const std::string member = ",\n \"sha256\": \"" + std::string(64, '0') + "\"";
+  const std::size_t at = before.find(member.substr(0, 14));
+  ASSERT_NE(at, before.npos);
+  std::string rest = before;
+  rest.erase(at, member.size());
+  EXPECT_EQ(before.substr(at + member.size() - 65, 64), sumOf(rest));
+  EXPECT_NO_THROW(scene::fromManifest(rest, "a")) << "as a program that does not know it";
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+
+  // Only its layout; and as older programs wrote it.
+  write(nlohmann::json::parse(before).dump());
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+  write(rest);
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+  m_library.open("a");
+  EXPECT_TRUE(m_told.empty());
+}
+
+TEST_F(ChangedManifests, OfAnyBitOfANumberOrWordAreNamedAndOpenWithANotice)
+{
+  const std::string sound = text();
+  const std::string sum = "\"sha256\": \"";
+  for (const std::string& place :
+       {std::string("12."), std::string("\"max\": 139"), std::string("\"name\": \"ner"),
+        std::string("\"iso_hu\": "), sum})
+  {
+    // The last bit of the character after it.
+    const std::size_t found = sound.find(place);
+    ASSERT_NE(found, sound.npos) << place;
+    const std::size_t at = found + place.size();
+    std::string changed = sound;
+    changed[at] ^= 1;
+    write(changed);
+    const auto damaged = m_library.verify().damaged;
+    ASSERT_EQ(damaged.size(), 1U) << place;
+    EXPECT_EQ(damaged[0].object, "cases/a.json");
+    EXPECT_EQ(damaged[0].cases, std::vector<std::string>{"a"});
+    EXPECT_NE(damaged[0].text.find("checksum"), std::string::npos) << damaged[0].text;
+    m_told.clear();
+    EXPECT_NO_THROW(m_library.open("a")) << place;
+    ASSERT_EQ(m_told.size(), 1U) << place;
+    EXPECT_NE(m_told[0].find("changed outside of Petrous, or is damaged"), std::string::npos);
+  }
+  m_library.remove("a");
+  const Inspection found = m_library.verify();
+  ASSERT_EQ(found.damaged.size(), 1U);
+  EXPECT_EQ(found.damaged[0].deletedCases, std::vector<std::string>{"a"});
+}
+
+TEST_F(ChangedManifests, AreKeptAsTheyAreOnlyWhereThatIsWanted)
+{
+  std::string changed = text();
+  changed.replace(changed.find("12.5"), 4, "13.5");
+  write(changed);
+  EXPECT_NE(m_library.repair().done.at(0).find("--accept-changed"), std::string::npos);
+  EXPECT_EQ(text(), changed);
+  EXPECT_EQ(m_library.verify().damaged.size(), 1U);
+  m_library.repair({}, true);
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+  m_told.clear();
+  EXPECT_EQ(m_library.open("a").mr[0].mrFromCt.translation()[0], 13.5);
+  EXPECT_TRUE(m_told.empty());
+}
+
+TEST_F(ChangedManifests, RenamedCasesHaveTheirSum)
+{
+  m_library.rename("a", "b");
+  std::ifstream file(manifest("b"), std::ios::binary);
+  const std::string renamed{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(renamed.find("\"sha256\""), renamed.npos);
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+}
+
+// Whoever changed it made the sum anew.
+TEST_F(ChangedManifests, AnImageThatLiesElsewhereThanItsVoxelsSayIsNamed)
+{
+  const auto sound = nlohmann::json::parse(text());
+  for (const bool isMr : {false, true})
+  {
+    nlohmann::json changed = sound;
+    nlohmann::json& image = isMr ? changed["mr"][0] : changed["ct"];
+    image["grid"]["origin_mm"][1] = image["grid"]["origin_mm"][1].get<double>() + 10.0;
+    writeSealed(changed);
+    const std::string words =
+        std::string(isMr ? "MR 'T2'" : "the CT") + " of case 'a' does not lie where its voxels say";
+    const Inspection found = m_library.verify();
+    ASSERT_EQ(found.damaged.size(), 1U);
+    EXPECT_EQ(found.damaged[0].object, "cases/a.json");
+    EXPECT_NE(found.damaged[0].text.find(words), std::string::npos) << found.damaged[0].text;
+    m_told.clear();
+    EXPECT_NO_THROW(m_library.open("a"));
+    ASSERT_EQ(m_told.size(), 1U);
+    EXPECT_NE(m_told[0].find(words), std::string::npos) << m_told[0];
+  }
+  writeSealed(sound);
+  EXPECT_TRUE(m_library.verify().damaged.empty());
 }

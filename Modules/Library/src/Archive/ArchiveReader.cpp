@@ -4,6 +4,7 @@
 #include <cstring>
 #include <future>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -132,6 +133,64 @@ void checkSense(const scene::Case& value, const fs::path& path)
   }
 }
 
+/// Numbers and words of the manifest that no program writes, and that reading it bends to what a
+/// case can hold.
+void checkWritten(const nlohmann::json& manifest, const fs::path& path)
+{
+  using nlohmann::json;
+  constexpr double kFarthest = 1e6; // mm, from the origin of one image's patient space to another's
+  constexpr double kRounding = 1e-6;
+  const auto has = [](const json& numbers, std::size_t count)
+  { return numbers.is_array() && numbers.size() == count; };
+  const auto checkPose = [&](const json& pose)
+  {
+    const json& quaternion = pose.at("quaternion_wxyz");
+    const json& translation = pose.at("translation_mm");
+    const auto addSquare = [](double sum, const json& one)
+    { return sum + one.get<double>() * one.get<double>(); };
+    if (!has(quaternion, 4) ||
+        !(std::abs(std::accumulate(quaternion.begin(), quaternion.end(), 0.0, addSquare) - 1.0) <=
+          kRounding))
+      throwUnsound(path, "the rotation of an MR is not a unit quaternion");
+    const auto isNear = [](const json& one) { return std::abs(one.get<double>()) <= kFarthest; };
+    if (!has(translation, 3) || !std::all_of(translation.begin(), translation.end(), isNear))
+      throwUnsound(path, "an MR is moved by more than 1 km");
+  };
+  const auto checkImage = [&](const json& image)
+  {
+    const json& grid = image.at("grid");
+    if (!has(grid.at("dims"), 3) || !has(grid.at("spacing_mm"), 3) ||
+        !has(grid.at("origin_mm"), 3) || !has(grid.at("direction"), 9))
+      throwUnsound(path, "an image has a grid of more than three axes");
+    const std::string modality = image.value("modality", std::string());
+    if (!modality.empty() && modality != "CT" && modality != "MR")
+      throwUnsound(path, "an image is of an unknown modality");
+  };
+  checkImage(manifest.at("ct"));
+  for (const json& mr : manifest.at("mr"))
+  {
+    checkImage(mr);
+    checkPose(mr.at("mr_from_ct"));
+    if (mr.contains("registration") && mr.at("registration").contains("signed_off"))
+      checkPose(mr.at("registration").at("signed_off").at("mr_from_ct"));
+  }
+}
+
+scene::Case caseIn(const std::string& manifest, const fs::path& path)
+{
+  try
+  {
+    return scene::fromManifest(manifest, kManifestEntry);
+  }
+  catch (const scene::ManifestError& error)
+  {
+    using Reason = scene::ManifestError::Reason;
+    if (error.reason == Reason::NewerFormat)
+      throw scene::ManifestError(error.reason, core::printable(path) + ": " + error.what());
+    throwUnsound(path, error.what());
+  }
+}
+
 /// An archive whose directory, index and manifest are sound and agree.
 struct Archive
 {
@@ -144,7 +203,7 @@ struct Archive
     if (sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()) != index.manifest)
       throwUnsound(path, std::string("'") + kManifestEntry + "' is not what its hash says");
     refuseBloated(path, text, kManifestEntry);
-    value = scene::fromManifest(text, core::printable(path));
+    value = caseIn(text, path);
     try
     {
       scene::checkCaseName(index.name);
@@ -155,6 +214,9 @@ struct Archive
     {
       throwUnsound(path, "it has a name that is not a valid one");
     }
+    if (value.ct.name != "ct")
+      throwUnsound(path, "it has a name that is not a valid one");
+    checkWritten(nlohmann::json::parse(text), path);
     checkSense(value, path);
     scene::forgetGoneReferences(value); // older programs kept them
 
@@ -401,24 +463,29 @@ void refuseWithoutRoom(const fs::path& folder, const Archive& archive, const Obj
                                              " MB are free; nothing was restored; free some space");
 }
 
-/// The manifest's geometry is that of the voxels: everything is placed by it.
-void checkImages(const scene::Case& value, const ObjectStore& store, const fs::path& file)
+/// What the manifest says of the images is so by their voxels: everything is placed and shown by
+/// it.
+void checkImages(const scene::Case& value, const ObjectStore& store, const fs::path& file,
+                 const core::Progress& progress)
 {
-  const auto check = [&](const scene::ImagePart& image, const std::string& what)
+  if (const auto misplaced = misplacedImages(value, store); !misplaced.empty())
+    throwUnsound(file, misplaced.front().what + " does not lie where its voxels say");
+  const auto checkRange = [&](const scene::ImagePart& image)
   {
+    progress.check("restoring");
     try
     {
-      if (core::sameGrid(imaging::mapRawNrrd(store.path(image.object))->geometry(), image.geometry))
-        return;
+      const volume::ValueRange range = imaging::mapRawNrrd(store.path(image.object))->range();
+      if (range.min != image.range.min || range.max != image.range.max)
+        throwUnsound(file, "an image has not the intensities that are stated");
     }
     catch (const imaging::FileError&)
     {
+      throwUnsound(file, "an image cannot be read");
     }
-    throwUnsound(file, what + " does not lie where its voxels say");
   };
-  check(value.ct, value.ct.modality == scene::Modality::Mr ? "the MR" : "the CT");
-  for (const scene::ImagePart& mr : value.mr)
-    check(mr, "an MR");
+  checkRange(value.ct);
+  std::for_each(value.mr.begin(), value.mr.end(), checkRange);
 }
 
 void checkLabels(const scene::LabelPart& part, const fs::path& object, const fs::path& file,
@@ -665,7 +732,7 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
           scene::forgetGoneReferences(next);
         }
         summary.newParts = addObjects(archive, store, progress);
-        checkImages(next, store, file);
+        checkImages(next, store, file, progress);
         checkContents(next, store, file, progress);
       },
       progress);

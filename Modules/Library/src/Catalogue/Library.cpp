@@ -404,13 +404,15 @@ scene::Case Library::open(const std::string& name) const
 {
   scene::checkCaseName(name);
   checkedManifestPath(name);
-  const auto read = [this, &name]
+  bool isUnchanged = true;
+  const auto read = [this, &name, &isUnchanged]
   {
-    scene::Case manifest = readManifest(name);
+    scene::Case manifest = manifestIn(manifestPath(name), name, isUnchanged);
     attach(manifest);
     return manifest;
   };
   scene::Case value = read();
+  noticeDoubts(value, isUnchanged); // before recovery saves it
   std::error_code error;
   if (fs::exists(fs::symlink_status(journalPath(m_folder, name), error)))
   {
@@ -422,6 +424,23 @@ scene::Case Library::open(const std::string& name) const
     attach(value); // without what recovery read
   }
   return value;
+}
+
+void Library::noticeDoubts(const scene::Case& value, bool isUnchanged) const
+{
+  const fs::path path = manifestPath(value.name);
+  const auto tell = [this](const std::string& words)
+  {
+    core::log::warning("library: the file of a case is not as it was written");
+    if (m_notice)
+      m_notice(words);
+  };
+  if (const std::string text = changedText(path, value.name); !isUnchanged)
+    tell(
+        text +
+        ". Saving the case accepts it as it is, as 'petrous library repair --accept-changed' does");
+  for (const ObjectUse& image : misplacedImages(value, ObjectStore(objectFolder())))
+    tell(misplacedText(path, value.name, image));
 }
 
 std::shared_ptr<core::DerivedStore> Library::derived() const
@@ -830,7 +849,7 @@ void Library::saveWith(scene::Case& value,
     saltFrames(next, m_folder);
     ++next.revision;
     progress.report(0.95, "saving");
-    const std::string manifest = scene::toManifest(next);
+    const std::string manifest = withChecksum(scene::toManifest(next));
     scene::fromManifest(manifest, path.string()); // never writes what cannot be read again
     core::OutputFile file(path);
     file.write(manifest);
@@ -929,9 +948,11 @@ std::optional<scene::Case> Library::mergedWithSaved(const scene::Case& value,
     return std::nullopt;
   try
   {
-    scene::Case now = readManifest(value.name);
+    bool isUnchanged = true;
+    scene::Case now = manifestIn(manifestPath(value.name), value.name, isUnchanged);
     if (now.id != base.id || !goesOnFrom(now, base))
       return std::nullopt;
+    noticeDoubts(now, isUnchanged);
     attach(now);
     loadDissection(now);
     return graft(now, base, value.dissection);

@@ -200,7 +200,7 @@ bool writeName(const fs::path& manifest, const std::string& from, const std::str
   try
   {
     core::OutputFile file(manifest);
-    file.write(scene::toManifest(value));
+    file.write(withChecksum(scene::toManifest(value)));
     return file.commit();
   }
   catch (const core::OutputFileError& error)
@@ -559,11 +559,26 @@ Inspection Library::verify(const core::Progress& progress) const
               error.what() + (isDeleted ? "; deleted case '" + name + "' cannot be brought back"
                                         : std::string()));
   };
+  struct Misplaced
+  {
+    std::string file;
+    std::vector<Use::By> of;
+    std::string object, text;
+  };
+  std::vector<Misplaced> misplaced;
+  const ObjectStore store(objectFolder());
   const auto read = [&](const fs::path& path, const std::string& name, bool isDeleted)
   {
     try
     {
-      const scene::Case value = manifestIn(path, name);
+      bool isUnchanged = true;
+      const scene::Case value = manifestIn(path, name, isUnchanged);
+      const std::vector<Use::By> of{{path, name, isDeleted, {}}};
+      const std::string file = path.lexically_relative(m_folder).string();
+      if (!isUnchanged)
+        damaged(file, of, changedText(path, name));
+      for (const ObjectUse& image : misplacedImages(value, store))
+        misplaced.push_back({file, of, image.object, misplacedText(path, name, image)});
       if (!isDeleted)
         ids.emplace_back(value.id, name);
       if (isSalted(value))
@@ -610,7 +625,7 @@ Inspection Library::verify(const core::Progress& progress) const
             core::printable(m_folder / "salt") +
                 ": is missing, or not what this program wrote; restore it from a copy: without it "
                 "nothing tells whether a new image is of the patient of an older one");
-  const ObjectStore store(objectFolder());
+  std::set<std::string> unsound;
   std::map<std::string, std::uintmax_t> sizes;
   std::uintmax_t total = 1;
   for (const auto& [object, bytes] : store.list())
@@ -643,8 +658,12 @@ Inspection Library::verify(const core::Progress& progress) const
           continue;
       }
       damaged(object, use.all, error.what() + needText(use));
+      unsound.insert(object);
     }
   }
+  for (const Misplaced& one : misplaced)
+    if (unsound.count(one.object) == 0) // else it is the object's header that is wrong
+      damaged(one.file, one.of, one.text);
   // That a linked file is not there is no damage: its disk may be elsewhere.
   for (const auto& [name, one] : links)
     if (attachmentChange(*this, one, progress.part(1.0, 1.0)) == "changed")
@@ -739,7 +758,7 @@ Collected Library::collectGarbage(const core::Progress& progress)
   return result;
 }
 
-Repaired Library::repair(const core::Progress& progress)
+Repaired Library::repair(const core::Progress& progress, bool acceptChanged)
 {
   Repaired result;
   std::vector<std::string>& done = result.done;
@@ -753,7 +772,14 @@ Repaired Library::repair(const core::Progress& progress)
     try
     {
       progress.report(static_cast<double>(read++) / static_cast<double>(names.size()), "repairing");
-      const scene::Case value = quiet.open(name);
+      bool isUnchanged = true;
+      scene::Case value = quiet.open(name);
+      manifestIn(manifestPath(name), name, isUnchanged);
+      if (acceptChanged && !isUnchanged)
+      {
+        quiet.save(value);
+        done.push_back("case '" + name + "' is saved anew as its file says");
+      }
       for (std::string& words : lost(value))
         result.lost.push_back(std::move(words));
       if (isSalted(value) && (!hasSalt(m_folder) || hasLostSalt(value, salt)))

@@ -5,11 +5,14 @@
 #include <set>
 #include <utility>
 
+#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 #include "AttachmentFiles.h"
 #include "JournalFile.h"
 #include "LibraryFolder.h"
+#include "Sha256.h"
+#include "petrous/Imaging/NrrdFile.h"
 #include "petrous/Library/NewerVersion.h"
 #include "petrous/Scene/Manifest.h"
 
@@ -53,6 +56,85 @@ scene::Case manifestIn(const fs::path& path, const std::string& name)
   return value;
 }
 
+scene::Case manifestIn(const fs::path& path, const std::string& name, bool& isUnchanged)
+{
+  const std::string text = textOf(path);
+  scene::Case value = scene::fromManifest(text, core::printable(path));
+  isUnchanged = hasItsChecksum(text);
+  value.name = name;
+  return value;
+}
+
+namespace
+{
+
+constexpr const char* kChecksum = "sha256";
+constexpr std::string_view kEnd = "\n}\n"; // of a manifest
+
+std::string checksumMember(const std::string& sum)
+{
+  return std::string(",\n \"") + kChecksum + "\": \"" + sum + "\"" + std::string(kEnd);
+}
+
+std::string sumOf(std::string_view text, std::string_view end = {})
+{
+  Sha256 sum;
+  sum.add(text.data(), text.size());
+  sum.add(end.data(), end.size());
+  return sum.hexadecimal();
+}
+
+} // namespace
+
+std::string withChecksum(std::string manifest)
+{
+  const std::string sum = sumOf(manifest);
+  manifest.resize(manifest.size() - kEnd.size());
+  return manifest + checksumMember(sum);
+}
+
+bool hasItsChecksum(std::string_view manifest)
+{
+  constexpr std::size_t kDigits = 64;
+  static const std::size_t tail = checksumMember(std::string(kDigits, '0')).size();
+  if (manifest.size() > tail) // as it was written, which takes no parsing
+  {
+    const std::string_view rest = manifest.substr(0, manifest.size() - tail);
+    if (checksumMember(sumOf(rest, kEnd)) == manifest.substr(rest.size()))
+      return true;
+  }
+  nlohmann::json all = nlohmann::json::parse(manifest);
+  const auto stated = all.find(kChecksum);
+  if (stated == all.end())
+    return true;
+  const nlohmann::json sum = *stated;
+  all.erase(stated);
+  return sum == sumOf(all.dump(1), "\n");
+}
+
+std::string changedText(const fs::path& path, const std::string& name)
+{
+  return core::printable(path) + ": the file of case '" + name +
+         "' was changed outside of Petrous, or is damaged: it does not have the checksum that it "
+         "states. Where images and structures lie, how an MR is registered and all else in it may "
+         "be wrong: do not rely on it before you have compared it with a copy of the library, or "
+         "restored it from there";
+}
+
+namespace
+{
+
+ObjectUse useOf(const scene::ImagePart& image, const scene::Case& value)
+{
+  const bool isPrimary = &image == &value.ct;
+  return {image.object, ObjectUse::Kind::Image, isPrimary ? "ct" : image.name,
+          !isPrimary                              ? "MR '" + image.name + "'"
+          : image.modality == scene::Modality::Mr ? "the MR"
+                                                  : "the CT"};
+}
+
+} // namespace
+
 std::vector<ObjectUse> objectsOf(const scene::Case& value)
 {
   std::vector<ObjectUse> uses;
@@ -63,10 +145,13 @@ std::vector<ObjectUse> objectsOf(const scene::Case& value)
     if (seen.insert(object).second)
       uses.push_back({object, kind, name, what});
   };
-  add(value.ct.object, ObjectUse::Kind::Image, "ct",
-      value.ct.modality == scene::Modality::Mr ? "the MR" : "the CT");
-  for (const auto& mr : value.mr)
-    add(mr.object, ObjectUse::Kind::Image, mr.name, "MR '" + mr.name + "'");
+  const auto addImage = [&](const scene::ImagePart& image)
+  {
+    if (seen.insert(image.object).second)
+      uses.push_back(useOf(image, value));
+  };
+  addImage(value.ct);
+  std::for_each(value.mr.begin(), value.mr.end(), addImage);
   for (const auto& part : value.labels)
     add(part.object, ObjectUse::Kind::Structures,
         part.structures.empty() ? "" : part.structures.front().name, "structures");
@@ -81,6 +166,35 @@ std::vector<ObjectUse> objectsOf(const scene::Case& value)
       add(attachment.object, ObjectUse::Kind::Attachment, attachment.name,
           attachmentText(attachment));
   return uses;
+}
+
+std::vector<ObjectUse> misplacedImages(const scene::Case& value, const ObjectStore& store)
+{
+  std::vector<ObjectUse> misplaced;
+  const auto check = [&](const scene::ImagePart& image)
+  {
+    try
+    {
+      const auto voxels =
+          imaging::mapRawNrrd(store.path(image.object), imaging::VoxelAccess::Mapped);
+      if (!core::sameGrid(voxels->geometry(), image.geometry))
+        misplaced.push_back(useOf(image, value));
+    }
+    catch (const core::Error&)
+    {
+      // Whoever reads the image is told.
+    }
+  };
+  check(value.ct);
+  std::for_each(value.mr.begin(), value.mr.end(), check);
+  return misplaced;
+}
+
+std::string misplacedText(const fs::path& path, const std::string& name, const ObjectUse& image)
+{
+  return core::printable(path) + ": " + image.what + " of case '" + name +
+         "' does not lie where its voxels say: what is placed by it may be wrong; restore the file "
+         "from a copy of the library, or import the images again";
 }
 
 std::vector<std::string> namesIn(const fs::path& folder)

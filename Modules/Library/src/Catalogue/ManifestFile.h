@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "Catalogue.h"
+#include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Case.h"
 
 namespace petrous::library
@@ -16,6 +18,21 @@ namespace petrous::library
 /// Reads a manifest, without voxels; the case is named `name`, whatever the manifest says. Throws
 /// LibraryError and ManifestError.
 scene::Case manifestIn(const std::filesystem::path& path, const std::string& name);
+/// The same; `isUnchanged`: hasItsChecksum.
+scene::Case manifestIn(const std::filesystem::path& path, const std::string& name,
+                       bool& isUnchanged);
+
+/// The text of scene::toManifest as the library keeps it: with the member "sha256", the SHA-256 of
+/// that text.
+std::string withChecksum(std::string manifest);
+
+/// False of a manifest, sound JSON, that a program other than Petrous or a fault of the medium has
+/// changed since it was written; where only its layout was, true. True of those of older programs,
+/// which have no checksum.
+bool hasItsChecksum(std::string_view manifest);
+
+/// What the user is told of a manifest that has not its checksum.
+std::string changedText(const std::filesystem::path& path, const std::string& name);
 
 /// The description in a manifest. Throws LibraryError and ManifestError.
 Description descriptionIn(const std::filesystem::path& path);
@@ -40,6 +57,13 @@ struct ObjectUse
 /// The objects of a case in the order CT, MRs, structures, meshes, strokes, attachments; each
 /// once.
 std::vector<ObjectUse> objectsOf(const scene::Case& value);
+
+/// The images that by the manifest lie elsewhere than by their object, of which the header alone is
+/// read. Objects that are missing or cannot be read are left out.
+std::vector<ObjectUse> misplacedImages(const scene::Case& value, const ObjectStore& store);
+/// What the user is told of one.
+std::string misplacedText(const std::filesystem::path& path, const std::string& name,
+                          const ObjectUse& image);
 
 /// Names of all cases, sorted, including damaged ones. Empty if the folder does not exist; throws
 /// LibraryError (Damaged) if it cannot be read.

@@ -134,8 +134,10 @@ public:
   bool contains(const std::string& name) const;                   ///< including damaged ones
 
   /// Opens a case without its voxels: they are read when a part is accessed. Drilling that was not
-  /// saved because a program was killed (see Journal) is recovered and saved first. Throws
-  /// LibraryError (NotFound, Damaged) and ManifestError.
+  /// saved because a program was killed (see Journal) is recovered and saved first. A manifest that
+  /// does not have the checksum that it states, or places an image elsewhere than its voxels say,
+  /// is opened as it is, and told by the notice. Throws LibraryError (NotFound, Damaged) and
+  /// ManifestError.
   scene::Case open(const std::string& name) const;
 
   /// Loads `value.dissection` unless already loaded (Dissection::load). Throws LibraryError
@@ -237,7 +239,9 @@ public:
   Collected collectGarbage(const core::Progress& progress = {});
 
   /// Recovers unsaved drilling, removes leftovers of killed writers, and rebuilds the index.
-  Repaired repair(const core::Progress& progress = {});
+  /// `acceptChanged`: saves cases anew whose manifests do not have the checksum that they state,
+  /// which are otherwise only named.
+  Repaired repair(const core::Progress& progress = {}, bool acceptChanged = false);
 
   /// Like `save`; `storeObjects` adds the objects of the case, whose names it completes, while the
   /// library is locked. What it added is removed again if anything throws.
@@ -251,6 +255,7 @@ private:
   std::filesystem::path checkedManifestPath(const std::string& name) const;
   scene::Case readManifest(const std::string& name) const;
   void attach(scene::Case& value) const;
+  void noticeDoubts(const scene::Case& value, bool isUnchanged) const;
   std::vector<std::string> goneWithAnother(const scene::Case& value) const;
   void noticeOpenersOf(const std::string& name, const std::string& id) const;
   core::FileLock lockForWriting(const core::Progress& progress = {}) const;

@@ -10,6 +10,7 @@
 #include <QLabel>
 #include <QMenu>
 #include <QSlider>
+#include <QTreeView>
 
 #include "GuiTest.h"
 #include "TransferPlot.h"

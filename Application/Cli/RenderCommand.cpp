@@ -496,6 +496,7 @@ Result drawForPrint(const Context& context, const RenderOptions& options, const 
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   const double magnified = std::max(shot.height / 600.0, 1.0);
   presenters::addLines(result.picture, presenters::pictureLines(value), magnified);
+  presenters::addEdgeLetters(result.picture, shot.camera, magnified);
   presenters::addScaleBar(result.picture, rendering::millimetresPerPixel(shot.camera, shot.height),
                           shot.camera.parallelScale ? "" : "in the focal plane", magnified);
   const rendering::RenderStatistics statistics = picture.statistics();

@@ -2,6 +2,7 @@
 #include <clocale>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <string_view>
 #include <thread>
 
@@ -91,6 +92,43 @@ void logQtMessage(QtMsgType type, const QMessageLogContext& context, const QStri
                                        (context.category ? context.category : "default"));
 }
 
+void describe(QCommandLineParser& parser)
+{
+  parser.setApplicationDescription(
+      "Rehearse an operation on the temporal bone on the patient's own CT.");
+  parser.addHelpOption();
+  parser.addVersionOption();
+  parser.addOption({"library", "Folder of the library.", "DIR"});
+  parser.addOption({"safe", "Without settings, devices, graphics card and previous case: for a "
+                            "window that does not start, or not rightly, otherwise."});
+  parser.addOption({"language",
+                    "Language of the window: de or en. Otherwise as in the settings, "
+                    "else the system's where the window has it.",
+                    "LANGUAGE"});
+  parser.addOption({"log-level",
+                    "What the log holds: trace, debug, info, warning, error or off (info).",
+                    "LEVEL"});
+  parser.addPositionalArgument("what", "A case of the library, a DICOM folder or an image file.",
+                               "[CASE | PATH]");
+}
+
+// Help and version need no screen. Does not return where one is asked for.
+void answerWithoutScreen(int& argc, char** argv)
+{
+  static constexpr std::string_view kAsked[] = {"-h", "--help", "--help-all", "-v", "--version"};
+  const bool isAsked =
+      std::any_of(argv + 1, argv + argc,
+                  [](const char* one) {
+                    return std::find(std::begin(kAsked), std::end(kAsked), one) != std::end(kAsked);
+                  });
+  if (!isAsked)
+    return;
+  const QCoreApplication application(argc, argv);
+  QCommandLineParser parser;
+  describe(parser);
+  parser.process(application);
+}
+
 // Throws InvalidParameter for an unknown level.
 void startLog(const QCommandLineParser& parser)
 {
@@ -115,6 +153,9 @@ int main(int argc, char** argv)
   using namespace petrous;
   core::holdStandardStreams();
   core::failBeyondFileSizeLimit();
+  QCoreApplication::setApplicationName("petrous-workstation");
+  QCoreApplication::setApplicationVersion(PETROUS_VERSION);
+  answerWithoutScreen(argc, argv);
   const bool isSafe = std::any_of(
       argv + 1, argv + argc, [](const char* one) { return std::string_view(one) == "--safe"; });
   if (isSafe) // before the first use of OpenGL: drawn by Mesa on the processor
@@ -126,27 +167,10 @@ int main(int argc, char** argv)
   QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QApplication::setAttribute(Qt::AA_UseHighDpiPixmaps); // icons of as many pixels as the screen has
   workstation::Application application(argc, argv);
-  QApplication::setApplicationName("petrous-workstation");
-  QApplication::setApplicationVersion(PETROUS_VERSION);
   workstation::applyTheme(application);
 
   QCommandLineParser parser;
-  parser.setApplicationDescription(
-      "Rehearse an operation on the temporal bone on the patient's own CT.");
-  parser.addHelpOption();
-  parser.addVersionOption();
-  parser.addOption({"library", "Folder of the library.", "DIR"});
-  parser.addOption({"safe", "Without settings, devices, graphics card and previous case: for a "
-                            "window that does not start, or not rightly, otherwise."});
-  parser.addOption({"language",
-                    "Language of the window: de or en. Otherwise as in the settings, "
-                    "else the system's where the window has it.",
-                    "LANGUAGE"});
-  parser.addOption({"log-level",
-                    "What the log holds: trace, debug, info, warning, error or off (info).",
-                    "LEVEL"});
-  parser.addPositionalArgument("what", "A case of the library, a DICOM folder or an image file.",
-                               "[CASE | PATH]");
+  describe(parser);
   parser.process(application);
   if (parser.positionalArguments().size() > 1)
   {

@@ -487,10 +487,6 @@
         <translation>Ein Raum ohne Gewebe tönt den Knochen um sich: Seine Farben zählen, seine Deckkraft nicht.</translation>
     </message>
     <message>
-        <source>The surface is opaque: colours and highlight are seen, opacities below 100 %.</source>
-        <translation>Die Oberfläche ist undurchsichtig: Farben und Glanzlicht sind zu sehen, Deckkraft unter 100 % nicht.</translation>
-    </message>
-    <message>
         <source>&amp;Delete</source>
         <translation>&amp;Löschen</translation>
     </message>
@@ -629,6 +625,10 @@
     <message>
         <source>skin</source>
         <translation>Haut</translation>
+    </message>
+    <message>
+        <source>The surface is opaque, so the opacities of this curve do not show, only its colours and highlights; lower the opacity of the surface to look inside.</source>
+        <translation>Die Oberfläche ist deckend: Die Deckkraft dieser Kurve ist daher nicht zu sehen, nur ihre Farben und Glanzlichter; verringern Sie die Deckkraft der Oberfläche, um hineinzusehen.</translation>
     </message>
 </context>
 <context>
@@ -1335,10 +1335,6 @@
         <translation>Der Fall %1 wird angelegt</translation>
     </message>
     <message>
-        <source>The case is called “%1”, since the name of its folder may be the patient&apos;s; F2 in the library gives it another one</source>
-        <translation>Der Fall heißt „%1“, da der Name seines Ordners der des Patienten sein kann; F2 in der Bibliothek gibt ihm einen anderen</translation>
-    </message>
-    <message>
         <source>Saving %1 in the library…</source>
         <translation>%1 wird in der Bibliothek gespeichert…</translation>
     </message>
@@ -1433,10 +1429,6 @@
     <message>
         <source>Another patient?</source>
         <translation>Ein anderer Patient?</translation>
-    </message>
-    <message>
-        <source>“%1” states another patient&apos;s ID, name or date of birth than the images of “%2” do.</source>
-        <translation>„%1“ nennt eine andere Patienten-ID, einen anderen Namen oder ein anderes Geburtsdatum als die Bilder von „%2“.</translation>
     </message>
     <message>
         <source>Of another patient, it would put an anatomy into the picture that is not this one&apos;s, and the plan would be wrong where it counts. Look at the files first. Add it only if you know that it is this patient&apos;s, as where one of the files was de-identified or the patient&apos;s name was changed; a note in the case will say so.</source>
@@ -1753,22 +1745,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>Trotzdem &amp;hinzufügen</translation>
     </message>
     <message>
-        <source>The structure of “%1” lies outside the image of this case: nothing of it will be seen or felt.</source>
-        <translation>Die Struktur aus „%1“ liegt außerhalb des Bilds dieses Falls: Nichts von ihr wird zu sehen oder zu fühlen sein.</translation>
-    </message>
-    <message>
-        <source>None of the %2 structures of “%1” lies in the image of this case: nothing of them will be seen or felt.</source>
-        <translation>Keine der %2 Strukturen aus „%1“ liegt im Bild dieses Falls: Nichts von ihnen wird zu sehen oder zu fühlen sein.</translation>
-    </message>
-    <message>
-        <source>1 of the %2 structures of “%1” lies outside the image of this case: nothing of it will be seen or felt.</source>
-        <translation>1 der %2 Strukturen aus „%1“ liegt außerhalb des Bildes dieses Falls: Nichts von ihr wird zu sehen oder zu fühlen sein.</translation>
-    </message>
-    <message>
-        <source>%3 of the %2 structures of “%1” lie outside the image of this case: nothing of them will be seen or felt.</source>
-        <translation>%3 der %2 Strukturen aus „%1“ liegen außerhalb des Bildes dieses Falls: Nichts von ihnen wird zu sehen oder zu fühlen sein.</translation>
-    </message>
-    <message>
         <source>Add the &amp;others only</source>
         <translation>Nur die &amp;anderen hinzufügen</translation>
     </message>
@@ -1819,6 +1795,46 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>In %1, as the file says: %2 mm long</source>
         <translation>In %1, wie die Datei sagt: %2 mm lang</translation>
+    </message>
+    <message>
+        <source>and %1 undone</source>
+        <translation>und %1 zurückgenommen</translation>
+    </message>
+    <message>
+        <source>and %1 of other approaches</source>
+        <translation>und %1 anderer Zugänge</translation>
+    </message>
+    <message>
+        <source>“%1”</source>
+        <translation>„%1“</translation>
+    </message>
+    <message>
+        <source>The case is called “%1”: the name of its folder was not taken, as it may be the patient&apos;s; F2 in the library, or Save as…, gives it another one</source>
+        <translation>Der Fall heißt „%1“: Der Name seines Ordners wurde nicht übernommen, da er der des Patienten sein kann; F2 in der Bibliothek oder Speichern unter… gibt ihm einen anderen</translation>
+    </message>
+    <message>
+        <source>Not added: %1</source>
+        <translation>Nicht hinzugefügt: %1</translation>
+    </message>
+    <message>
+        <source>The structure of %1 lies outside the image of this case: nothing of it will be seen or felt.</source>
+        <translation>Die Struktur aus %1 liegt außerhalb des Bildes dieses Falls: Nichts von ihr wird zu sehen oder zu fühlen sein.</translation>
+    </message>
+    <message>
+        <source>None of the %2 structures of %1 lies in the image of this case: nothing of them will be seen or felt.</source>
+        <translation>Keine der %2 Strukturen aus %1 liegt im Bild dieses Falls: Nichts von ihnen wird zu sehen oder zu fühlen sein.</translation>
+    </message>
+    <message>
+        <source>1 of the %2 structures of %1 lies outside the image of this case: nothing of it will be seen or felt.</source>
+        <translation>1 der %2 Strukturen aus %1 liegt außerhalb des Bildes dieses Falls: Nichts von ihr wird zu sehen oder zu fühlen sein.</translation>
+    </message>
+    <message>
+        <source>%3 of the %2 structures of %1 lie outside the image of this case: nothing of them will be seen or felt.</source>
+        <translation>%3 der %2 Strukturen aus %1 liegen außerhalb des Bildes dieses Falls: Nichts von ihnen wird zu sehen oder zu fühlen sein.</translation>
+    </message>
+    <message>
+        <source>“%1” states another patient than the images of “%2” do. What differs: %3.</source>
+        <translation>„%1“ nennt einen anderen Patienten als die Bilder von „%2“. Es unterscheiden sich: %3.</translation>
     </message>
 </context>
 <context>
@@ -2051,6 +2067,14 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>Other cases that use “%1” cannot be drilled until it exists again.</source>
         <translation>Andere Fälle, die „%1“ verwenden, können erst wieder gebohrt werden, wenn es das Material wieder gibt.</translation>
+    </message>
+    <message>
+        <source>“%1”, %2</source>
+        <translation>„%1“, %2</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
     </message>
 </context>
 <context>
@@ -4917,10 +4941,6 @@ Verletzt: %1, %2</translation>
         <translation>Ansicht</translation>
     </message>
     <message>
-        <source>%1 x %2 pixels, of the 3D view as it is, with scale bar and side.</source>
-        <translation>%1 x %2 Pixel, der 3D-Ansicht, wie sie ist, mit Maßstab und Seite.</translation>
-    </message>
-    <message>
         <source>At most %1 pixels: choose a smaller width or resolution.</source>
         <translation>Höchstens %1 Pixel: Wählen Sie eine kleinere Breite oder Auflösung.</translation>
     </message>
@@ -4943,6 +4963,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>1 ray a pixel</source>
         <translation>1 Strahl je Pixel</translation>
+    </message>
+    <message>
+        <source>%1 x %2 pixels, of the 3D view with scale bar, side and the patient&apos;s directions. Measurements, bone thickness and tool are left out.</source>
+        <translation>%1 x %2 Pixel, die 3D-Ansicht mit Maßstab, Seite und den Richtungen des Patienten. Messungen, Knochendicke und Werkzeug fehlen darin.</translation>
     </message>
 </context>
 <context>
@@ -5980,6 +6004,14 @@ Verletzt: %1, %2</translation>
         <source>Recording</source>
         <translation>Aufnahme</translation>
     </message>
+    <message>
+        <source>No recording yet</source>
+        <translation>Noch keine Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>Choose a recording</source>
+        <translation>Aufzeichnung wählen</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ReportDialog</name>
@@ -6118,10 +6150,6 @@ Verletzt: %1, %2</translation>
         <translation>Rundet die Oberfläche</translation>
     </message>
     <message>
-        <source>Seg&amp;ment</source>
-        <translation>Se&amp;gmentierung</translation>
-    </message>
-    <message>
         <source>%1 is a structure of the case now, %2; Undo makes it a draft again</source>
         <translation>%1 ist jetzt eine Struktur des Falls, %2; Rückgängig macht sie wieder zum Entwurf</translation>
     </message>
@@ -6228,6 +6256,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Discard the draft of “%1”?</source>
         <translation>Den Entwurf von „%1“ verwerfen?</translation>
+    </message>
+    <message>
+        <source>Se&amp;gment</source>
+        <translation>Se&amp;gmentierung</translation>
     </message>
 </context>
 <context>

@@ -317,7 +317,8 @@ SHORT = {" ".join(word.split()) for word in """
     | side | skipped | slices | smoothing | stroke | structure | structure %#1 | structure %1 |
     structures | study | surface | the CT | the MR '%1' | thickness | thickness along the normal
     | threshold | tilt %#1 | tilt %1 | tissue | transfer | tube | undoing | unknown | unread |
-    video | view | volume | wall | withheld
+    video | view | volume | wall | withheld | rigid | patient ID | above 0 GPa | above 0 HV |
+    within -60 to 60 degrees
 """.split("|")}
 # Found, and no phrases: words of formats, parts of phrases, errors that only a defect causes.
 NOT_PHRASES = set(r"""

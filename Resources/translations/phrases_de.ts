@@ -68,6 +68,26 @@
         <translation>Wählen Sie eine Serie, die als in Ordnung gilt.</translation>
     </message>
     <message>
+        <source>patient ID and patient name</source>
+        <translation>Patienten-ID und Patientenname</translation>
+    </message>
+    <message>
+        <source>patient ID and date of birth</source>
+        <translation>Patienten-ID und Geburtsdatum</translation>
+    </message>
+    <message>
+        <source>patient ID</source>
+        <translation>Patienten-ID</translation>
+    </message>
+    <message>
+        <source>patient name</source>
+        <translation>Patientenname</translation>
+    </message>
+    <message>
+        <source>date of birth</source>
+        <translation>Geburtsdatum</translation>
+    </message>
+    <message>
         <source>Whether it is of the patient of the case's images is not known: the library's salt, with which their patients' hashes were made, was lost; look whether it is</source>
         <translation>Ob es vom Patienten der Bilder des Falls ist, ist nicht bekannt: Das Salt der Bibliothek, mit dem die Hashes ihrer Patienten gebildet wurden, ging verloren; sehen Sie nach, ob es so ist</translation>
     </message>
@@ -388,8 +408,8 @@
         <translation>%1: wurde in einem anderen Bezugssystem gezeichnet als dem des %2, die Lage im %3 ist daher nicht bekannt; gehört es doch zu diesem %4, fügen Sie es noch einmal hinzu und wählen Sie „auf dem CT“, oder fügen Sie das MR hinzu, auf dem gezeichnet wurde</translation>
     </message>
     <message>
-        <source>%1: states another patient's ID, name or date of birth than the case's images do; look whether it is this patient's, and say --other-patient if it is to be added all the same</source>
-        <translation>%1: nennt eine andere Patienten-ID, einen anderen Namen oder ein anderes Geburtsdatum als die Bilder des Falls; sehen Sie nach, ob es dieser Patient ist</translation>
+        <source>%1: states another patient than the case's images do (what differs: %~2); look whether it is this patient's, and say --other-patient if it is to be added all the same</source>
+        <translation>%1: nennt einen anderen Patienten als die Bilder des Falls (es unterscheiden sich: %~2); sehen Sie nach, ob es dieser Patient ist</translation>
     </message>
     <message>
         <source>read</source>
@@ -1496,6 +1516,30 @@
         <translation>„%1“ kann kein Name eines Materials sein: Er besteht aus a bis z, 0 bis 9 und Bindestrichen, höchstens 40</translation>
     </message>
     <message>
+        <source>must lie %~1, it is %#2</source>
+        <translation>muss %~1 liegen, ist aber %#2</translation>
+    </message>
+    <message>
+        <source>above 0 GPa</source>
+        <translation>über 0 GPa</translation>
+    </message>
+    <message>
+        <source>above 0 and at most at 2</source>
+        <translation>über 0 und höchstens bei 2</translation>
+    </message>
+    <message>
+        <source>above 0 HV</source>
+        <translation>über 0 HV</translation>
+    </message>
+    <message>
+        <source>within -60 to 60 degrees</source>
+        <translation>zwischen -60 und 60 Grad</translation>
+    </message>
+    <message>
+        <source>above 0 and at most at 1</source>
+        <translation>über 0 und höchstens bei 1</translation>
+    </message>
+    <message>
         <source>cannot be removed</source>
         <translation>kann nicht entfernt werden</translation>
     </message>
@@ -2260,6 +2304,10 @@
         <translation>die Mitte dessen, was beide Bilder zeigen</translation>
     </message>
     <message>
+        <source>the case has no ossicle, tympanic cavity or inner ear on the %~1, so that the error is stated at the centre of the images, which may be far from the ear; put the crosshair in the middle ear and choose it here, or choose a structure</source>
+        <translation>der Fall hat kein Gehörknöchelchen, keine Paukenhöhle und kein Innenohr auf dem %~1, daher wird der Fehler in der Mitte der Bilder angegeben, die weit vom Ohr entfernt sein kann; setzen Sie das Fadenkreuz ins Mittelohr und wählen Sie es hier, oder wählen Sie eine Struktur</translation>
+    </message>
+    <message>
         <source>stopped before its end</source>
         <translation>vor dem Ende abgebrochen</translation>
     </message>
@@ -2793,6 +2841,10 @@
     <message>
         <source>bone is what its density says; only structures and meshes have a tissue of their own</source>
         <translation>Knochen ist, was seine Dichte sagt; nur Strukturen und Netze haben ein eigenes Gewebe</translation>
+    </message>
+    <message>
+        <source>rigid</source>
+        <translation>starr</translation>
     </message>
     <message>
         <source>How a structure yields: newtons a millimetre deep</source>

@@ -343,6 +343,9 @@ TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPatientJoins)
     const std::string words = error.what();
     EXPECT_EQ(error.fault(), core::Fault::Refused);
     EXPECT_NE(words.find("--other-patient"), std::string::npos) << words;
+    EXPECT_NE(words.find("(what differs: patient ID and patient name)"), std::string::npos)
+        << words;
+    EXPECT_EQ(error.differing, "patient ID and patient name");
     for (const char* secret : {"4711", "4712", "Doe", "Roe"})
       EXPECT_EQ(words.find(secret), std::string::npos) << words;
   }
@@ -352,6 +355,13 @@ TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPatientJoins)
   const auto failures = presenters::addSoundParts(value, both, {});
   ASSERT_EQ(failures.size(), 1u);
   EXPECT_TRUE(failures[0].isOtherPatient);
+  EXPECT_EQ(failures[0].differing, "patient ID and patient name");
+  both.mr = {writeSeriesOf("T0", "4712", "Doe^Jane"), writeSeriesOf("T9", "4711", "Roe^Jane")};
+  scene::Case another = value;
+  const auto each = presenters::addSoundParts(another, both, {});
+  ASSERT_EQ(each.size(), 2u);
+  EXPECT_EQ(each[0].differing, "patient ID");
+  EXPECT_EQ(each[1].differing, "patient name");
   ASSERT_EQ(value.mr.size(), 1u);
   EXPECT_TRUE(value.mr[0].notes.empty());
   add(writeSeriesOf("T3", "ANONYMOUS", "")); // states none

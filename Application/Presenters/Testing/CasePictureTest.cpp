@@ -1,7 +1,11 @@
+#include <array>
+#include <cstdlib>
+
 #include <gtest/gtest.h>
 
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/LabelledPicture.h"
 
 using namespace petrous;
 using Eigen::Vector3d;
@@ -35,7 +39,46 @@ int sideOf(const scene::Case& value)
   return eye.x() > 0.0 ? 1 : -1;
 }
 
+// Bright pixels at the middles of the left, right, top and bottom edge, and elsewhere, in a black
+// picture with the letters of that camera.
+std::array<int, 5> lettersOf(const core::CameraPose& camera, double magnified)
+{
+  const int edge = static_cast<int>(200 * magnified);
+  const int margin = static_cast<int>(40 * magnified);
+  rendering::Picture picture{
+      edge, edge, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(edge * edge), 0)};
+  presenters::addEdgeLetters(picture, camera, magnified);
+  std::array<int, 5> ink{};
+  const auto isMiddle = [&](int place) { return std::abs(place - edge / 2) < margin; };
+  for (int row = 0; row < edge; ++row)
+    for (int column = 0; column < edge; ++column)
+      if (*picture.pixel(column, row) > 128)
+        ++ink[isMiddle(row) && column < margin           ? 0
+              : isMiddle(row) && column >= edge - margin ? 1
+              : isMiddle(column) && row < margin         ? 2
+              : isMiddle(column) && row >= edge - margin ? 3
+                                                         : 4];
+  return ink;
+}
+
 } // namespace
+
+TEST(CasePicture, ItsEdgesBearThePatientsDirections)
+{
+  core::CameraPose upright; // from in front: R and L beside, S above, I below
+  core::CameraPose inverted = upright;
+  inverted.viewUp = -upright.viewUp;
+  const auto [left, right, top, bottom, elsewhere] = lettersOf(upright, 1.0);
+  for (const int letter : {left, right, top, bottom})
+    EXPECT_GT(letter, 5);
+  EXPECT_EQ(elsewhere, 0);
+  EXPECT_GT(top, bottom) << "an S has more ink than an I";
+  EXPECT_GT(left, right) << "an R has more than an L";
+  const auto turned = lettersOf(inverted, 1.0);
+  EXPECT_GT(turned[3], turned[2]);
+  EXPECT_GT(turned[1], turned[0]);
+  EXPECT_NEAR(lettersOf(upright, 3.0)[0], 9.0 * left, 0.5 * 9.0 * left) << "as large on paper";
+}
 
 TEST(CasePicture, AnImageThatSaysWhereItLiesIsSeenFromThere)
 {

@@ -121,6 +121,7 @@ TEST_F(CaseRegistration, StatesItsErrorAtTheMiddleEar)
 
   addStructure(value, "sigmoid sinus", {3, 3, 3});
   EXPECT_EQ(defaultPlace(value, request).words, "the centre of the CT") << "is no ear";
+  EXPECT_TRUE(earNames(value).empty());
   addStructure(value, "lateral semicircular canal", {4, 3, 3});
   EXPECT_EQ(defaultPlace(value, request).words, "the middle of 'lateral semicircular canal'");
   addStructure(value, "Cochlea", {5, 3, 3});
@@ -134,6 +135,8 @@ TEST_F(CaseRegistration, StatesItsErrorAtTheMiddleEar)
 
   value.labels.back().drawnOn = "T2"; // which is not placed yet
   EXPECT_EQ(defaultPlace(value, request).words, "the middle of 'tympanic_cavity'");
+  EXPECT_EQ(earNames(value),
+            (std::vector<std::string>{"tympanic_cavity", "Cochlea", "lateral semicircular canal"}));
   EXPECT_THROW(placeOf(value, "incus"), core::InvalidParameter);
   EXPECT_THROW(placeOf(value, "zebra"), core::InvalidParameter);
 }

@@ -101,6 +101,44 @@ TEST_F(CatalogueEditorTest, RefusesWhatTheLawsDoNotAllowAndStaysAsItWas)
   EXPECT_FALSE(editor.changed());
 }
 
+TEST_F(CatalogueEditorTest, RefusesANumberWithItsRangeInTheUnitOfTheTable)
+{
+  CatalogueEditor editor(folder);
+  const auto refusal = [](const auto& change)
+  {
+    try
+    {
+      change();
+    }
+    catch (const core::InvalidParameter& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  const auto ofMaterial = [&](double CatalogueEditor::Material::*field, double value)
+  {
+    auto one = editor.materials()[0];
+    one.*field = value;
+    return refusal([&] { editor.setMaterial(0, one); });
+  };
+  using Material = CatalogueEditor::Material;
+  EXPECT_EQ(ofMaterial(&Material::specificEnergy, -3.0), "must lie above 0 GPa, it is -3");
+  EXPECT_EQ(ofMaterial(&Material::hardness, 0.0), "must lie above 0 HV, it is 0");
+  EXPECT_EQ(ofMaterial(&Material::friction, 2.5), "must lie above 0 and at most at 2, it is 2.5");
+  const auto ofBurr = [&](std::size_t row, double value)
+  {
+    auto one = editor.burrs()[row];
+    one.constant = value;
+    return refusal([&] { editor.setBurr(row, one); });
+  };
+  EXPECT_EQ(ofBurr(0, 70.0), "must lie within -60 to 60 degrees, it is 70");
+  EXPECT_EQ(ofBurr(1, 1.5), "must lie above 0 and at most at 1, it is 1.5");
+  // Of no single number; no file is named, as there is none yet.
+  EXPECT_EQ(ofBurr(0, 60.0).find(".json"), std::string::npos) << ofBurr(0, 60.0);
+  EXPECT_NE(ofBurr(0, 60.0), "taken");
+}
+
 TEST_F(CatalogueEditorTest, TheProgramsOwnNeedsNoFile)
 {
   CatalogueEditor editor(folder);

@@ -367,3 +367,14 @@ TEST(Measuring, WritesATableThatIsReadAgain)
   EXPECT_EQ(rows[5].cells[0], "left");
   EXPECT_EQ(rows[5].cells[5], "unknown");
 }
+
+TEST(Measuring, KnowsWhetherItsTableWouldBeEmpty)
+{
+  scene::Case value = twoBallsAndATube();
+  EXPECT_TRUE(hasMeasurementRows(value)) << "the volumes of structures";
+  value.labels.clear();
+  EXPECT_FALSE(hasMeasurementRows(value));
+  EXPECT_EQ(core::csvRows(measurementsCsv(value), "t", ',').size(), 1U) << "the header alone";
+  value.measurements = {made(Kind::Mark, {{-1.25, 2, 3}})};
+  EXPECT_TRUE(hasMeasurementRows(value));
+}

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Presenters/CaseStamp.h"
 
 using petrous::presenters::earDoubt;
@@ -142,6 +143,15 @@ TEST(Phrasebook, PartsOfATextAreFoundAndWhatIsNoPhraseStays)
 }
 
 // The German of each, with its own values, and of no other.
+TEST(GermanPhrases, HaveTheWordsThatStandForNoNumber)
+{
+  for (const auto& property : petrous::appearance::kStructureProperties)
+    if (property.off && property.isNumber())
+    {
+      EXPECT_TRUE(germanPhrases().find(property.off)) << property.off;
+    }
+}
+
 TEST(GermanPhrases, EachIsFoundAsItself)
 {
   ASSERT_GT(germanPhraseList().size(), 1000U);

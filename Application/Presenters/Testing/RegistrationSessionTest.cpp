@@ -291,6 +291,21 @@ TEST_F(RegistrationSessionTest, AsksForWhatTheAimSays)
   EXPECT_FALSE(session.request(Way::Refine).lookAround);
 }
 
+TEST_F(RegistrationSessionTest, SaysThatTheMiddleEarIsNotKnown)
+{
+  model.changeMr([](scene::Case& value) { value.labels = {drawnOn(value.mr[0], "incus")}; });
+  EXPECT_NE(session.placeNote().find("put the crosshair in the middle ear"), std::string::npos)
+      << "its MR is not registered: " << session.placeNote();
+  RegistrationAim aim;
+  aim.place = RegistrationAim::Place::Crosshair;
+  session.setAim(aim);
+  EXPECT_EQ(session.placeNote(), "");
+  session.setAim({});
+  EXPECT_NE(session.placeNote(), "");
+  session.take(result(scene::Registration::Verdict::Good));
+  EXPECT_EQ(session.placeNote(), "");
+}
+
 TEST_F(RegistrationSessionTest, OffersForTheAimOnlyWhatCanBe)
 {
   model.changeMr([](scene::Case& value) { value.labels = {drawnOn(value.mr[0], "tumour")}; });

@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include "petrous/Core/NumberText.h"
 #include "petrous/Phantom/Phantom.h"
 #include "petrous/Presenters/SegmentEditor.h"
 #include "petrous/Segmentation/MaskOperations.h"
@@ -174,6 +175,27 @@ TEST_F(SegmentEditorTest, AThresholdIsProposedSeenAndBecomesAStructure)
   EXPECT_EQ(made->voxels, count(truth));
   EXPECT_FALSE(editor.hasDraft());
   EXPECT_EQ(editor.tool(), Tool::None);
+}
+
+TEST_F(SegmentEditorTest, ANameThatIsTakenIsToldAsItIsShown)
+{
+  const auto bone = [](SegmentValues& values)
+  {
+    values.lower = 1950.0;
+    values.upper = 2000.0;
+  };
+  open();
+  editor.setTool(Tool::Threshold);
+  set(bone);
+  work();
+  editor.setName("facial_nerve");
+  editor.create();
+  editor.setTool(Tool::Threshold);
+  set(bone);
+  work();
+  editor.setName("Facial Nerve");
+  EXPECT_EQ(editor.whyNotCreate(),
+            "The case has a structure 'facial nerve' already; choose another name.");
 }
 
 TEST_F(SegmentEditorTest, OnlyWhatHangsTogetherWithTheClickedPointCounts)
@@ -915,7 +937,13 @@ TEST_F(SegmentEditorTest, ANerveIsTracedAnewWhenItsNameSaysHowWideItMayBe)
   EXPECT_NE(editor.whyNotCreate(), "");
   work();
   EXPECT_NE(editor.note().find("by its name at most 1.30 mm"), std::string::npos) << editor.note();
+  ASSERT_TRUE(editor.shownRadius());
+  EXPECT_LE(*editor.shownRadius(), 1.3);
+  EXPECT_NE(editor.note().find("radius " + core::fixedText(*editor.shownRadius(), 2) + " mm"),
+            std::string::npos)
+      << editor.note();
   set([](SegmentValues& values) { values.tubeRadius = 0.5; });
+  EXPECT_DOUBLE_EQ(editor.shownRadius().value_or(0.0), 0.5);
   EXPECT_EQ(editor.note().find("by its name"), std::string::npos) << editor.note();
   editor.setName("chorda tympani");
   EXPECT_FALSE(editor.previewPending()) << "the radius is given";

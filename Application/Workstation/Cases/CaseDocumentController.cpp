@@ -112,7 +112,7 @@ QString megabytes(std::uintmax_t bytes)
   return CaseDocumentController::tr("%1 MB").arg(1e-6 * static_cast<double>(bytes), 0, 'f', 1);
 }
 
-// "CT, MR “T2”, 12 structures, 1 mesh, 3 strokes (24.1 mm³ removed)".
+// "CT, MR “T2”, 12 structures, 1 mesh, 3 strokes, and 1 undone".
 QString contentsOf(const scene::Case& value, bool planOnly)
 {
   const auto counted = [](std::size_t count, const QString& one, const QString& many)
@@ -135,14 +135,30 @@ QString contentsOf(const scene::Case& value, bool planOnly)
                        CaseDocumentController::tr("meshes"));
   }
   const std::size_t strokes = value.dissection.strokes().size();
+  const std::size_t applied = value.applied();
+  const std::size_t undone = value.dissection.history().ahead();
   parts += strokes == 0 ? CaseDocumentController::tr("nothing drilled")
-                        : counted(strokes, CaseDocumentController::tr("stroke"),
+                        : counted(applied, CaseDocumentController::tr("stroke"),
                                   CaseDocumentController::tr("strokes"));
+  if (undone > 0)
+    parts += CaseDocumentController::tr("and %1 undone").arg(undone);
+  if (strokes > applied + undone)
+    parts +=
+        CaseDocumentController::tr("and %1 of other approaches").arg(strokes - applied - undone);
   QString text = parts.join(", ");
   if (planOnly)
     text += CaseDocumentController::tr(", looks and registrations; no images, structures or "
                                        "meshes: it is restored where the very same CT is");
   return text;
+}
+
+// "“a.nrrd”, “b.nrrd”".
+QString quotedNames(const std::vector<presenters::PartSource>& sources)
+{
+  QStringList names;
+  for (const presenters::PartSource& source : sources)
+    names += CaseDocumentController::tr("“%1”").arg(nameOf(source.path));
+  return names.join(", ");
 }
 
 std::string unusedName(const std::string& wanted, const std::vector<std::string>& taken)
@@ -224,8 +240,9 @@ void CaseDocumentController::connectBanners()
           {
             m_unsaved.hide();
             m_unsaved.setButtonVisible("quitUnsaved", false);
+            const QString why = std::exchange(m_whyNamed, {});
             if (std::exchange(m_sayWhenSaved, false))
-              emit statusMessage(tr("Saved as %1").arg(name));
+              emit statusMessage(why.isEmpty() ? tr("Saved as %1").arg(name) : why);
           });
 
   m_removed.addButton("restorePart", tr("Put back"), [this] { restorePart(); });
@@ -271,6 +288,7 @@ void CaseDocumentController::watchForDamage()
 void CaseDocumentController::notSaved(const QString& why)
 {
   m_sayWhenSaved = false;
+  m_whyNamed.clear();
   m_unsaved.setText(tr("Not saved: %1 The work is still open in this window.").arg(sentence(why)));
   m_unsaved.show();
 }
@@ -904,10 +922,8 @@ void CaseDocumentController::makeCase(
          const bool isPatients = presenters::IdentityText(*value).mayIdentify(name);
          if (isPatients)
            value->name = presenters::freeCaseName(library, "case");
-         QStringList labels;
-         for (const presenters::PartSource& part : parts.labels)
-           labels += nameOf(part.path);
-         return [this, value, failures, report, isPatients, what = labels.join("”, “")]() mutable
+         const QString what = quotedNames(parts.labels);
+         return [this, value, failures, report, isPatients, what]() mutable
          {
            endWork();
            const QString named = words(value->name);
@@ -915,9 +931,15 @@ void CaseDocumentController::makeCase(
              presenters::leaveOutside(*value, report);
            const bool isShown = adopt(std::move(*value));
            if (isPatients)
-             emit statusMessage(tr("The case is called “%1”, since the name of its folder may be "
-                                   "the patient's; F2 in the library gives it another one")
-                                    .arg(named));
+           {
+             const QString why =
+                 tr("The case is called “%1”: the name of its folder was not taken, "
+                    "as it may be the patient's; F2 in the library, or Save as…, "
+                    "gives it another one")
+                     .arg(named);
+             emit statusMessage(why);
+             m_whyNamed = isShown ? why : QString(); // again in place of “Saved as”
+           }
            // Where it could only be kept, the case that stays open is another one.
            tell(failures, report, {isShown ? m_model.shownAs() : 0, named});
          };
@@ -984,12 +1006,13 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
         const bool isAny =
             failures.size() < parts.mr.size() + parts.labels.size() + parts.meshes.size();
         const bool onlyLabels = parts.mr.empty() && parts.meshes.empty();
-        return [this, value, before, what, shownAs, onlyImages, onlyLabels, isAny, failures, report,
-                earlier]() mutable
+        const QString labels = quotedNames(parts.labels);
+        return [this, value, before, what, labels, shownAs, onlyImages, onlyLabels, isAny, failures,
+                report, earlier]() mutable
         {
           endWork();
           const Target target{shownAs, words(before.name)};
-          const Outside outside = isAny ? askOutside(report, what) : Outside::Added;
+          const Outside outside = isAny ? askOutside(report, labels) : Outside::Added;
           const bool isLeft = outside == Outside::AllLeft && onlyLabels;
           if (outside != Outside::Added)
             presenters::leaveOutside(*value, report);
@@ -997,7 +1020,7 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
             return refuse(
                 tr("%1 was not added: the case “%2” is not open any more.").arg(what, target.name));
           if (isLeft)
-            emit statusMessage(tr("Not added: “%1”").arg(what));
+            emit statusMessage(tr("Not added: %1").arg(what));
           else if (isAny)
           {
             const QString name = words(m_model.value().name);
@@ -1017,7 +1040,7 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
 }
 
 // What becomes of structures that lie wholly outside of the image: of another patient, or another
-// place. `what`: their files.
+// place. `what`: quotedNames of their files.
 CaseDocumentController::Outside
 CaseDocumentController::askOutside(const std::vector<presenters::StructureReport>& report,
                                    const QString& what)
@@ -1038,18 +1061,17 @@ CaseDocumentController::askOutside(const std::vector<presenters::StructureReport
   const QScopedValueRollback<bool> asking(m_asking, true);
   QMessageBox box(
       QMessageBox::Warning, tr("Another place?"),
-      read == 1
-          ? tr("The structure of “%1” lies outside the image of this case: nothing of it will "
-               "be seen or felt.")
-                .arg(what)
-      : isAll ? tr("None of the %2 structures of “%1” lies in the image of this case: nothing of "
+      read == 1 ? tr("The structure of %1 lies outside the image of this case: nothing of it will "
+                     "be seen or felt.")
+                      .arg(what)
+      : isAll ? tr("None of the %2 structures of %1 lies in the image of this case: nothing of "
                    "them will be seen or felt.")
                     .arg(what, QString::number(read))
       : outside.size() == 1
-          ? tr("1 of the %2 structures of “%1” lies outside the image of this case: nothing of it "
+          ? tr("1 of the %2 structures of %1 lies outside the image of this case: nothing of it "
                "will be seen or felt.")
                 .arg(what, QString::number(read))
-          : tr("%3 of the %2 structures of “%1” lie outside the image of this case: nothing of "
+          : tr("%3 of the %2 structures of %1 lie outside the image of this case: nothing of "
                "them "
                "will be seen or felt.")
                 .arg(what, QString::number(read), QString::number(outside.size())),
@@ -1358,7 +1380,7 @@ bool CaseDocumentController::askNewNames(presenters::PartSource& source,
   {
     AddPartsDialog::Part part;
     part.what = shownName(name);
-    part.name = unusedName(name, proposed);
+    part.name = unusedName(presenters::shownName(name), proposed);
     proposed.push_back(part.name);
     parts.push_back(std::move(part));
   }
@@ -1415,9 +1437,8 @@ bool CaseDocumentController::askOtherPatient(const presenters::PartFailure& fail
                                              const Target& target)
 {
   QMessageBox box(QMessageBox::Warning, tr("Another patient?"),
-                  tr("“%1” states another patient's ID, name or date of birth than the images of "
-                     "“%2” do.")
-                      .arg(titleOf(failure.source), target.name),
+                  tr("“%1” states another patient than the images of “%2” do. What differs: %3.")
+                      .arg(titleOf(failure.source), target.name, phrase(failure.differing)),
                   QMessageBox::NoButton, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askOtherPatient");

@@ -209,6 +209,7 @@ private:
   std::string m_reopen; // the case that was closed for maintenance
   bool m_prepareAgain = false;
   bool m_sayWhenSaved = false;
+  QString m_whyNamed;    // said in place of the name when it is saved; empty: the name is
   bool m_asking = false; // a modal dialog is open
   bool m_leaving = false;
   bool m_giveUp = false; // the window may close with unsaved changes

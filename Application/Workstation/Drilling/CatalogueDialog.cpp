@@ -73,6 +73,12 @@ void put(QTableWidget& table, int row, int column, const QString& text, bool isE
   item->setFlags(isEditable ? usual | Qt::ItemIsEditable : usual);
 }
 
+// "“Cortical bone”, Hardness, HV", as the table shows them.
+QString cellOf(const QTableWidget& table, const QString& row, int column)
+{
+  return CatalogueDialog::tr("“%1”, %2").arg(row, table.horizontalHeaderItem(column)->text());
+}
+
 QString number(double value)
 {
   return words(core::generalText(value));
@@ -160,8 +166,8 @@ CatalogueDialog::CatalogueDialog(presenters::CatalogueEditor editor,
   layout->addWidget(m_fault);
   layout->addWidget(buttons);
 
-  connect(m_materials, &QTableWidget::cellChanged, this, [this](int at) { materialEntered(at); });
-  connect(m_burrs, &QTableWidget::cellChanged, this, [this](int at) { burrEntered(at); });
+  connect(m_materials, &QTableWidget::cellChanged, this, &CatalogueDialog::materialEntered);
+  connect(m_burrs, &QTableWidget::cellChanged, this, &CatalogueDialog::burrEntered);
   connect(m_materials, &QTableWidget::itemSelectionChanged, this, &CatalogueDialog::enableRemove);
   connect(addOne, &QPushButton::clicked, this, &CatalogueDialog::add);
   connect(m_remove, &QPushButton::clicked, this, &CatalogueDialog::remove);
@@ -232,7 +238,7 @@ void CatalogueDialog::fillBurr(int row)
 }
 
 // What is refused is said, and the table shows what holds.
-void CatalogueDialog::enter(const std::function<void()>& change)
+void CatalogueDialog::enter(const std::function<void()>& change, const QString& where)
 {
   QString why;
   try
@@ -241,7 +247,8 @@ void CatalogueDialog::enter(const std::function<void()>& change)
   }
   catch (const core::Error& error)
   {
-    why = sentence(capitalized(toString(error)));
+    const QString what = sentence(toString(error));
+    why = where.isEmpty() ? capitalized(what) : tr("%1: %2").arg(where, what);
   }
   fill();
   m_fault->setText(why);
@@ -255,7 +262,7 @@ void CatalogueDialog::checkUnused(const std::string& material) const
                                  "' is that of a structure of the open case");
 }
 
-void CatalogueDialog::materialEntered(int row)
+void CatalogueDialog::materialEntered(int row, int column)
 {
   if (m_filling)
     return;
@@ -274,10 +281,12 @@ void CatalogueDialog::materialEntered(int row)
         one.hardness = numberIn(*m_materials, row, Hardness, one.hardness);
         one.source = textIn(*m_materials, row, MaterialSource, one.source);
         m_editor.setMaterial(at, one);
-      });
+      },
+      cellOf(*m_materials, phrase(m_editor.materials()[static_cast<std::size_t>(row)].title),
+             column));
 }
 
-void CatalogueDialog::burrEntered(int row)
+void CatalogueDialog::burrEntered(int row, int column)
 {
   if (m_filling)
     return;
@@ -293,7 +302,8 @@ void CatalogueDialog::burrEntered(int row)
           one.diameters = presenters::diametersFrom(diameters);
         one.source = textIn(*m_burrs, row, BurrSource, one.source);
         m_editor.setBurr(at, one);
-      });
+      },
+      cellOf(*m_burrs, m_burrs->item(row, Kind)->text(), column));
 }
 
 void CatalogueDialog::add()

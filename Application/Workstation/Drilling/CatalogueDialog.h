@@ -30,10 +30,11 @@ private:
   void fillMaterial(int row);
   void fillBurr(int row);
   void enableRemove();
-  void enter(const std::function<void()>& change);
+  /// `where`: row and column of the table, to the user; empty: of no cell.
+  void enter(const std::function<void()>& change, const QString& where = {});
   void checkUnused(const std::string& material) const;
-  void materialEntered(int row);
-  void burrEntered(int row);
+  void materialEntered(int row, int column);
+  void burrEntered(int row, int column);
   void add();
   void remove();
   void setBuiltIn();

@@ -329,6 +329,8 @@ void DrillController::setTool(Tool tool)
   applyBar();
   if (tool != Tool::None && m_model.hasCase() && !m_model.ready())
     emit tissueWanted();
+  if (tool == Tool::None)
+    dropHint();
   takeAtPointer();
 }
 
@@ -339,7 +341,17 @@ void DrillController::takeAtPointer()
     return;
   m_view.tool().PointAgain();
   if (m_driver.byMouse() && !m_view.underMouse())
+  {
+    m_hints = true;
     emit statusMessage(tr("Point at the patient in the 3D view: there the tool comes"));
+  }
+}
+
+// The tool has come, or is put away.
+void DrillController::dropHint()
+{
+  if (std::exchange(m_hints, false))
+    emit statusMessage({});
 }
 
 void DrillController::deviceCame()
@@ -506,6 +518,7 @@ void DrillController::putAway()
 
 void DrillController::hover(const interaction::PickRay& line)
 {
+  dropHint();
   const bool reads = m_tool == Tool::Pointer && m_devices.device();
   if (const auto hit = m_model.surfaceAt(line); hit && !reads)
     emit pointed(*hit);

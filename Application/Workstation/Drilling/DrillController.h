@@ -87,6 +87,7 @@ private:
   void putAway();
   void restartTool();
   void takeAtPointer();
+  void dropHint();
   session::TouchTool toolChosen() const;
   void prepareAhead();
   void prepareTool(const session::TouchTool& tool); // then it is taken up
@@ -124,6 +125,7 @@ private:
   QString m_fault; // as shown
   Tool m_tool = Tool::None;
   bool m_slicesFollow = true;
+  bool m_hints = false;                            // where the tool comes
   double m_turn = interaction::AimSettings().turn; // degrees
   double m_tilt = interaction::AimSettings().tilt;
   bool m_isLeft = false;

@@ -318,6 +318,8 @@ void ReplayPanel::say(const QString& text)
 void ReplayPanel::setRecordings(const QStringList& names, int current)
 {
   m_recordings->clear();
+  m_recordings->setPlaceholderText(names.isEmpty() ? tr("No recording yet")
+                                                   : tr("Choose a recording"));
   m_recordings->addItems(names);
   m_recordings->setCurrentIndex(current);
   m_recordings->setEnabled(!names.isEmpty());

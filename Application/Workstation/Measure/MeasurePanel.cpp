@@ -168,8 +168,8 @@ MeasurePanel::MeasurePanel(presenters::WorkstationModel& model,
   auto* remove = button(tr("&Delete"), "removeMeasurement", tr("Ctrl+Z brings it back (Del)"));
   auto* copy = button(tr("Cop&y"), "copyMeasurements",
                       tr("Names and values, to be pasted elsewhere: of the chosen one, or of all"));
-  auto* save = button(tr("E&xport…"), "exportMeasurements",
-                      tr("A table (CSV) of all measurements and of the volumes of structures"));
+  m_export = button(tr("E&xport…"), "exportMeasurements",
+                    tr("A table (CSV) of all measurements and of the volumes of structures"));
   m_ofOne = {go, rename, remove};
   m_ofAny = {copy};
   connect(go, &QPushButton::clicked, this, [this] { emit goToAsked(chosen()); });
@@ -177,11 +177,11 @@ MeasurePanel::MeasurePanel(presenters::WorkstationModel& model,
           [this] { edit(static_cast<std::size_t>(chosen())); });
   connect(remove, &QPushButton::clicked, this, [this] { emit removalAsked(chosen()); });
   connect(copy, &QPushButton::clicked, this, [this] { emit copyAsked(chosen()); });
-  connect(save, &QPushButton::clicked, this, &MeasurePanel::exportAsked);
+  connect(m_export, &QPushButton::clicked, this, &MeasurePanel::exportAsked);
   auto* buttons = new QGridLayout;
   buttons->setSpacing(4);
   int place = 0;
-  for (QPushButton* one : {go, rename, remove, copy, save})
+  for (QPushButton* one : {go, rename, remove, copy, m_export})
   {
     buttons->addWidget(one, place / 3, place % 3);
     ++place;
@@ -267,6 +267,17 @@ void MeasurePanel::fillStructures()
   m_measure->setEnabled(m_structure->count() > 0);
 }
 
+void MeasurePanel::stateChanged()
+{
+  enableExport(); // what was drilled has a row
+  emit strokesChanged();
+}
+
+void MeasurePanel::enableExport()
+{
+  m_export->setEnabled(m_model.hasCase() && presenters::hasMeasurementRows(m_model.value()));
+}
+
 int MeasurePanel::chosen() const
 {
   const auto items = m_list->selectedItems();
@@ -308,6 +319,7 @@ void MeasurePanel::refresh()
     one->setEnabled(m_editor.chosen().has_value());
   for (QPushButton* one : m_ofAny)
     one->setEnabled(!all.empty());
+  enableExport();
   const std::string hint = m_editor.hint();
   m_hint->setText(!m_refusal.isEmpty() ? m_refusal
                   : hint.empty() ? tr("Choose a tool, then click in the slices or on the surface "

@@ -29,6 +29,7 @@ public:
 
   void caseChanged() override;
   void partsChanged() override;
+  void stateChanged() override;
   void refresh();
   void say(const QString& line); ///< a refusal; empty: what the tool takes next
   void showBusy();               ///< a structure is being measured
@@ -36,6 +37,7 @@ public:
   void edit(std::size_t measurement); ///< its name
 
 signals:
+  void strokesChanged();
   void goToAsked(int measurement);
   void renamed(int measurement, const QString& name);
   void shownAsked(int measurement, bool shown);
@@ -52,6 +54,7 @@ protected:
 private:
   int chosen() const;
   void fillStructures();
+  void enableExport();
   void takeItem(QTreeWidgetItem* item, int column);
 
   presenters::WorkstationModel& m_model;
@@ -63,6 +66,7 @@ private:
   QComboBox* m_structure;
   QComboBox* m_other;
   QPushButton* m_measure;
+  QPushButton* m_export;
   QTreeWidget* m_quantities;
   std::vector<QPushButton*> m_ofOne;
   std::vector<QPushButton*> m_ofAny;

@@ -88,6 +88,12 @@ void RegistrationTargetBox::addPlace()
                          "tympanic cavity or the inner ear; without these the centre of what both "
                          "images show"));
   addChoice(tr("Error &at"), m_place);
+  m_placeNote = new QLabel;
+  m_placeNote->setObjectName("registrationPlaceNote");
+  m_placeNote->setWordWrap(true);
+  m_placeNote->setTextFormat(Qt::PlainText);
+  m_placeNote->setStyleSheet(kWarningStyle);
+  m_form->addRow(m_placeNote);
   m_bound.add(
       m_place,
       [this]
@@ -149,7 +155,15 @@ void RegistrationTargetBox::refresh()
   const bool choice = m_onto->count() > 1;
   m_onto->setVisible(choice);
   m_form->labelForField(m_onto)->setVisible(choice);
+  showPlaceNote();
   m_bound.refresh();
+}
+
+void RegistrationTargetBox::showPlaceNote()
+{
+  const QString note = sentence(capitalized(phrase(m_session.placeNote())));
+  m_placeNote->setText(note);
+  m_placeNote->setVisible(!note.isEmpty());
 }
 
 void RegistrationTargetBox::choose(const std::function<void(Aim&)>& change)
@@ -157,6 +171,7 @@ void RegistrationTargetBox::choose(const std::function<void(Aim&)>& change)
   Aim aim = m_session.aim();
   change(aim);
   m_session.setAim(aim);
+  showPlaceNote();
   emit chosen();
 }
 

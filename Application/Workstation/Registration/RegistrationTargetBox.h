@@ -9,6 +9,7 @@
 
 class QComboBox;
 class QFormLayout;
+class QLabel;
 class QSpinBox;
 
 namespace petrous::workstation
@@ -35,6 +36,7 @@ private:
   void addBox();
   void addChoice(const QString& label, QComboBox* box);
   void fillPlaces();
+  void showPlaceNote();
   /// Changes the session's aim.
   void choose(const std::function<void(presenters::RegistrationAim&)>& change);
 
@@ -44,6 +46,7 @@ private:
   QSpinBox* m_box;
   QComboBox* m_onto;
   QComboBox* m_place;
+  QLabel* m_placeNote;
   Bindings m_bound;
 };
 

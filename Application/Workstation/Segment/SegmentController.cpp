@@ -120,7 +120,7 @@ SegmentController::SegmentController(presenters::WorkstationModel& model, SliceC
   , m_slices(slices)
   , m_window(window)
   , m_editor(model)
-  , m_menu(new QMenu(tr("Seg&ment"), &window))
+  , m_menu(new QMenu(tr("Se&gment"), &window))
   , m_tools(new QActionGroup(this))
   , m_work(std::make_unique<BackgroundWork>())
   , m_surfaceWork(std::make_unique<BackgroundWork>())

@@ -469,17 +469,24 @@ QWidget* SegmentPanel::nervePage()
             estimated, [this] { return !m_editor.values().tubeRadius; },
             [this](bool on)
             {
+              const double radius = std::round(100.0 * shownRadius()) / 100.0; // as it is shown
               change([=](Values& values)
-                     { values.tubeRadius = on ? std::nullopt : std::optional(kTubeRadius); });
+                     { values.tubeRadius = on ? std::nullopt : std::optional(radius); });
             });
         auto* radius = m_bound.add(
             numberBox("nerveRadius", tr("Of the tube, everywhere"), {0.1, 5.0, tr(" mm"), 2, 0.05}),
-            [this] { return m_editor.values().tubeRadius.value_or(kTubeRadius); },
+            [this] { return shownRadius(); },
             [this](double mm) { change([=](Values& values) { values.tubeRadius = mm; }); });
         addRow(form, tr("Ra&dius"), radius, estimated);
       },
       tr("Add the tube to the draft"));
   return whole;
+}
+
+double SegmentPanel::shownRadius() const
+{
+  const auto given = m_editor.values().tubeRadius;
+  return given ? *given : m_editor.shownRadius().value_or(kTubeRadius);
 }
 
 QWidget* SegmentPanel::addFoot()

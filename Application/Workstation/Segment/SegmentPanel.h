@@ -65,6 +65,7 @@ private:
   void addTools(QVBoxLayout& layout, const std::vector<QAction*>& tools);
   void addPages(QVBoxLayout& layout);
   QWidget* addFoot();
+  double shownRadius() const; // of the nerve, mm
   QWidget* page(const QString& help, const std::function<void(QFormLayout&)>& fill,
                 const QString& step);
   void addRange(QFormLayout& form, const char* lower, const char* upper);

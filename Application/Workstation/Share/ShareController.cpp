@@ -180,6 +180,7 @@ void ShareController::printPicture()
                                             progress.part(0.1, 0.95), kTile, samples);
                  const double magnified = std::max(size.height() / 600.0, 1.0);
                  presenters::addLines(picture, linesOf(value), magnified);
+                 presenters::addEdgeLetters(picture, *value.camera, magnified);
                  presenters::addScaleBar(
                      picture, rendering::millimetresPerPixel(*value.camera, size.height()),
                      value.camera->parallelScale ? "" : "in the focal plane", magnified);

@@ -221,7 +221,8 @@ int PrintDialog::samples() const
 QString PrintDialog::problem() const
 {
   const rendering::PrintSize wanted = size();
-  m_note->setText(tr("%1 x %2 pixels, of the 3D view as it is, with scale bar and side.")
+  m_note->setText(tr("%1 x %2 pixels, of the 3D view with scale bar, side and the patient's "
+                     "directions. Measurements, bone thickness and tool are left out.")
                       .arg(wanted.width())
                       .arg(wanted.height()));
   if (std::max(wanted.width(), wanted.height()) > rendering::PrintSize::kMaxEdge)

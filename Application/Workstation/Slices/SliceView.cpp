@@ -162,6 +162,8 @@ void SliceView::setOverlay(std::shared_ptr<const presenters::SliceOverlay> overl
   m_overlay = std::move(overlay);
   m_overlayAlone = alone;
   stale();
+  if (m_pointer && m_presenter) // another image lies under it now
+    emit pointed(pointedAt(*m_pointer));
 }
 
 const presenters::GreyWindow& SliceView::seenWindow() const

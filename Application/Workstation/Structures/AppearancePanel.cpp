@@ -288,6 +288,19 @@ void AppearancePanel::appearanceChanged()
     refresh();
 }
 
+void AppearancePanel::follow(const std::vector<std::string>& parts)
+{
+  if (parts.size() != 1)
+    return;
+  std::pair followed(m_model.shownAs(), parts.front());
+  if (followed == m_followed) // the list is filled anew at times
+    return;
+  m_followed = std::move(followed);
+  m_wanted = parts.front();
+  if (isVisible())
+    refresh();
+}
+
 void AppearancePanel::showEvent(QShowEvent* event)
 {
   Panel::showEvent(event);
@@ -303,6 +316,11 @@ void AppearancePanel::hideEvent(QHideEvent* event)
 void AppearancePanel::refresh()
 {
   m_editor.refresh();
+  if (const auto part = std::exchange(m_wanted, std::nullopt))
+  {
+    m_fault.clear();
+    m_editor.select(*part);
+  }
   showEditor();
   count();
 }
@@ -424,7 +442,9 @@ void AppearancePanel::showNote()
       text = tr("A space without tissue tints the bone around it: its colours count, its opacities "
                 "do not.");
     else if (part->look.opacity >= 1.0F)
-      text = tr("The surface is opaque: colours and highlight are seen, opacities below 100 %.");
+      text =
+          tr("The surface is opaque, so the opacities of this curve do not show, only its colours "
+             "and highlights; lower the opacity of the surface to look inside.");
   }
   m_note->setText(text);
   m_note->setVisible(!text.isEmpty());

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "BackgroundWork.h"
 #include "Bind.h"
 #include "Panels.h"
@@ -27,6 +33,9 @@ public:
 
   void caseChanged() override;
   void appearanceChanged() override;
+  /// The parts that are selected in the list of structures: one alone is shown, now or when the
+  /// panel is opened. A choice made here stays until another one is selected there.
+  void follow(const std::vector<std::string>& parts);
 
   const presenters::AppearanceEditor& editor() const noexcept { return m_editor; }
 
@@ -70,7 +79,9 @@ private:
   QPushButton* m_add;
   QPushButton* m_remove;
   QSlider* m_surface;
-  QString m_fault; // of the last action
+  QString m_fault;                                  // of the last action
+  std::pair<std::uint64_t, std::string> m_followed; // case (shownAs) and part last selected there
+  std::optional<std::string> m_wanted;              // likewise, until the panel shows it
   Bindings m_bound;
   BackgroundWork m_work; // counts histograms
 };

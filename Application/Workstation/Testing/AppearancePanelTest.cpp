@@ -10,6 +10,7 @@
 #include <QLabel>
 #include <QMenu>
 #include <QSlider>
+#include <QTreeView>
 
 #include "GuiTest.h"
 #include "TransferPlot.h"
@@ -164,6 +165,28 @@ TEST_F(AppearancePanelTest, NumbersAreTyped)
   QTest::keyClick(&plot(), Qt::Key_C, Qt::ControlModifier);
   EXPECT_EQ(QApplication::clipboard()->text().toStdString(),
             R"({"points":[{"color":[1.0,1.0,1.0],"opacity":0.25,"specular":0.5,"value":812.0}]})");
+}
+
+TEST_F(AppearancePanelTest, FollowsTheListOfStructures)
+{
+  saveBall("ball");
+  openWindow("ball");
+  ASSERT_TRUE(waitFor([&] { return window().model().ready() && window().model().drawable(); }));
+  structureList().setCurrentIndex(structureCell("nerve"));
+  QTest::keyClick(&window(), Qt::Key_F10);
+  ASSERT_TRUE(waitFor([this] { return plot().isVisible(); }));
+  EXPECT_EQ(panel().editor().selected()->name, "nerve");
+  structureList().setCurrentIndex(structureCell("ct"));
+  EXPECT_EQ(panel().editor().selected()->name, "ct");
+  // A choice in the panel stays, also when the panel is opened again or a look changes.
+  auto* part = panel().findChild<QComboBox*>("appearancePart");
+  const int nerve = part->findText("nerve");
+  part->setCurrentIndex(nerve);
+  EXPECT_EQ(panel().editor().selected()->name, "nerve");
+  QTest::keyClick(&window(), Qt::Key_F10);
+  QTest::keyClick(&window(), Qt::Key_F10);
+  ASSERT_TRUE(waitFor([this] { return plot().isVisible(); }));
+  EXPECT_EQ(panel().editor().selected()->name, "nerve");
 }
 
 TEST_F(AppearancePanelTest, AClickChoosesTheCurve)

@@ -99,6 +99,10 @@ TEST_F(CatalogueDialogs, WhatTheLawsDoNotAllowIsToldAndNotTaken)
     EXPECT_EQ(materials.item(0, 4)->text(), hardness) << wrong;
     EXPECT_TRUE(edit.findChild<QLabel*>("catalogueFault")->isVisible()) << wrong;
   }
+  materials.item(0, 2)->setText("-3");
+  EXPECT_EQ(edit.findChild<QLabel*>("catalogueFault")->text(),
+            QString::fromUtf8("“Cortical bone”, Cutting energy, GPa: must lie above 0 GPa, it is "
+                              "-3."));
   EXPECT_FALSE(materials.item(0, 0)->flags() & Qt::ItemIsEditable) << "presets give it";
   EXPECT_FALSE(edit.findChild<QPushButton*>("removeMaterial")->isEnabled());
   auto& burrs = table(edit, "burrs");

@@ -74,6 +74,24 @@ TEST_F(Drill, UndoBringsThePictureBackAndRedoTheHole)
   EXPECT_EQ(differentPixels(drilled, picture()), 0);
 }
 
+TEST_F(Drill, StrokesAreNumberedAsTheHistoryHasThem)
+{
+  saveBall("ball");
+  openWindow();
+  drill(600);
+  ASSERT_TRUE(strokeEnds());
+  action("Undo")->trigger();
+  EXPECT_EQ(window().statusBar()->currentMessage(), "Stroke 1 undone");
+  drill(600);
+  ASSERT_TRUE(strokeEnds());
+  ASSERT_EQ(window().model().value().dissection.strokes().size(), 2u) << "the first is set aside";
+  ASSERT_EQ(window().model().value().applied(), 1u);
+  action("Undo")->trigger();
+  EXPECT_EQ(window().statusBar()->currentMessage(), "Stroke 2 undone");
+  action("Redo")->trigger();
+  EXPECT_EQ(window().statusBar()->currentMessage(), "Stroke 2 drilled again");
+}
+
 TEST_F(Drill, AFreshWindowShowsTheSameHole)
 {
   saveBall("ball");
@@ -476,6 +494,8 @@ TEST_F(Drill, SaysWhereTheBurrIsAwaitedIfThePointerIsElsewhere)
       waitFor([this] { return window().statusBar()->currentMessage().contains("3D view"); }))
       << window().statusBar()->currentMessage().toStdString();
   EXPECT_FALSE(view().display().tool());
+  QTest::keyClick(&view(), Qt::Key_D);
+  EXPECT_EQ(window().statusBar()->currentMessage(), "") << "the tool is put away";
 }
 
 TEST_F(Drill, TheButtonShowsWhetherTheWheelLeads)

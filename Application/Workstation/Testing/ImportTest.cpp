@@ -17,6 +17,7 @@
 #include <QMimeData>
 #include <QProgressDialog>
 #include <QPushButton>
+#include <QStatusBar>
 #include <QTreeView>
 #include <QTreeWidget>
 
@@ -455,7 +456,8 @@ TEST_F(Import, LabelsThatLieOutsideTheCtAreToldInALine)
     onMessage(
         [&](QMessageBox& box)
         {
-          isAsked = box.objectName() == "askOutside" && box.text().contains("other.seg.nrrd");
+          isAsked = box.objectName() == "askOutside" &&
+                    box.text().contains(QString::fromUtf8("structure of “other.seg.nrrd” lies"));
           if (!wanted)
             return box.reject();
           for (QAbstractButton* one : box.buttons())
@@ -1309,10 +1311,18 @@ TEST_F(Import, AnMrOfAnotherPatientIsAskedAbout)
     dropPath(folder() / "mr");
     ASSERT_TRUE(waitFor([&] { return !asked.isEmpty(); }));
     EXPECT_FALSE(asked.contains("471")) << "a patient's ID";
+    EXPECT_TRUE(asked.contains("What differs: patient ID.")) << asked.toStdString();
     EXPECT_TRUE(settled());
   }
   ASSERT_TRUE(waitFor([this] { return window().model().value().mr.size() == 1; }));
   EXPECT_TRUE(settled());
+  // The note of it goes with the MR.
+  auto* banner = window().findChild<Banner*>("notesBanner");
+  ASSERT_TRUE(waitFor([banner] { return banner->isVisible(); }));
+  EXPECT_TRUE(banner->text().contains("added as asked")) << banner->text().toStdString();
+  const std::string mr = window().model().value().mr[0].name;
+  const_cast<presenters::WorkstationModel&>(window().model()).removePart(mr);
+  EXPECT_FALSE(banner->isVisible()) << banner->text().toStdString();
 }
 
 // The name of a case is its file's, and goes along wherever it is sent.
@@ -1339,6 +1349,10 @@ TEST_F(Import, ACaseIsNotNamedAfterThePatient)
                  !window().busy();
         }))
         << called;
+    const auto says = [this]
+    { return window().statusBar()->currentMessage().contains("may be the patient's"); };
+    EXPECT_TRUE(settled());
+    EXPECT_EQ(waitFor(says, 1000), QString(called).startsWith("case")) << "also when it is saved";
   }
 }
 
@@ -2018,7 +2032,7 @@ TEST_F(Import, ACaseIsArchivedAndRestored)
   ASSERT_GT(removed, 0.0);
   const fs::path whole = folder() / "whole.petrous";
   const fs::path plan = folder() / "plan.petrous";
-  const auto archive = [&](const fs::path& file, int kind)
+  const auto archive = [&](const fs::path& file, int kind, const char* drilled)
   {
     onDialog(
         [&, file, kind](QDialog& dialog)
@@ -2041,11 +2055,15 @@ TEST_F(Import, ACaseIsArchivedAndRestored)
     trigger(window(), "Archive…");
     EXPECT_TRUE(waitFor([&] { return fs::exists(file) && !told.isEmpty() && !window().busy(); }));
     for (const QString& part : QStringList{"ball", QString::fromStdString(file.string()), " MB",
-                                           "1 stroke", kind == 0 ? "CT, " : "no images"})
+                                           drilled, kind == 0 ? "CT, " : "no images"})
       EXPECT_TRUE(told.contains(part)) << told.toStdString();
   };
-  archive(whole, 0);
-  archive(plan, 1);
+  archive(whole, 0, "1 stroke");
+  archive(plan, 1, "1 stroke");
+  action("Undo")->trigger();
+  archive(folder() / "undone.petrous", 0, "0 strokes, and 1 undone");
+  action("Redo")->trigger();
+  EXPECT_TRUE(settled());
   EXPECT_FALSE(library::inspectArchive(whole).planOnly);
   EXPECT_TRUE(library::inspectArchive(plan).planOnly);
   EXPECT_EQ(library::inspectArchive(whole).name, "ball");

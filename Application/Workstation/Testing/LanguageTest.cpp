@@ -68,6 +68,19 @@ QStringList shownTexts()
   return texts;
 }
 
+// Alt and the letter open one menu, and no other.
+void expectOwnKeys(const MainWindow& window)
+{
+  std::set<QString> keys;
+  for (const QAction* action : window.menuBar()->actions())
+  {
+    const QString text = action->text();
+    ASSERT_TRUE(text.contains('&')) << text.toStdString();
+    const QString key = text.mid(text.indexOf('&') + 1, 1).toLower();
+    EXPECT_TRUE(keys.insert(key).second) << "Alt+" << key.toStdString() << " twice";
+  }
+}
+
 } // namespace
 
 TEST_F(LanguageTest, TheMenusAreGermanAndNumbersKeepTheirPoint)
@@ -79,14 +92,10 @@ TEST_F(LanguageTest, TheMenusAreGermanAndNumbersKeepTheirPoint)
   QApplication::installTranslator(&german);
   openWindow();
   QApplication::removeTranslator(&german);
-  std::set<QString> titles, keys;
+  expectOwnKeys(window());
+  std::set<QString> titles;
   for (const QAction* action : window().menuBar()->actions())
-  {
-    const QString text = action->text();
-    titles.insert(QString(text).remove('&'));
-    const QString key = text.mid(text.indexOf('&') + 1, 1).toLower();
-    EXPECT_TRUE(keys.insert(key).second) << "Alt+" << key.toStdString() << " twice";
-  }
+    titles.insert(action->text().remove('&'));
   for (const char* title : {"Datei", "Bearbeiten", "Fall", "Zugang", "Ansicht", "Registrierung",
                             "Segmentierung", "Messen", "Bohren", "Bibliothek", "Hilfe"})
     EXPECT_TRUE(titles.count(title)) << title;
@@ -94,6 +103,12 @@ TEST_F(LanguageTest, TheMenusAreGermanAndNumbersKeepTheirPoint)
   ASSERT_TRUE(thrust);
   thrust->setValue(1.5);
   EXPECT_TRUE(thrust->text().startsWith("1.5")) << thrust->text().toStdString();
+}
+
+TEST_F(LanguageTest, NoTwoMenusOfTheBarHaveOneKeyInEnglish)
+{
+  openWindow();
+  expectOwnKeys(window());
 }
 
 TEST_F(LanguageTest, TheChoiceGoesFirstThenTheUsersLanguageThenEnglish)

@@ -311,6 +311,21 @@ TEST_F(MeasureWindow, ExportsATable)
   EXPECT_NE(text.find("nerve,structure,volume"), std::string::npos);
 }
 
+TEST_F(MeasureWindow, OffersNoTableThatWouldBeEmpty)
+{
+  scene::Case value = ballCase("bare");
+  value.labels.clear();
+  library().save(value);
+  openWindow("bare");
+  QAction* table = action(QString::fromUtf8("Export as a table…"));
+  EXPECT_FALSE(table->isEnabled());
+  EXPECT_FALSE(find<QPushButton>("exportMeasurements").isEnabled());
+  drill(600);
+  ASSERT_TRUE(strokeEnds());
+  EXPECT_TRUE(table->isEnabled()) << "the volume that was drilled";
+  EXPECT_TRUE(find<QPushButton>("exportMeasurements").isEnabled());
+}
+
 TEST_F(MeasureWindow, StatesTheDimensionsOfAStructure)
 {
   openBall();

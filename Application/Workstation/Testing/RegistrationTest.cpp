@@ -206,6 +206,28 @@ TEST_F(RegistrationWindow, KeysFlickBetweenCtAndMrAndGoThroughTheWays)
   EXPECT_TRUE(same(axial(), ct));
 }
 
+TEST_F(RegistrationWindow, TheValueUnderThePointerIsThatOfTheImageSeen)
+{
+  auto& slice = find<SliceView>("axialView");
+  auto& place = find<QLabel>("place");
+  QTest::mouseMove(&slice, QPoint(slice.width() / 3, slice.height() / 2));
+  ASSERT_TRUE(waitFor([&] { return place.text().contains("HU"); })) << place.text().toStdString();
+  const QString ct = place.text();
+  QTest::keyClick(&view(), Qt::Key_V);
+  ASSERT_TRUE(waitFor([&] { return place.text() != ct; })) << "the MR";
+  QTest::keyClick(&view(), Qt::Key_V);
+  EXPECT_TRUE(waitFor([&] { return place.text() == ct; })) << place.text().toStdString();
+}
+
+TEST_F(RegistrationWindow, SaysThatNoEarIsKnown)
+{
+  auto& note = find<QLabel>("registrationPlaceNote");
+  EXPECT_FALSE(note.isHidden());
+  EXPECT_TRUE(note.text().startsWith("The case has no ossicle")) << note.text().toStdString();
+  find<QComboBox>("registrationPlace").setCurrentIndex(1); // the crosshair
+  EXPECT_TRUE(note.isHidden());
+}
+
 TEST_F(RegistrationWindow, RegistersWithProgressAndStatesTheError)
 {
   showPanel();

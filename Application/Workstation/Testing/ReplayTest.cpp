@@ -62,6 +62,8 @@ TEST_F(Replay, ARecordedSessionIsPlayedAsAGhostAndLeavesTheCaseAsItIs)
   auto& recordings = child<QComboBox>("replayChoice");
   ASSERT_EQ(recordings.count(), 1);
   EXPECT_EQ(recordings.itemText(0).toStdString(), file.filename().string());
+  EXPECT_EQ(recordings.currentIndex(), -1);
+  EXPECT_EQ(recordings.placeholderText(), "Choose a recording");
   emit recordings.activated(0);
   ASSERT_TRUE(isRead()) << child<QLabel>("replaySaid").text().toStdString();
   EXPECT_TRUE(child<QDockWidget>("replayDock").isVisible());

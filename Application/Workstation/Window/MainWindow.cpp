@@ -30,6 +30,7 @@
 #include <QVBoxLayout>
 
 #include "ActiveDeviceController.h"
+#include "AppearancePanel.h"
 #include "Application.h"
 #include "AttachmentsController.h"
 #include "Banner.h"
@@ -279,7 +280,7 @@ void MainWindow::layOut()
 
   m_pages->addWidget(m_start);
   m_pages->addWidget(m_area);
-  m_notesBanner->addButton("dismissNotes", tr("Close"), [this] { m_notesBanner->hide(); });
+  m_notesBanner->addButton("dismissNotes", tr("Close"), [this] { showNotes({}); });
   m_mrBanner->addButton("registerMr", tr("Registration (F5)"),
                         [this]
                         {
@@ -608,6 +609,9 @@ void MainWindow::connectActions()
   on(m_actions->restorePart, [this] { m_keeper->restorePart(); });
   connect(m_actions->casePart, &QMenu::aboutToShow, this, &MainWindow::fillCaseMenu);
   auto* structures = findChild<StructuresPanel*>();
+  connect(structures, &StructuresPanel::selected, this,
+          [structures, appearance = findChild<AppearancePanel*>()]
+          { appearance->follow(structures->selectedParts()); });
   connect(structures, &StructuresPanel::removalAsked, this,
           [this](const QString& name) { m_keeper->removePart(bytes(name)); });
   connect(structures, &StructuresPanel::renamingAsked, this,
@@ -958,7 +962,7 @@ void MainWindow::caseClosed()
   m_picture->speed()->clear();
   m_mrBanner->hide();
   m_stamps->caseClosed();
-  m_notesBanner->hide();
+  showNotes({});
   m_pages->setCurrentIndex(0);
   m_start->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);
 }
@@ -989,7 +993,6 @@ void MainWindow::caseChanged()
   m_pages->setCurrentIndex(1);
   if (first)
     showPanels();
-  m_place->clear(); // of the previous case
   m_drill->releaseTool();
   offerBurrs();
   m_picture->caseChanged();
@@ -1000,8 +1003,9 @@ void MainWindow::caseChanged()
   if (!value.view.tool) // the thrust may be that of the case before
     m_bar->setThrust(m_settings->thrust().value_or(DrillBar::kUsualThrust));
   m_viewState->show();
+  m_place->clear(); // of the previous case
   m_view->setFocus();
-  m_notesBanner->hide();
+  showNotes({});
   const bool isNew = value.revision == 0;
   m_notesTold = isNew ? QStringList() : notesOf(value);
   notifyNotes();
@@ -1040,11 +1044,11 @@ void MainWindow::warnOfSides()
     lines += phrase(line);
   if (lines.isEmpty())
     return;
-  m_notesBanner->setText(lines.join('\n'));
-  m_notesBanner->show();
+  showNotes(lines);
 }
 
-// What was assumed or left out when files were read, until it is acknowledged.
+// What was assumed or left out when files were read, until it is acknowledged or its part is taken
+// out.
 void MainWindow::notifyNotes()
 {
   const QStringList notes = notesOf(m_model.value());
@@ -1052,11 +1056,20 @@ void MainWindow::notifyNotes()
   for (const QString& note : notes)
     if (!m_notesTold.contains(note))
       fresh += note;
+  QStringList still;
+  for (const QString& note : m_notesShown)
+    if (notes.contains(note) || !m_notesTold.contains(note)) // one of another kind stays
+      still += note;
   m_notesTold = notes;
-  if (fresh.isEmpty())
-    return;
-  m_notesBanner->setText(fresh.join('\n'));
-  m_notesBanner->show();
+  if (const QStringList shown = still + fresh; shown != m_notesShown)
+    showNotes(shown);
+}
+
+void MainWindow::showNotes(const QStringList& notes)
+{
+  m_notesShown = notes;
+  m_notesBanner->setText(notes.join('\n'));
+  m_notesBanner->setVisible(!notes.isEmpty());
 }
 
 // The library's burrs.
@@ -1246,9 +1259,9 @@ void MainWindow::stepped(bool back)
   if (m_actions->strokeCamera->isChecked() && stroke < strokes.size() &&
       strokes[stroke]->info.camera)
     m_view->setCamera(*strokes[stroke]->info.camera);
-  statusBar()->showMessage(back ? tr("Stroke %1 undone").arg(value.applied() + 1)
-                                : tr("Stroke %1 drilled again").arg(value.applied()),
-                           kMessage);
+  // As `petrous history` counts, over all approaches.
+  statusBar()->showMessage(
+      (back ? tr("Stroke %1 undone") : tr("Stroke %1 drilled again")).arg(stroke + 1), kMessage);
 }
 
 void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke)

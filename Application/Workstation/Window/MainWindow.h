@@ -102,6 +102,7 @@ private:
   void caseClosed();
   void partsChanged();
   void notifyNotes();
+  void showNotes(const QStringList& notes); // in place of those that are shown; none: hides them
   void warnOfSides();
   void showFault(const QString& why);
   void offerBurrs();
@@ -156,6 +157,7 @@ private:
   Banner* m_mrBanner;
   Banner* m_sideBanner;
   QStringList m_notesTold;
+  QStringList m_notesShown; // above the pictures, not dismissed yet
   ProbeLabel* m_place;
   QLabel* m_sum;
   QLabel* m_touch;

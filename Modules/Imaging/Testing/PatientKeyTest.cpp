@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +65,27 @@ TEST(PatientKey, AnyThatDiffersMakesAnotherPatient)
   EXPECT_FALSE(samePatient(key, patientKey("17", "CLINIC", "Doe^John", "19630412")));
   EXPECT_FALSE(samePatient(key, patientKey("17", "CLINIC", "Doe^Jane", "19630413")));
   EXPECT_FALSE(samePatient(key, patientKey("", "", "Roe", "")));
+}
+
+TEST(PatientKey, TellsWhatDiffers)
+{
+  const PatientKey key = patientKey("17", "CLINIC", "Doe^Jane", "19630412");
+  const auto differing =
+      [&key](const char* id, const char* issuer, const char* name, const char* date)
+  {
+    const auto found = differencesOf(key, patientKey(id, issuer, name, date));
+    return std::string(found.id ? "i" : "") + (found.name ? "n" : "") +
+           (found.birthDate ? "b" : "");
+  };
+  EXPECT_EQ(differing("17", "CLINIC", "DOE^JANE", "19630412"), "");
+  EXPECT_EQ(differing("18", "CLINIC", "Doe^Jane", "19630412"), "i");
+  EXPECT_EQ(differing("18", "OTHER", "Doe^Jane", "19630412"), "") << "another issuer's ID";
+  EXPECT_EQ(differing("18", "", "Doe^John", ""), "in");
+  EXPECT_EQ(differing("", "", "", "19630413"), "b");
+  EXPECT_EQ(differing("18", "", "Doe^John", "19630413"), "inb");
+  PatientDifferences both = differencesOf(key, patientKey("18", "", "", ""));
+  both.join(differencesOf(key, patientKey("", "", "", "19630413")));
+  EXPECT_TRUE(both.id && !both.name && both.birthDate);
 }
 
 TEST(PatientKey, KnowsEachWordOfTheNameAlone)

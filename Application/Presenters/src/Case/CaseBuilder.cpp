@@ -140,19 +140,32 @@ bool isOfCase(const scene::PatientHash& patient)
   return patient.id.empty() && patient.name.empty() && patient.nameParts.size() == 1;
 }
 
-// Whether the images state different patients; false if that cannot be told.
-bool isOtherPatient(const scene::ImagePart& image, scene::ImagePart added,
-                    const scene::IdentitySalt& salted)
+// In what the patients that the images state differ; in nothing if that cannot be told.
+imaging::PatientDifferences differencesOf(const scene::ImagePart& image, scene::ImagePart added,
+                                          const scene::IdentitySalt& salted)
 {
+  imaging::PatientDifferences differing;
   if (!scene::isComparable(image, salted))
-    return false;
+    return differing;
   if (image.isFrameSalted)
     scene::saltIdentity(added, salted);
   if (isOfCase(image.patient) && isOfCase(added.patient))
-    return image.patient.nameParts != added.patient.nameParts;
-  if (image.patient.empty() || added.patient.empty())
-    return false;
-  return !imaging::samePatient(image.patient, added.patient);
+    differing.name = image.patient.nameParts != added.patient.nameParts;
+  else
+    differing = imaging::differencesOf(image.patient, added.patient);
+  return differing;
+}
+
+// Without values, which are the patient's. The hash of a date of birth has the name in it, and
+// tells nothing where the names differ.
+std::string differenceText(const imaging::PatientDifferences& differing)
+{
+  const auto& [id, name, birthDate] = differing;
+  if (id && name)
+    return "patient ID and patient name";
+  if (id)
+    return birthDate ? "patient ID and date of birth" : "patient ID";
+  return name ? "patient name" : "date of birth";
 }
 
 // Whether what is added states another patient than an image of the case; refused unless its source
@@ -162,12 +175,12 @@ bool isOfOtherPatient(const scene::Case& value, const PartSource& source,
 {
   scene::ImagePart added;
   added.patient = patient;
-  const auto isOther = [&](const scene::ImagePart& image)
-  { return isOtherPatient(image, added, salted); };
-  const bool isAny = isOther(value.ct) || std::any_of(value.mr.begin(), value.mr.end(), isOther);
-  if (isAny && !source.isOtherPatient)
-    throw OtherPatient(source.path);
-  return isAny;
+  imaging::PatientDifferences differing = differencesOf(value.ct, added, salted);
+  for (const scene::ImagePart& mr : value.mr)
+    differing.join(differencesOf(mr, added, salted));
+  if (differing.any() && !source.isOtherPatient)
+    throw OtherPatient(source.path, differing);
+  return differing.any();
 }
 
 void noteLostSalt(const scene::Case& value, const scene::PatientHash& patient,
@@ -1254,11 +1267,14 @@ FrameUnclear::FrameUnclear(const fs::path& file, const std::string& image)
 {
 }
 
-OtherPatient::OtherPatient(const fs::path& file)
+OtherPatient::OtherPatient(const fs::path& file, const imaging::PatientDifferences& differences)
   : core::Error(core::Fault::Refused,
-                file.string() + ": states another patient's ID, name or date of birth than the "
-                                "case's images do; look whether it is this patient's, and say "
-                                "--other-patient if it is to be added all the same")
+                file.string() +
+                    ": states another patient than the case's images do (what differs: " +
+                    differenceText(differences) +
+                    "); look whether it is this patient's, and say --other-patient if it is to be "
+                    "added all the same")
+  , differing(differenceText(differences))
 {
 }
 
@@ -1553,6 +1569,7 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
       {
         failures.push_back({source, other.what()});
         failures.back().isOtherPatient = true;
+        failures.back().differing = other.differing;
       }
       catch (const ImageSideUnclear& unclear)
       {

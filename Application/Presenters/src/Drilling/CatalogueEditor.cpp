@@ -1,6 +1,7 @@
 #include "petrous/Presenters/CatalogueEditor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -22,6 +23,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kPascalOfGiga = 1e9;
 constexpr double kPascalOfVickers = 9.807e6; // of 1 HV = 1 kgf/mm^2
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kSteepest = 60.0; // degrees; the rake that OrthogonalCutting takes
 constexpr const char* kMaterialsFile = "materials.json";
 constexpr const char* kBurrsFile = "burrs.json";
 
@@ -42,6 +44,35 @@ void checkName(const std::string& name)
     throw core::InvalidParameter("'" + name +
                                  "' cannot be a material's name: it has a to z, 0 to 9 and "
                                  "hyphens, at most 40");
+}
+
+bool isPositive(double value)
+{
+  return value > 0.0 && std::isfinite(value);
+}
+
+void requireWithin(bool holds, const char* range, double value)
+{
+  if (!holds)
+    throw core::InvalidParameter(std::string("must lie ") + range + ", it is " +
+                                 core::generalText(value));
+}
+
+void checkNumbers(const CatalogueEditor::Material& material)
+{
+  requireWithin(isPositive(material.specificEnergy), "above 0 GPa", material.specificEnergy);
+  requireWithin(material.friction > 0.0 && material.friction <= 2.0, "above 0 and at most at 2",
+                material.friction);
+  requireWithin(isPositive(material.hardness), "above 0 HV", material.hardness);
+}
+
+void checkNumbers(const CatalogueEditor::Burr& burr)
+{
+  if (burr.kind == dissection::Burr::Kind::Cutting)
+    requireWithin(std::abs(burr.constant) <= kSteepest, "within -60 to 60 degrees", burr.constant);
+  else
+    requireWithin(burr.constant > 0.0 && burr.constant <= 1.0, "above 0 and at most at 1",
+                  burr.constant);
 }
 
 // As the file of a library, or no file where it would be the program's own.
@@ -161,9 +192,20 @@ std::string CatalogueEditor::burrsJson(const Tables& tables)
 // The catalogues that these tables would be decide.
 void CatalogueEditor::take(Tables next)
 {
-  const dissection::MaterialCatalogue materials(materialsJson(next), kMaterialsFile);
-  const dissection::BurrCatalogue burrs(burrsJson(next), kBurrsFile);
-  dissection::checkPairs(materials, burrs);
+  try
+  {
+    const dissection::MaterialCatalogue materials(materialsJson(next), kMaterialsFile);
+    const dissection::BurrCatalogue burrs(burrsJson(next), kBurrsFile);
+    dissection::checkPairs(materials, burrs);
+  }
+  catch (const core::InvalidParameter& error) // there is no file yet
+  {
+    std::string why = error.what();
+    for (const char* file : {kMaterialsFile, kBurrsFile})
+      if (const std::string before = std::string(file) + ": "; why.rfind(before, 0) == 0)
+        why.erase(0, before.size());
+    throw core::InvalidParameter(why);
+  }
   m_now = std::move(next);
 }
 
@@ -186,6 +228,7 @@ std::vector<std::string> CatalogueEditor::lostMaterials() const
 
 void CatalogueEditor::setMaterial(std::size_t row, const Material& material)
 {
+  checkNumbers(material);
   Tables next = m_now;
   Material& present = next.materials.at(row);
   if (material.name != present.name)
@@ -235,6 +278,7 @@ void CatalogueEditor::setBurr(std::size_t row, const Burr& burr)
   const auto kind = next.burrs.at(row).kind;
   next.burrs[row] = burr;
   next.burrs[row].kind = kind;
+  checkNumbers(next.burrs[row]);
   auto& diameters = next.burrs[row].diameters;
   std::sort(diameters.begin(), diameters.end());
   diameters.erase(std::unique(diameters.begin(), diameters.end()), diameters.end());

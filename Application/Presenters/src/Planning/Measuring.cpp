@@ -665,6 +665,11 @@ std::vector<std::string> rowOf(const std::string& name, const std::string& kind,
           safeForSpreadsheets(quantity.remark)};
 }
 
+bool hasMeasurementRows(const scene::Case& value)
+{
+  return !value.measurements.empty() || !volumesOf(value).empty();
+}
+
 std::string measurementsCsv(const scene::Case& value)
 {
   std::vector<std::vector<std::string>> rows{kMeasurementColumns};

@@ -171,17 +171,25 @@ RegistrationPlace placeOf(const scene::Case& value, const std::string& structure
                                (there.empty() ? "it has none" : "it has " + there));
 }
 
-RegistrationPlace defaultPlace(const scene::Case& value, const RegistrationRequest& request)
+std::vector<std::string> earNames(const scene::Case& value)
 {
   const auto presets = appearance::StructurePresets::builtIn();
-  const PatientBox ct = value.ct.geometry.patientBounds();
   std::vector<std::pair<int, std::string>> ears;
-  for (const std::string& name : scene::partNames(value))
-    if (const auto rank = earRank(presets, name); rank && !scene::findMr(value, name))
+  for (const std::string& name : placeNames(value))
+    if (const auto rank = earRank(presets, name))
       ears.emplace_back(*rank, name);
   std::stable_sort(ears.begin(), ears.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [rank, name] : ears)
+  std::vector<std::string> names;
+  for (auto& [rank, name] : ears)
+    names.push_back(std::move(name));
+  return names;
+}
+
+RegistrationPlace defaultPlace(const scene::Case& value, const RegistrationRequest& request)
+{
+  const PatientBox ct = value.ct.geometry.patientBounds();
+  for (const std::string& name : earNames(value))
     if (const auto middle = middleOf(value, name); middle && ct.contains(*middle))
       return {*middle, "the middle of '" + name + "'"};
 

@@ -184,6 +184,16 @@ std::vector<std::string> RegistrationSession::placeNames() const
   return m_model.hasCase() ? presenters::placeNames(m_model.value()) : std::vector<std::string>();
 }
 
+std::string RegistrationSession::placeNote() const
+{
+  if (m_aim.place != RegistrationAim::Place::MiddleEar || !part() ||
+      !earNames(m_model.value()).empty())
+    return {};
+  return "the case has no ossicle, tympanic cavity or inner ear on the " + primary() +
+         ", so that the error is stated at the centre of the images, which may be far from the "
+         "ear; put the crosshair in the middle ear and choose it here, or choose a structure";
+}
+
 RegistrationRequest RegistrationSession::request(Way way) const
 {
   using From = RegistrationRequest::From;

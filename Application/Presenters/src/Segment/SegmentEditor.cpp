@@ -9,6 +9,7 @@
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/MrOnCt.h"
 #include "petrous/Rendering/SurfaceExtraction.h"
 #include "petrous/Scene/FreeName.h"
@@ -564,7 +565,7 @@ std::string SegmentEditor::whyNotCreate() const
     {
       const std::string kind = scene::kindOfPart(m_model.value(), taken);
       return "The case has " + std::string(kind == "MR" || kind == "image" ? "an " : "a ") + kind +
-             " '" + taken + "' already; choose another name.";
+             " '" + shownName(taken) + "' already; choose another name.";
     }
   return {};
 }
@@ -1090,6 +1091,11 @@ const std::vector<Eigen::Vector3d>& SegmentEditor::path() const noexcept
 {
   static const Points kNone;
   return m_preview && m_preview->tube ? m_preview->tube->line : kNone;
+}
+
+std::optional<double> SegmentEditor::shownRadius() const
+{
+  return m_preview && m_preview->tube ? std::optional(m_preview->tube->radius) : std::nullopt;
 }
 
 const std::vector<Eigen::Vector3d>& SegmentEditor::seeds() const noexcept

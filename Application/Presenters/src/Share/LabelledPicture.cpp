@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "petrous/Core/NumberText.h"
+#include "petrous/Interaction/OrbitCamera.h"
 #include "petrous/Rendering/PictureText.h"
 
 namespace petrous::presenters
@@ -37,7 +38,26 @@ void fill(rendering::Picture& picture, int left, int top, int right, int bottom,
                     3 * (static_cast<std::ptrdiff_t>(row) * picture.width + column));
 }
 
+template <class Letters>
+void addLetters(rendering::Picture& picture, const Letters& letters, double magnified)
+{
+  const double width = picture.width;
+  const double height = picture.height;
+  const double margin = kMargin * magnified;
+  const auto letter = [&](const std::string& text, const rendering::TextPlace& place)
+  { rendering::writeText(picture, text, place, scaled(kLetter, magnified), kInk); };
+  letter(letters.left, {margin, 0.5 * height, 0.0, 0.5});
+  letter(letters.right, {width - margin, 0.5 * height, 1.0, 0.5});
+  letter(letters.top, {0.5 * width, margin, 0.5, 0.0});
+  letter(letters.bottom, {0.5 * width, height - margin, 0.5, 1.0});
+}
+
 } // namespace
+
+void addEdgeLetters(rendering::Picture& picture, const core::CameraPose& camera, double magnified)
+{
+  addLetters(picture, interaction::edgeDirections(camera), magnified);
+}
 
 // Text above a bar with end marks.
 void addScaleBar(rendering::Picture& picture, double mmPerPixel, const std::string& where,
@@ -105,15 +125,7 @@ rendering::Picture labelledSlice(SlicePixels pixels, const SliceGeometry& slice,
                                  const std::vector<std::string>& lines)
 {
   rendering::Picture picture{pixels.width, pixels.height, std::move(pixels.rgb)};
-  const double width = picture.width;
-  const double height = picture.height;
-  const auto letter = [&](const std::string& text, const rendering::TextPlace& place)
-  { rendering::writeText(picture, text, place, kLetter, kInk); };
-  const auto letters = slice.edgeLetters();
-  letter(letters.left, {double(kMargin), 0.5 * height, 0.0, 0.5});
-  letter(letters.right, {width - kMargin, 0.5 * height, 1.0, 0.5});
-  letter(letters.top, {0.5 * width, double(kMargin), 0.5, 0.0});
-  letter(letters.bottom, {0.5 * width, height - kMargin, 0.5, 1.0});
+  addLetters(picture, slice.edgeLetters(), 1.0);
   addLines(picture, lines);
   addScaleBar(picture, slice.mmPerPixel());
   return picture;

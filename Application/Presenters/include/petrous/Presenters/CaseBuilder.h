@@ -11,6 +11,7 @@
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
+#include "petrous/Imaging/PatientKey.h"
 #include "petrous/Imaging/SeriesGeometry.h"
 #include "petrous/Scene/Case.h"
 
@@ -102,7 +103,9 @@ struct MeshSpaceUnclear : core::InvalidParameter
 /// whether they may.
 struct OtherPatient : core::Error
 {
-  explicit OtherPatient(const std::filesystem::path& file);
+  /// `differences`: at least one.
+  OtherPatient(const std::filesystem::path& file, const imaging::PatientDifferences& differences);
+  std::string differing; ///< "patient ID and patient name": what differs, never its value
 };
 
 /// A file of voxels that leaves open which side of the patient is left: the user has to say.
@@ -242,6 +245,7 @@ struct PartFailure
   std::string why;                                      ///< names the file
   std::vector<imaging::MeshSpace> likely = {};          ///< of MeshSpaceUnclear
   bool isOtherPatient = false;                          ///< OtherPatient
+  std::string differing = {};                           ///< likewise
   bool isSideUnclear = false;                           ///< ImageSideUnclear
   imaging::UnitDoubt unitDoubt = {};                    ///< ImageUnitUnclear
   bool isBitsUnclear = false;                           ///< imaging::BitsUnclearError

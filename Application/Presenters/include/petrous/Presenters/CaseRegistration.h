@@ -59,6 +59,10 @@ struct RegistrationOutcome
 /// images before the fit. Loads label maps.
 RegistrationPlace defaultPlace(const scene::Case& value, const RegistrationRequest& request);
 
+/// The structures of the middle and inner ear that can be placed on the CT, by their names: those
+/// of which defaultPlace takes the first that is not empty. Loads nothing.
+std::vector<std::string> earNames(const scene::Case& value);
+
 /// A CT patient point, LPS mm; described by its coordinates. Throws InvalidParameter outside the
 /// CT.
 RegistrationPlace placeAt(const scene::Case& value, const Eigen::Vector3d& point);

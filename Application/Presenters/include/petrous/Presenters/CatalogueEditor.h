@@ -52,7 +52,8 @@ public:
   /// Names of materials that cases may refer to and that would no longer exist once saved.
   std::vector<std::string> lostMaterials() const;
 
-  // These throw InvalidParameter, without effect.
+  // These throw InvalidParameter, without effect. A number out of its range is told by the range in
+  // the table's unit: "must lie above 0 GPa, it is -3".
   void setMaterial(std::size_t row, const Material& material);
   std::size_t addMaterial(std::size_t like); ///< a copy under a free name; returns its row
   void removeMaterial(std::size_t row);

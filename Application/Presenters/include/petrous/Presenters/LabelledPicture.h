@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "petrous/Core/CameraPose.h"
 #include "petrous/Presenters/SliceGeometry.h"
 #include "petrous/Presenters/SliceOverlay.h"
 #include "petrous/Rendering/Picture.h"
@@ -18,6 +19,10 @@ namespace petrous::presenters
 /// focal plane".
 void addScaleBar(rendering::Picture& picture, double mmPerPixel, const std::string& where = {},
                  double magnified = 1.0);
+
+/// The patient's directions at the middles of the edges of a 3D picture.
+void addEdgeLetters(rendering::Picture& picture, const core::CameraPose& camera,
+                    double magnified = 1.0);
 
 /// Lines at the upper left.
 void addLines(rendering::Picture& picture, const std::vector<std::string>& lines,

@@ -78,5 +78,7 @@ extern const std::vector<std::string> kMeasurementColumns;
 /// All measurements, the volumes of structures, and what was drilled, as CSV with a header. Text
 /// that a spreadsheet would take for a formula is preceded by an apostrophe.
 std::string measurementsCsv(const scene::Case& value);
+/// Whether that has a row besides the header.
+bool hasMeasurementRows(const scene::Case& value);
 
 } // namespace petrous::presenters

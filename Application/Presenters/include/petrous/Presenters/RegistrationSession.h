@@ -74,6 +74,10 @@ public:
   std::vector<std::string> ontoNames() const;  ///< MRs that may be RegistrationAim::onto
   std::vector<std::string> placeNames() const; ///< what may be RegistrationAim::structure
 
+  /// Why the error is not stated at the middle ear although the aim says so, where instead, and
+  /// what to do; empty otherwise.
+  std::string placeNote() const;
+
   enum class Way
   {
     Register, ///< as set by the aim, with a search

@@ -158,6 +158,8 @@ public:
   void reorderTubePoint(std::size_t from, std::size_t to);    ///< its place along the nerve
   const std::vector<Eigen::Vector3d>& path() const noexcept;  ///< LPS mm
   const std::vector<Eigen::Vector3d>& seeds() const noexcept; ///< of the connected threshold
+  /// Median radius of the tube that is previewed, mm, estimated or given; none without a tube.
+  std::optional<double> shownRadius() const;
   /// Length and radius of the tube, or what is to be done next; a sentence or two, or empty.
   const std::string& note() const noexcept { return m_note; }
   /// What is wrong with the tool's result, in words; usually empty.
@@ -296,7 +298,7 @@ private:
   std::array<float, 3> m_color{};
   bool m_proposeDue = false;
   bool m_proposesAgain = false; ///< the threshold, as it left with what it had proposed
-  bool m_isOwnRange = false; ///< the limits were entered, not proposed
+  bool m_isOwnRange = false;    ///< the limits were entered, not proposed
   bool m_previewDue = false;
   std::uint64_t m_inputs = 0;    // of previews: changes when one that is under way is outdated
   std::uint64_t m_previewOf = 0; // the inputs of the one that is under way

@@ -32,19 +32,41 @@ PatientKey patientKey(const std::string& id, const std::string& issuer, const st
 /// letters, "von", "Phantom" and the like. Umlauts and their transcriptions (ue) are equal.
 std::size_t namePartKey(const std::string& word);
 
-/// Whether two identities may be of one patient: no ID, name or birth date that both state differs.
-/// IDs of different issuers are not compared. `Key` has the members of PatientKey, each equal to
-/// its default value where it is not stated.
+/// In what two identities differ.
+struct PatientDifferences
+{
+  bool id = false;
+  bool name = false;
+  bool birthDate = false;
+
+  bool any() const noexcept { return id || name || birthDate; }
+  void join(const PatientDifferences& other) noexcept
+  {
+    id = id || other.id;
+    name = name || other.name;
+    birthDate = birthDate || other.birthDate;
+  }
+};
+
+/// Of what both state. IDs of different issuers are not compared. `Key` has the members of
+/// PatientKey, each equal to its default value where it is not stated.
 template <class Key>
-bool samePatient(const Key& a, const Key& b)
+PatientDifferences differencesOf(const Key& a, const Key& b)
 {
   const auto differ = [](const auto& one, const auto& other)
   {
     const std::decay_t<decltype(one)> none{};
     return one != none && other != none && one != other;
   };
-  return (differ(a.issuer, b.issuer) || !differ(a.id, b.id)) && !differ(a.name, b.name) &&
-         !differ(a.birthDate, b.birthDate);
+  return {!differ(a.issuer, b.issuer) && differ(a.id, b.id), differ(a.name, b.name),
+          differ(a.birthDate, b.birthDate)};
+}
+
+/// Whether two identities may be of one patient: no ID, name or birth date that both state differs.
+template <class Key>
+bool samePatient(const Key& a, const Key& b)
+{
+  return !differencesOf(a, b).any();
 }
 
 } // namespace petrous::imaging

@@ -1568,6 +1568,14 @@
         <translation>Als Spitze gilt der Punkt, der am weitesten von der Hand entfernt ist, denn der Ursprung der Datei liegt mehr als 1 mm von der Oberfläche entfernt</translation>
     </message>
     <message>
+        <source>Its tip is taken to be the point farthest from the hand, as the file's origin lies at the other end; if the tip is at the origin, its axis is %1 instead of %2</source>
+        <translation>Als Spitze gilt der Punkt, der am weitesten von der Hand entfernt ist, denn der Ursprung der Datei liegt am anderen Ende; ist die Spitze am Ursprung, so ist die Achse %1 statt %2</translation>
+    </message>
+    <message>
+        <source>Its tip is taken to be the point farthest from the hand, as it reaches %#1 mm beyond the file's origin</source>
+        <translation>Als Spitze gilt der Punkt, der am weitesten von der Hand entfernt ist, denn das Instrument reicht %#1 mm über den Ursprung der Datei hinaus</translation>
+    </message>
+    <message>
         <source>It is longer across the shaft than along it; if it lies along another axis of its file than %1, say which</source>
         <translation>Es ist quer zum Schaft länger als längs; falls es entlang einer anderen Achse seiner Datei als %1 liegt, geben Sie diese an</translation>
     </message>

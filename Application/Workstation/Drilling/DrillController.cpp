@@ -193,9 +193,7 @@ void DrillController::applyBar()
     settings.lift = 0.0;
   if (m_tool == Tool::Instrument)
   {
-    constexpr double kFarthest = 10.0; // mm, of AimSettings
-    settings.burrRadius =
-        std::clamp(presenters::reachBeyondTip(*m_instrument), kLeastStandoff, kFarthest);
+    settings.burrRadius = std::max(presenters::reachBeyondTip(*m_instrument), kLeastStandoff);
     settings.beyond = kTipBeyond;
   }
   m_view.setWheelPresses(settings.mode == Mode::Surface);

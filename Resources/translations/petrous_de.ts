@@ -2852,6 +2852,10 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <source>Taking up the instrument…</source>
         <translation>Das Instrument wird aufgenommen…</translation>
     </message>
+    <message>
+        <source>Drill &gt; Instrument takes it up when the stroke is done</source>
+        <translation>Bohren &gt; Instrument nimmt es auf, wenn der Bohrzug beendet ist</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::DrillSound</name>

@@ -283,7 +283,9 @@ void DrillController::readInstrument(const QString& file, const QString& axis)
           setInstrument(file, axis);
           m_instrument = read->instrument;
           emit instrumentRead(file, axis);
-          m_tool == Tool::Instrument ? renewTool() : setTool(Tool::Instrument);
+          const bool isTaken = !m_model.drilling(); // an open stroke goes on
+          if (isTaken)
+            m_tool == Tool::Instrument ? renewTool() : setTool(Tool::Instrument);
           QStringList lines{tr("%1: felt at %2 points, no place of its surface farther than %3 mm "
                                "from one")
                                 .arg(words(m_instrument->name))
@@ -291,6 +293,8 @@ void DrillController::readInstrument(const QString& file, const QString& axis)
                                 .arg(numberText(m_instrument->shell->spacing, 2))};
           for (const std::string& note : read->notes)
             lines += windowText(phrase(note));
+          if (!isTaken)
+            lines += tr("Drill > Instrument takes it up when the stroke is done");
           emit statusMessage(lines.join(". "));
         };
       });
@@ -301,8 +305,18 @@ void DrillController::releaseTool()
   setTool(Tool::None);
 }
 
+// Another tool or case came meanwhile: an instrument that is still being read is not wanted there.
+void DrillController::abandonReading()
+{
+  if (!m_reading.busy())
+    return;
+  m_reading.abandon();
+  emit statusMessage({});
+}
+
 void DrillController::setTool(Tool tool)
 {
+  abandonReading();
   if (tool == m_tool)
     return;
   if (tool == Tool::Instrument && !m_instrument)

@@ -8,6 +8,7 @@
 #include <QLineEdit>
 #include <QSignalSpy>
 
+#include "ActiveDeviceController.h"
 #include "DrillController.h"
 #include "SceneDisplay.h"
 
@@ -157,6 +158,34 @@ TEST_F(InstrumentWindow, LetsAStrokeGoOnThatIsOpenWhenItIsRead)
   EXPECT_TRUE(strokeEnds());
   action("Instrument")->trigger(); // it is read already
   EXPECT_TRUE(action("Instrument")->isChecked());
+}
+
+// Its coupling is that of six degrees of freedom, whatever is chosen for the burr.
+TEST_F(InstrumentWindow, IsFeltInSixDegreesOfFreedomWhereOnlyTheBurrIsFelt)
+{
+  openWindow();
+  saveBall("ball");
+  presenters::WorkstationModel model(library());
+  model.open("ball");
+  ToolDriver driver(model, view(), *window().findChild<ActiveDeviceController*>());
+  constexpr double kThrust = 3.0; // N, more than the usual stiffness bears
+  interaction::AimSettings aim;
+  aim.thrust = kThrust;
+  driver.set(aim);
+  const auto stiffnessWith = [&driver](std::shared_ptr<const session::Instrument> instrument)
+  {
+    session::TouchSession::Setup setup;
+    setup.tool.mode = session::TouchTool::Mode::ThreeDof;
+    setup.tool.instrument = std::move(instrument);
+    driver.prepare(setup);
+    EXPECT_FALSE(driver.outgrown());
+    return setup.tool.coupling.stiffness;
+  };
+  const double burr = stiffnessWith(nullptr);
+  EXPECT_EQ(burr, session::couplingFor(session::TouchTool::Mode::ThreeDof, kThrust).stiffness);
+  const double instrument = stiffnessWith(std::make_shared<const session::Instrument>());
+  EXPECT_EQ(instrument, session::couplingFor(session::TouchTool::Mode::SixDof, kThrust).stiffness);
+  EXPECT_GT(instrument, burr);
 }
 
 TEST_F(InstrumentWindow, IsRefusedInWordsWhenItIsNotClosed)

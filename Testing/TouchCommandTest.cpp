@@ -146,6 +146,7 @@ TEST_F(TouchCommand, AnInstrumentFromAMeshIsFeltAtItsTipAndRemovesNothing)
   EXPECT_EQ(answer["instrument"]["file"], "pick.obj");
   EXPECT_EQ(answer["instrument"]["length_mm"], 60.0);
   EXPECT_LE(answer["instrument"]["points"], 2000);
+  EXPECT_LT(answer["instrument"]["tip_sampling_error_mm"], 0.4);
   EXPECT_LT(answer["instrument"]["sampling_error_mm"], 1.0);
   EXPECT_EQ(answer.count("predicted_mm3"), 0U);
   const auto rows = log("log.csv");

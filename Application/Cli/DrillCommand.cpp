@@ -140,6 +140,7 @@ nlohmann::json instrumentJson(const session::Instrument& instrument)
   const auto bounds = instrument.surface->bounds();
   return {{"file", instrument.name},
           {"points", instrument.shell->points.size()},
+          {"tip_sampling_error_mm", instrument.shell->burrSpacing},
           {"sampling_error_mm", instrument.shell->spacing},
           {"length_mm", static_cast<double>(bounds[1].z() - bounds[0].z())}};
 }

@@ -1584,8 +1584,8 @@
         <translation>Das Instrument wird abgetastet</translation>
     </message>
     <message>
-        <source>%1: %#2 points, no place of its surface farther than %#3 mm from one</source>
-        <translation>%1: %#2 Punkte, keine Stelle der Oberfläche weiter als %#3 mm von einem entfernt</translation>
+        <source>%1: %#2 points, no place within 10 mm of its tip farther than %#3 mm from one, and none at all farther than %#4 mm; bone thinner than twice that may pass between them unfelt</source>
+        <translation>%1: %#2 Punkte, keine Stelle bis 10 mm von der Spitze weiter als %#3 mm von einem entfernt und überhaupt keine weiter als %#4 mm; Knochen, der dünner als das Doppelte ist, kann ungefühlt zwischen ihnen hindurchgehen</translation>
     </message>
     <message>
         <source>%#1 stroke</source>

@@ -286,10 +286,12 @@ void DrillController::readInstrument(const QString& file, const QString& axis)
           const bool isTaken = !m_model.drilling(); // an open stroke goes on
           if (isTaken)
             m_tool == Tool::Instrument ? renewTool() : setTool(Tool::Instrument);
-          QStringList lines{tr("%1: felt at %2 points, no place of its surface farther than %3 mm "
-                               "from one")
+          QStringList lines{tr("%1: felt at %2 points, no place within 10 mm of its tip farther "
+                               "than %3 mm from one, and none at all farther than %4 mm; bone "
+                               "thinner than twice that may pass between them unfelt")
                                 .arg(words(m_instrument->name))
                                 .arg(m_instrument->shell->points.size())
+                                .arg(numberText(m_instrument->shell->burrSpacing, 2))
                                 .arg(numberText(m_instrument->shell->spacing, 2))};
           for (const std::string& note : read->notes)
             lines += windowText(phrase(note));

@@ -153,8 +153,11 @@ double reachBeyondTip(const session::Instrument& instrument) noexcept
 std::string toString(const session::Instrument& instrument)
 {
   return instrument.name + ": " + std::to_string(instrument.shell->points.size()) +
-         " points, no place of its surface farther than " +
-         core::fixedText(instrument.shell->spacing, 2) + " mm from one";
+         " points, no place within 10 mm of its tip farther than " +
+         core::fixedText(instrument.shell->burrSpacing, 2) +
+         " mm from one, and none at all farther than " +
+         core::fixedText(instrument.shell->spacing, 2) +
+         " mm; bone thinner than twice that may pass between them unfelt";
 }
 
 } // namespace petrous::presenters

@@ -43,7 +43,8 @@ LoadedInstrument readInstrument(const std::filesystem::path& path,
 /// mm by which an instrument reaches beyond its tip, away from the hand; 0 to 1.
 double reachBeyondTip(const session::Instrument& instrument) noexcept;
 
-/// "pick.stl: 2000 points, no place of its surface farther than 0.31 mm from one".
+/// "pick.stl: 2000 points, no place within 10 mm of its tip farther than 0.31 mm from one, and none
+/// at all farther than 1.20 mm; bone thinner than twice that may pass between them unfelt".
 std::string toString(const session::Instrument& instrument);
 
 } // namespace petrous::presenters

@@ -195,6 +195,24 @@ TEST(InstrumentShell, RestsOnBoneWithItsTipAndBearsTheForce)
   EXPECT_NEAR(tick.thrust, tick.wrench.linear.norm(), 0.03);
 }
 
+// Deeper than a voxel the field's slope says nothing of the depth, and there is no ball to bound
+// it.
+TEST(InstrumentShell, ItsDepthIsUnknownBeyondAVoxelOfTissue)
+{
+  const double h = 0.3;
+  const Scene scene = sceneOf(scanOf(plane(Vector3d::UnitZ()), h, 7.0));
+  const PointShell shell = makeInstrumentShell(cone(0.2, 5.0));
+  haptics::ConstrainedProxy proxy(scene.field, shell);
+  proxy.place(poseAt({0.1, -0.2, -3.0}));
+  haptics::ProxyTick tick = proxy.step(poseAt({0.1, -0.2, -3.0}));
+  ASSERT_EQ(tick.status, haptics::ProxyStatus::Inside);
+  EXPECT_TRUE(std::isnan(tick.penetration)) << tick.penetration;
+  proxy.place(poseAt({0.1, -0.2, -0.5 * h}));
+  tick = proxy.step(poseAt({0.1, -0.2, -0.5 * h}));
+  ASSERT_EQ(tick.status, haptics::ProxyStatus::Inside);
+  EXPECT_NEAR(tick.penetration, 0.5 * h, 0.05 * h);
+}
+
 // A long instrument is as dense at its tip as a short one, and its handle makes do with less.
 TEST(InstrumentShell, ALongHandleLeavesTheTipItsPoints)
 {

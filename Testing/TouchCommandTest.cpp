@@ -146,6 +146,7 @@ TEST_F(TouchCommand, AnInstrumentFromAMeshIsFeltAtItsTipAndRemovesNothing)
   EXPECT_EQ(answer["instrument"]["file"], "pick.obj");
   EXPECT_EQ(answer["instrument"]["length_mm"], 60.0);
   EXPECT_LE(answer["instrument"]["points"], 2000);
+  EXPECT_LT(answer["instrument"]["tip_sampling_error_mm"], 0.4);
   EXPECT_LT(answer["instrument"]["sampling_error_mm"], 1.0);
   EXPECT_EQ(answer.count("predicted_mm3"), 0U);
   const auto rows = log("log.csv");
@@ -154,6 +155,14 @@ TEST_F(TouchCommand, AnInstrumentFromAMeshIsFeltAtItsTipAndRemovesNothing)
   EXPECT_NEAR(last.at("px_mm"), 0.3, 0.02);
   EXPECT_NEAR(last.at("fz_n"), 1.0, 0.03);
   EXPECT_NEAR(last.at("thrust_n"), last.at("fz_n"), 0.03);
+  EXPECT_TRUE(std::isnan(last.at("r_mm"))) << "the lever of a burr";
+  EXPECT_EQ(answer["max_penetration_mm"], 0.0);
+  std::ofstream(m_folder / "inside.csv") << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n"
+                                            "0,0.3,0.2,-5,1,0,0,0,0\n0.05,0.3,0.2,-5,1,0,0,0,0\n";
+  const auto inside = json(drill(m_folder / "inside.csv", tool));
+  EXPECT_GT(inside["ticks_inside"], 0);
+  EXPECT_TRUE(inside["max_penetration_mm"].is_null()) << inside["max_penetration_mm"];
+  EXPECT_TRUE(std::isnan(log("log.csv").back().at("penetration_mm")));
 
   // Its shaft along x in the file: the same.
   std::ofstream(m_folder / "lying.obj") << "v 0 0 0\nv 60 1 1\nv 60 -1 1\nv 60 -1 -1\nv 60 1 -1\n"

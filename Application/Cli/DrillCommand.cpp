@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "CaseWarnings.h"
@@ -140,6 +141,7 @@ nlohmann::json instrumentJson(const session::Instrument& instrument)
   const auto bounds = instrument.surface->bounds();
   return {{"file", instrument.name},
           {"points", instrument.shell->points.size()},
+          {"tip_sampling_error_mm", instrument.shell->burrSpacing},
           {"sampling_error_mm", instrument.shell->spacing},
           {"length_mm", static_cast<double>(bounds[1].z() - bounds[0].z())}};
 }
@@ -205,20 +207,22 @@ void play(const Context& context, const Options& options)
   std::size_t ticks = 0;
   const double start = path.samples().front().time;
   const double length = std::max(path.samples().back().time - start, 1e-9);
-  path.play(options.rate,
-            [&](const dissection::ToolSample& tick)
-            {
-              if (ticks++ % 256 == 0)
-                progress.report(0.9 * (tick.time - start) / length,
-                                instrument ? "feeling" : "drilling");
-              const session::TickRecord& record =
-                  report.feel([&]() -> const session::TickRecord& { return session.feel(tick); });
-              session.cut(tick);
-              journal->follow(value.dissection);
-              const session::RemovalBalance balance = session.removal().balance();
-              report.add(record, TickRemoval{record.thrust > 0.0 ? armAt(session, record) : 0.0,
-                                             balance.removed + session.swept(), balance.predicted});
-            });
+  path.play(
+      options.rate,
+      [&](const dissection::ToolSample& tick)
+      {
+        if (ticks++ % 256 == 0)
+          progress.report(0.9 * (tick.time - start) / length, instrument ? "feeling" : "drilling");
+        const session::TickRecord& record =
+            report.feel([&]() -> const session::TickRecord& { return session.feel(tick); });
+        session.cut(tick);
+        journal->follow(value.dissection);
+        const session::RemovalBalance balance = session.removal().balance();
+        const double arm = instrument            ? std::numeric_limits<double>::quiet_NaN()
+                           : record.thrust > 0.0 ? armAt(session, record)
+                                                 : 0.0;
+        report.add(record, TickRemoval{arm, balance.removed + session.swept(), balance.predicted});
+      });
   session.end();
   journal->follow(value.dissection);
   report.close();

@@ -1,6 +1,7 @@
 #include "DrillReport.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "CaseJson.h"
@@ -125,7 +126,8 @@ void DrillReport::add(const session::TickRecord& record, const std::optional<Tic
   const haptics::Wrench wrench = record.wrench.wrench();
   m_force = std::max(m_force, wrench.linear.norm());
   m_torque = std::max(m_torque, wrench.angular.norm());
-  m_penetration = std::max(m_penetration, record.penetration);
+  if (std::isnan(record.penetration) || record.penetration > m_penetration)
+    m_penetration = record.penetration; // NaN stays
   m_shaft += (record.held & session::TickRecord::kShaft) != 0;
   m_handpiece += (record.held & session::TickRecord::kHandpiece) != 0;
   if (session::isHeldOff(record))

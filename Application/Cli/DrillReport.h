@@ -19,8 +19,9 @@ namespace petrous::cli
 /// Output of the removal laws for a tick.
 struct TickRemoval
 {
-  double arm = 0.0;       ///< mm, distance of the contact from the spindle axis, as used by the law
-  double removed = 0.0;   ///< mm^3 so far, including what was swept
+  double arm = 0.0;     ///< mm, distance of the contact from the spindle axis, as used by the law;
+                        ///< NaN: no burr
+  double removed = 0.0; ///< mm^3 so far, including what was swept
   double predicted = 0.0; ///< mm^3 so far
 };
 
@@ -100,7 +101,7 @@ private:
   core::TickTimes m_times;
   double m_force = 0.0;       // N, maximum of all ticks
   double m_torque = 0.0;      // N mm
-  double m_penetration = 0.0; // mm
+  double m_penetration = 0.0; // mm; NaN (null in JSON): unknown, as of a tick
   std::size_t m_inside = 0;   // ticks in which the tool was in tissue throughout
   std::size_t m_shaft = 0;    // ticks in which it pressed on tissue
   std::size_t m_handpiece = 0;

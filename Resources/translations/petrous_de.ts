@@ -2877,12 +2877,16 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <translation>Das Instrument wird gelesen…</translation>
     </message>
     <message>
-        <source>%1: felt at %2 points, no place of its surface farther than %3 mm from one</source>
-        <translation>%1: an %2 Punkten gefühlt, keine Stelle der Oberfläche weiter als %3 mm von einem entfernt</translation>
-    </message>
-    <message>
         <source>Taking up the instrument…</source>
         <translation>Das Instrument wird aufgenommen…</translation>
+    </message>
+    <message>
+        <source>Drill &gt; Instrument takes it up when the stroke is done</source>
+        <translation>Bohren &gt; Instrument nimmt es auf, wenn der Bohrzug beendet ist</translation>
+    </message>
+    <message>
+        <source>%1: felt at %2 points, no place within 10 mm of its tip farther than %3 mm from one, and none at all farther than %4 mm; bone thinner than twice that may pass between them unfelt</source>
+        <translation>%1: an %2 Punkten gefühlt, keine Stelle bis 10 mm von der Spitze weiter als %3 mm von einem entfernt und überhaupt keine weiter als %4 mm; Knochen, der dünner als das Doppelte ist, kann ungefühlt zwischen ihnen hindurchgehen</translation>
     </message>
 </context>
 <context>

@@ -1620,6 +1620,14 @@
         <translation>Als Spitze gilt der Punkt, der am weitesten von der Hand entfernt ist, denn der Ursprung der Datei liegt mehr als 1 mm von der Oberfläche entfernt</translation>
     </message>
     <message>
+        <source>Its tip is taken to be the point farthest from the hand, as the file's origin lies at the other end; if the tip is at the origin, its axis is %1 instead of %2</source>
+        <translation>Als Spitze gilt der Punkt, der am weitesten von der Hand entfernt ist, denn der Ursprung der Datei liegt am anderen Ende; ist die Spitze am Ursprung, so ist die Achse %1 statt %2</translation>
+    </message>
+    <message>
+        <source>Its tip is taken to be the point farthest from the hand, as it reaches %#1 mm beyond the file's origin</source>
+        <translation>Als Spitze gilt der Punkt, der am weitesten von der Hand entfernt ist, denn das Instrument reicht %#1 mm über den Ursprung der Datei hinaus</translation>
+    </message>
+    <message>
         <source>It is longer across the shaft than along it; if it lies along another axis of its file than %1, say which</source>
         <translation>Es ist quer zum Schaft länger als längs; falls es entlang einer anderen Achse seiner Datei als %1 liegt, geben Sie diese an</translation>
     </message>
@@ -1628,8 +1636,8 @@
         <translation>Das Instrument wird abgetastet</translation>
     </message>
     <message>
-        <source>%1: %#2 points, no place of its surface farther than %#3 mm from one</source>
-        <translation>%1: %#2 Punkte, keine Stelle der Oberfläche weiter als %#3 mm von einem entfernt</translation>
+        <source>%1: %#2 points, no place within 10 mm of its tip farther than %#3 mm from one, and none at all farther than %#4 mm; bone thinner than twice that may pass between them unfelt</source>
+        <translation>%1: %#2 Punkte, keine Stelle bis 10 mm von der Spitze weiter als %#3 mm von einem entfernt und überhaupt keine weiter als %#4 mm; Knochen, der dünner als das Doppelte ist, kann ungefühlt zwischen ihnen hindurchgehen</translation>
     </message>
     <message>
         <source>%#1 stroke</source>

@@ -138,6 +138,42 @@ TEST_F(InstrumentFileTest, TakesThePointFarthestFromTheHandForTheTipAndSaysSo)
   EXPECT_NEAR(reachBeyondTip(*above.instrument), 0.5, 1e-6);
 }
 
+// A thin shaft has its surface everywhere within 1 mm of its axis.
+TEST_F(InstrumentFileTest, TakesNoOriginInTheMiddleOfAThinShaftForTheTip)
+{
+  // The pick is 1 mm wide in its middle, 0.35 mm from the axis.
+  const LoadedInstrument middle =
+      readInstrument(write("middle.ply", pick(40.0, Vector3d(0.0, 0.0, -20.0))));
+  EXPECT_EQ(reachBeyondTip(*middle.instrument), 0.0);
+  EXPECT_NEAR(middle.instrument->surface->bounds()[1].z(), 40.0F, 1e-4F);
+  EXPECT_LT(middle.instrument->shell->points.front().norm(), 1e-4);
+  ASSERT_EQ(middle.notes.size(), 1U);
+  EXPECT_NE(middle.notes.front().find("20 mm beyond the file's origin"), std::string::npos)
+      << middle.notes.front();
+  // As many millimetres above the tip as count as at it, and some more.
+  EXPECT_TRUE(
+      readInstrument(write("near.ply", pick(40.0, Vector3d(0.0, 0.0, -0.9)))).notes.empty());
+  EXPECT_EQ(readInstrument(write("off.ply", pick(40.0, Vector3d(0.0, 0.0, -1.1)))).notes.size(),
+            1U);
+}
+
+TEST_F(InstrumentFileTest, NamesTheReversedAxisWhereTheOriginIsAtTheOtherEnd)
+{
+  for (const char* axis : kInstrumentAxes)
+  {
+    SCOPED_TRACE(axis);
+    const Vector3d toHand = (axis[1] == '-' ? -1.0 : 1.0) * Vector3d::Unit(axis[0] - 'x');
+    const std::string reversed{axis[0], axis[1] == '-' ? '+' : '-'};
+    const auto path = write("reversed.ply", pick(40.0, Vector3d::Zero(), toHand));
+    const LoadedInstrument loaded = readInstrument(path, reversed);
+    ASSERT_EQ(loaded.notes.size(), 1U);
+    EXPECT_NE(loaded.notes.front().find("its axis is " + std::string(axis)), std::string::npos)
+        << loaded.notes.front();
+    EXPECT_EQ(reachBeyondTip(*loaded.instrument), 0.0);
+    EXPECT_TRUE(readInstrument(path, axis).notes.empty());
+  }
+}
+
 TEST_F(InstrumentFileTest, RefusesWhatIsNoInstrumentAndSaysWhatWouldBeRight)
 {
   core::TriangleMesh open = pick();

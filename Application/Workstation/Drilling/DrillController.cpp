@@ -193,9 +193,7 @@ void DrillController::applyBar()
     settings.lift = 0.0;
   if (m_tool == Tool::Instrument)
   {
-    constexpr double kFarthest = 10.0; // mm, of AimSettings
-    settings.burrRadius =
-        std::clamp(presenters::reachBeyondTip(*m_instrument), kLeastStandoff, kFarthest);
+    settings.burrRadius = std::max(presenters::reachBeyondTip(*m_instrument), kLeastStandoff);
     settings.beyond = kTipBeyond;
   }
   m_view.setWheelPresses(settings.mode == Mode::Surface);
@@ -285,14 +283,20 @@ void DrillController::readInstrument(const QString& file, const QString& axis)
           setInstrument(file, axis);
           m_instrument = read->instrument;
           emit instrumentRead(file, axis);
-          m_tool == Tool::Instrument ? renewTool() : setTool(Tool::Instrument);
-          QStringList lines{tr("%1: felt at %2 points, no place of its surface farther than %3 mm "
-                               "from one")
+          const bool isTaken = !m_model.drilling(); // an open stroke goes on
+          if (isTaken)
+            m_tool == Tool::Instrument ? renewTool() : setTool(Tool::Instrument);
+          QStringList lines{tr("%1: felt at %2 points, no place within 10 mm of its tip farther "
+                               "than %3 mm from one, and none at all farther than %4 mm; bone "
+                               "thinner than twice that may pass between them unfelt")
                                 .arg(words(m_instrument->name))
                                 .arg(m_instrument->shell->points.size())
+                                .arg(numberText(m_instrument->shell->burrSpacing, 2))
                                 .arg(numberText(m_instrument->shell->spacing, 2))};
           for (const std::string& note : read->notes)
             lines += windowText(phrase(note));
+          if (!isTaken)
+            lines += tr("Drill > Instrument takes it up when the stroke is done");
           emit statusMessage(lines.join(". "));
         };
       });
@@ -305,8 +309,18 @@ bool DrillController::releaseTool()
   return had;
 }
 
+// Another tool or case came meanwhile: an instrument that is still being read is not wanted there.
+void DrillController::abandonReading()
+{
+  if (!m_reading.busy())
+    return;
+  m_reading.abandon();
+  emit statusMessage({});
+}
+
 void DrillController::setTool(Tool tool)
 {
+  abandonReading();
   if (tool == m_tool)
     return;
   if (tool == Tool::Instrument && !m_instrument)

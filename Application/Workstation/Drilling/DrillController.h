@@ -33,14 +33,16 @@ public:
                   ActiveDeviceController& devices, QObject* parent = nullptr);
 
   void setSlicesFollow(bool follow); ///< the crosshair follows the burr while it drills
-  bool releaseTool();                ///< no tool; ends an open stroke; whether one was in the hand
-  void renewTool();                  ///< puts the tool away and takes it up again
-  void tissueCame();                 ///< the case's structures are loaded
-  void bringHere();                  ///< moves a device's tool in front of the view's centre
+  /// No tool: ends an open stroke and abandons what is read; whether one was in the hand.
+  bool releaseTool();
+  void renewTool();  ///< puts the tool away and takes it up again
+  void tissueCame(); ///< the case's structures are loaded
+  void bringHere();  ///< moves a device's tool in front of the view's centre
 
   /// The instrument to be read when it is taken up first; empty: the user is asked for it then.
   void setInstrument(const QString& file, const QString& axis);
-  /// Reads it in the background and takes it up. axis: of presenters::kInstrumentAxes.
+  /// Reads it in the background and takes it up, unless another tool or case came meanwhile
+  /// (setTool, releaseTool) or a stroke is open. axis: of presenters::kInstrumentAxes.
   void readInstrument(const QString& file, const QString& axis);
   void chooseInstrument(); ///< asks the user for file and axis
 
@@ -81,6 +83,7 @@ private:
   void connectView();
   void connectDevices();
   void setTool(Tool tool);
+  void abandonReading();
   void hover(const interaction::PickRay& line);
   void press();
   bool takeTool(); // into use, unless it is

@@ -106,7 +106,7 @@ haptics::Device& ToolDriver::prepare(session::TouchSession::Setup& setup)
     return *device;
   }
   setup.center = m_model.value().ct.geometry.center();
-  m_mode = setup.tool.mode;
+  m_mode = setup.tool.instrument ? session::TouchTool::Mode::SixDof : setup.tool.mode;
   setup.tool.coupling = session::couplingFor(m_mode, setThrust());
   m_stiffness = setup.tool.coupling.stiffness;
   m_aim.begin();

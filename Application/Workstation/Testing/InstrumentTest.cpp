@@ -6,7 +6,9 @@
 #include <QFileDialog>
 #include <QInputDialog>
 #include <QLineEdit>
+#include <QSignalSpy>
 
+#include "ActiveDeviceController.h"
 #include "DrillController.h"
 #include "SceneDisplay.h"
 
@@ -100,6 +102,90 @@ TEST_F(InstrumentWindow, IsRememberedAndReadWhenItIsTakenUpAgain)
   ASSERT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
   EXPECT_TRUE(text.contains("lying.obj")) << text.toStdString();
   EXPECT_FALSE(action("Instrument")->isChecked());
+}
+
+// What is still being read does not take the tool out of the hand.
+TEST_F(InstrumentWindow, IsNotTakenUpWhenAnotherToolOrCaseCameMeanwhile)
+{
+  saveBall("ball");
+  saveBall("other");
+  openWindow("ball");
+  const QString file = writePick("pick.obj");
+  QSignalSpy read(&drillController(), &DrillController::instrumentRead);
+  constexpr int kReads = 5000; // ms; below a second when nothing else runs
+
+  drillController().readInstrument(file, "z+");
+  action("Drill")->trigger();
+  EXPECT_FALSE(waitFor([&read] { return !read.isEmpty(); }, kReads));
+  EXPECT_TRUE(action("Drill")->isChecked());
+
+  drillController().readInstrument(file, "z+");
+  drillController().releaseTool();
+  EXPECT_FALSE(waitFor([&read] { return !read.isEmpty(); }, kReads));
+  EXPECT_FALSE(action("Instrument")->isChecked());
+
+  drillController().readInstrument(file, "z+");
+  action("Close the case")->trigger();
+  ASSERT_FALSE(window().model().hasCase());
+  window().begin("other");
+  EXPECT_FALSE(waitFor([&read] { return !read.isEmpty(); }, kReads));
+  ASSERT_TRUE(settled());
+  EXPECT_EQ(window().model().value().name, "other");
+  EXPECT_FALSE(action("Instrument")->isChecked());
+
+  drillController().readInstrument(file, "z+"); // nothing came between
+  EXPECT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  EXPECT_EQ(read.size(), 1);
+}
+
+TEST_F(InstrumentWindow, LetsAStrokeGoOnThatIsOpenWhenItIsRead)
+{
+  saveBall("ball");
+  openWindow("ball");
+  const QString file = writePick("pick.obj");
+  QTest::keyClick(&view(), Qt::Key_D);
+  const QPoint middle = view().rect().center();
+  QTest::mouseMove(&view(), middle);
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  ASSERT_TRUE(waitFor([this] { return window().model().drilling(); }));
+  QSignalSpy read(&drillController(), &DrillController::instrumentRead);
+  drillController().readInstrument(file, "z+");
+  ASSERT_TRUE(waitFor([&read] { return !read.isEmpty(); }));
+  QTest::qWait(100);
+  EXPECT_TRUE(window().model().drilling());
+  EXPECT_TRUE(action("Drill")->isChecked());
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  EXPECT_TRUE(strokeEnds());
+  action("Instrument")->trigger(); // it is read already
+  EXPECT_TRUE(action("Instrument")->isChecked());
+}
+
+// Its coupling is that of six degrees of freedom, whatever is chosen for the burr.
+TEST_F(InstrumentWindow, IsFeltInSixDegreesOfFreedomWhereOnlyTheBurrIsFelt)
+{
+  openWindow();
+  saveBall("ball");
+  presenters::WorkstationModel model(library());
+  model.open("ball");
+  ToolDriver driver(model, view(), *window().findChild<ActiveDeviceController*>());
+  constexpr double kThrust = 3.0; // N, more than the usual stiffness bears
+  interaction::AimSettings aim;
+  aim.thrust = kThrust;
+  driver.set(aim);
+  const auto stiffnessWith = [&driver](std::shared_ptr<const session::Instrument> instrument)
+  {
+    session::TouchSession::Setup setup;
+    setup.tool.mode = session::TouchTool::Mode::ThreeDof;
+    setup.tool.instrument = std::move(instrument);
+    driver.prepare(setup);
+    EXPECT_FALSE(driver.outgrown());
+    return setup.tool.coupling.stiffness;
+  };
+  const double burr = stiffnessWith(nullptr);
+  EXPECT_EQ(burr, session::couplingFor(session::TouchTool::Mode::ThreeDof, kThrust).stiffness);
+  const double instrument = stiffnessWith(std::make_shared<const session::Instrument>());
+  EXPECT_EQ(instrument, session::couplingFor(session::TouchTool::Mode::SixDof, kThrust).stiffness);
+  EXPECT_GT(instrument, burr);
 }
 
 TEST_F(InstrumentWindow, IsRefusedInWordsWhenItIsNotClosed)

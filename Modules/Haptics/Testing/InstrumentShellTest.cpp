@@ -110,9 +110,15 @@ TEST(InstrumentShell, CoversTheSurfaceAsItSaysAndNotMuchWorseThanALattice)
   EXPECT_LE(worst, shell.spacing);
   EXPECT_GE(worst, 0.8 * shell.spacing) << "the stated error is nearly reached";
   // N points whose covering discs form the thinnest lattice cover an area A with the radius
-  // sqrt(2 A / (3 sqrt(3) N)) (Kershner 1939); farthest points with at most twice that.
+  // sqrt(2 A / (3 sqrt(3) N)) (Kershner 1939); farthest points with at most twice that, where
+  // spacing is even. It is denser at the tip.
   const double area = kPi * slope * length * (std::hypot(length, slope * length) + slope * length);
-  EXPECT_LT(shell.spacing, 2.0 * std::sqrt(2.0 * area / (3.0 * std::sqrt(3.0) * 2000.0)));
+  EXPECT_LT(shell.spacing, 3.0 * std::sqrt(2.0 * area / (3.0 * std::sqrt(3.0) * 2000.0)));
+  double atTip = 0.0;
+  for (double z = 0.05; z < haptics::kInstrumentTip; z += 0.031)
+    atTip = std::max(atTip, nearest(shell, {slope * z, 0.0, z}));
+  EXPECT_LE(atTip, shell.burrSpacing);
+  EXPECT_LT(shell.burrSpacing, 0.7 * shell.spacing);
 }
 
 TEST(InstrumentShell, BeginsAtTheTipWhoseNormalIsTheAxis)
@@ -189,8 +195,69 @@ TEST(InstrumentShell, RestsOnBoneWithItsTipAndBearsTheForce)
   EXPECT_NEAR(tick.thrust, tick.wrench.linear.norm(), 0.03);
 }
 
+// Deeper than a voxel the field's slope says nothing of the depth, and there is no ball to bound
+// it.
+TEST(InstrumentShell, ItsDepthIsUnknownBeyondAVoxelOfTissue)
+{
+  const double h = 0.3;
+  const Scene scene = sceneOf(scanOf(plane(Vector3d::UnitZ()), h, 7.0));
+  const PointShell shell = makeInstrumentShell(cone(0.2, 5.0));
+  haptics::ConstrainedProxy proxy(scene.field, shell);
+  proxy.place(poseAt({0.1, -0.2, -3.0}));
+  haptics::ProxyTick tick = proxy.step(poseAt({0.1, -0.2, -3.0}));
+  ASSERT_EQ(tick.status, haptics::ProxyStatus::Inside);
+  EXPECT_TRUE(std::isnan(tick.penetration)) << tick.penetration;
+  proxy.place(poseAt({0.1, -0.2, -0.5 * h}));
+  tick = proxy.step(poseAt({0.1, -0.2, -0.5 * h}));
+  ASSERT_EQ(tick.status, haptics::ProxyStatus::Inside);
+  EXPECT_NEAR(tick.penetration, 0.5 * h, 0.05 * h);
+}
+
+// A long instrument is as dense at its tip as a short one, and its handle makes do with less.
+TEST(InstrumentShell, ALongHandleLeavesTheTipItsPoints)
+{
+  core::TriangleMesh mesh = box(Vector3d(-0.8, -0.8, 0.0), Vector3d(0.8, 0.8, 60.0));
+  addBox(mesh, Vector3d(-4.0, -4.0, 60.0), Vector3d(4.0, 4.0, 160.0));
+  const PointShell shell = makeInstrumentShell(mesh);
+  expectConsistent(shell, 2000);
+  EXPECT_LT(shell.burrSpacing, 0.6);
+  EXPECT_LT(shell.spacing, 2.5);
+  double atTip = 0.0;
+  for (double x = -0.8; x <= 0.8; x += 0.05)
+    for (double y = -0.8; y <= 0.8; y += 0.05)
+      atTip = std::max(atTip, nearest(shell, {x, y, 0.0}));
+  EXPECT_LT(atTip, 0.25);
+}
+
+// The end of a blade comes down on a right-angled cone of bone, which enters up to the distance of
+// its apex to the nearest point, however the blade slides.
+TEST(InstrumentShell, ASpikeMeetsAPointOfTheTipBeforeItSinksInByMoreThanStated)
+{
+  const double h = 0.15;
+  const Scene scene = sceneOf(
+      scanOf([](const Vector3d& p) { return -(p.z() + std::hypot(p.x(), p.y())) / std::sqrt(2.0); },
+             h, 3.0));
+  const PointShell shell =
+      makeInstrumentShell(box(Vector3d(-1.5, -1.0, 0.0), Vector3d(1.5, 1.0, 80.0)));
+  EXPECT_LT(shell.burrSpacing, 0.5);
+  for (const Vector3d& from : {Vector3d(0.0, 0.0, 0.0), Vector3d(0.13, -0.21, 0.0),
+                               Vector3d(-0.37, 0.11, 0.0), Vector3d(0.6, 0.4, 0.0)})
+  {
+    SCOPED_TRACE(from.transpose());
+    haptics::ConstrainedProxy proxy(scene.field, shell);
+    proxy.place(poseAt(from + Vector3d(0.0, 0.0, 0.5)));
+    for (int n = 0; n <= 120; ++n)
+      proxy.step(poseAt(from + Vector3d(0.0, 0.0, 0.5 - 0.0125 * n)));
+    const haptics::Pose pose = proxy.pose();
+    const Vector3d apex = pose.rotation.conjugate() * Vector3d(-pose.position);
+    EXPECT_LE(apex.z(), shell.burrSpacing + 0.3 * h);
+    EXPECT_LE(apex.z(), 0.25 + 0.3 * h) << "as dense as the tip itself";
+    EXPECT_GE(apex.z(), -0.3 * h) << "it is not held off";
+  }
+}
+
 // The flat side of a blade comes down on a plate of bone on edge, as thin as two voxels.
-TEST(InstrumentShell, ABladeDoesNotSinkOverARidgeByMoreThanTheSamplingError)
+TEST(InstrumentShell, ABladeRestsOnARidgeThatIsNoThinnerThanItsPointsAreApart)
 {
   const double h = 0.3;
   const Scene scene = sceneOf(

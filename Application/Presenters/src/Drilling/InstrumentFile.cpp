@@ -22,7 +22,7 @@ namespace
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
-constexpr double kAtTip = 1.0;     // mm from the surface to an origin that is the tip
+constexpr double kAtTip = 1.0;     // mm from an origin that is the tip to surface and lowest point
 constexpr double kHollow = 1e-9;   // of the bounding box's volume: encloses nothing
 constexpr double kSideways = 1.25; // ratio of the longest side to the one along the shaft
 
@@ -80,17 +80,34 @@ void checkSurface(const fs::path& path, const core::TriangleMesh& mesh)
     refuse(path, "encloses nothing; an instrument is a solid body with a closed surface");
 }
 
-// In frame T but for the shift.
-Vector3d tipOf(const core::TriangleMesh& mesh, std::vector<std::string>& notes)
+std::string reversed(std::string axis)
 {
+  axis.back() = axis.back() == '+' ? '-' : '+';
+  return axis;
+}
+
+// In frame T but for the shift. A mid-shaft origin is close to a thin shaft's surface, too, but is
+// not its tip.
+Vector3d tipOf(const core::TriangleMesh& mesh, const std::string& axis,
+               std::vector<std::string>& notes)
+{
+  const auto [lowest, highest] = std::minmax_element(
+      mesh.vertices.begin(), mesh.vertices.end(),
+      [](const Eigen::Vector3f& a, const Eigen::Vector3f& b) { return a.z() < b.z(); });
   const double away = volume::MeshTree(mesh).distance(Vector3d::Zero(), 2.0 * kMaxInstrument);
-  if (away <= kAtTip)
+  const double beyond = -static_cast<double>(lowest->z());
+  if (away > kAtTip)
+    notes.push_back("Its tip is taken to be the point farthest from the hand, as the file's origin "
+                    "is not within 1 mm of its surface");
+  else if (beyond <= kAtTip)
     return Vector3d::Zero();
-  const auto lowest = std::min_element(mesh.vertices.begin(), mesh.vertices.end(),
-                                       [](const Eigen::Vector3f& a, const Eigen::Vector3f& b)
-                                       { return a.z() < b.z(); });
-  notes.push_back("Its tip is taken to be the point farthest from the hand, as the file's origin "
-                  "is not within 1 mm of its surface");
+  else if (static_cast<double>(highest->z()) <= kAtTip)
+    notes.push_back("Its tip is taken to be the point farthest from the hand, as the file's origin "
+                    "lies at the other end; if the tip is at the origin, its axis is " +
+                    reversed(axis) + " instead of " + axis);
+  else
+    notes.push_back("Its tip is taken to be the point farthest from the hand, as it reaches " +
+                    lengthText(beyond) + " mm beyond the file's origin");
   return lowest->cast<double>();
 }
 
@@ -114,7 +131,7 @@ LoadedInstrument readInstrument(const fs::path& path, const std::string& axis,
     result.notes.push_back("It is longer across the shaft than along it; if it lies along another "
                            "axis of its file than " +
                            axis + ", say which");
-  const Vector3d tip = tipOf(mesh, result.notes);
+  const Vector3d tip = tipOf(mesh, axis, result.notes);
   for (Eigen::Vector3f& vertex : mesh.vertices)
     vertex = (vertex.cast<double>() - tip).cast<float>();
   progress.check("sampling the instrument");
@@ -136,8 +153,11 @@ double reachBeyondTip(const session::Instrument& instrument) noexcept
 std::string toString(const session::Instrument& instrument)
 {
   return instrument.name + ": " + std::to_string(instrument.shell->points.size()) +
-         " points, no place of its surface farther than " +
-         core::fixedText(instrument.shell->spacing, 2) + " mm from one";
+         " points, no place within 10 mm of its tip farther than " +
+         core::fixedText(instrument.shell->burrSpacing, 2) +
+         " mm from one, and none at all farther than " +
+         core::fixedText(instrument.shell->spacing, 2) +
+         " mm; bone thinner than twice that may pass between them unfelt";
 }
 
 } // namespace petrous::presenters

@@ -12,6 +12,32 @@
 namespace petrous::haptics
 {
 
+using TriangleCorners = std::array<Eigen::Vector3d, 3>; // of a triangle
+
+/// The ball about a triangle's centroid that contains it.
+struct TriangleBall
+{
+  explicit TriangleBall(const TriangleCorners& t)
+    : centre((t[0] + t[1] + t[2]) / 3.0)
+    , radius(std::max({(t[0] - centre).norm(), (t[1] - centre).norm(), (t[2] - centre).norm()}))
+  {
+  }
+  Eigen::Vector3d centre;
+  double radius;
+};
+
+/// Appends its halves, bisected at the longest side, so that slivers converge as fast as others.
+inline void bisect(const TriangleCorners& t, std::vector<TriangleCorners>& halves)
+{
+  std::size_t k = 0;
+  for (const std::size_t side : {1, 2})
+    if ((t[side] - t[(side + 1) % 3]).squaredNorm() > (t[k] - t[(k + 1) % 3]).squaredNorm())
+      k = side;
+  const Eigen::Vector3d middle = 0.5 * (t[k] + t[(k + 1) % 3]);
+  halves.push_back({t[k], middle, t[(k + 2) % 3]});
+  halves.push_back({middle, t[(k + 1) % 3], t[(k + 2) % 3]});
+}
+
 /// Covering radius of a set of points on a surface: the largest distance of any surface point to
 /// the nearest of the set, by branch and bound over triangles.
 ///
@@ -21,12 +47,15 @@ namespace petrous::haptics
 class Covering
 {
 public:
-  using Triangle = std::array<Eigen::Vector3d, 3>;
+  using Triangle = TriangleCorners;
 
   explicit Covering(const PointGrid& grid)
     : m_grid(grid)
   {
   }
+
+  /// A point of the surface: the search is shorter where a large distance is known before.
+  void see(const Eigen::Vector3d& point) { m_worst = std::max(m_worst, m_grid.distance(point)); }
 
   template <typename Map>
   void add(const Triangle& triangle, Map map)
@@ -36,21 +65,11 @@ public:
     {
       const Triangle t = m_open.back();
       m_open.pop_back();
-      const Eigen::Vector3d centre = (t[0] + t[1] + t[2]) / 3.0;
-      const double radius =
-          std::max({(t[0] - centre).norm(), (t[1] - centre).norm(), (t[2] - centre).norm()});
+      const auto [centre, radius] = TriangleBall(t);
       const double distance = m_grid.distance(map(centre));
       m_worst = std::max(m_worst, distance);
-      if (distance + radius <= kSlack * m_worst)
-        continue;
-      // Bisected at the longest side, so that slivers converge as fast as others.
-      std::size_t k = 0;
-      for (const std::size_t side : {1, 2})
-        if ((t[side] - t[(side + 1) % 3]).squaredNorm() > (t[k] - t[(k + 1) % 3]).squaredNorm())
-          k = side;
-      const Eigen::Vector3d middle = 0.5 * (t[k] + t[(k + 1) % 3]);
-      m_open.push_back({t[k], middle, t[(k + 2) % 3]});
-      m_open.push_back({middle, t[(k + 1) % 3], t[(k + 2) % 3]});
+      if (distance + radius > kSlack * m_worst)
+        bisect(t, m_open);
     }
   }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -25,7 +26,11 @@ namespace
 using Eigen::Vector3d;
 
 constexpr std::size_t kPlaces = 50000; // on the triangles, from which points are chosen
-constexpr double kFinest = 0.1;        // mm: denser points add nothing that voxels show
+constexpr double kFinest = 0.1;        // mm, at the tip: denser points add nothing that voxels show
+constexpr double kDoubled = 5.0;       // mm from the tip, where points are twice as far apart
+constexpr double kCoarsest = 10.0;     // times as far apart as at the tip, on the handle
+constexpr double kPiece = 0.2;         // of the distance over which spacing doubles: a piece's size
+constexpr double kBorder = 0.1;        // mm: pieces on both sides of the working end's border
 constexpr double kAside = 1e-5;        // of the size: from the surface, to look at its other side
 
 struct Place
@@ -51,45 +56,87 @@ std::vector<Place> verticesOf(const std::vector<volume::Triangle>& triangles)
   return places;
 }
 
-// Evenly over the area: stratified over the triangles, and on each by Roberts' R2 sequence.
+// Intended spacing at that distance from the tip, in units of that at the tip.
+double coarsenessAt(double fromTip)
+{
+  return std::min(1.0 + fromTip / kDoubled, kCoarsest);
+}
+
+// Pieces of the triangle over which the spacing is nearly constant, each with twice its area in
+// units of that spacing squared.
+template <typename Visit>
+void forPieces(const volume::Triangle& triangle, std::vector<volume::Triangle>& open, Visit visit)
+{
+  open.assign(1, triangle);
+  while (!open.empty())
+  {
+    const volume::Triangle t = open.back();
+    open.pop_back();
+    const auto [centre, radius] = TriangleBall(t);
+    const bool isOnHandle = centre.norm() - radius >= kDoubled * (kCoarsest - 1.0);
+    if (!isOnHandle && radius > kPiece * (kDoubled + centre.norm()))
+    {
+      bisect(t, open);
+      continue;
+    }
+    const double coarseness = coarsenessAt(centre.norm());
+    visit(t, (t[1] - t[0]).cross(t[2] - t[0]).norm() / (coarseness * coarseness));
+  }
+}
+
+// As dense as the points are to be: stratified over the pieces, and on each by Roberts' R2
+// sequence.
 void addPlaces(const std::vector<volume::Triangle>& triangles, std::vector<Place>& places)
 {
   constexpr double kFirst = 0.7548776662466927; // reciprocals of the plastic number and its square
   constexpr double kSecond = 0.5698402909980532;
-  double area = 0.0;
-  for (const auto& [a, b, c] : triangles)
-    area += (b - a).cross(c - a).norm();
-  const double step = area / static_cast<double>(kPlaces);
-  double next = 0.5 * step;
+  constexpr double kGolden = 0.6180339887498949;
+  std::vector<volume::Triangle> open;
+  double weight = 0.0;
+  for (const volume::Triangle& triangle : triangles)
+    forPieces(triangle, open, [&weight](const volume::Triangle&, double w) { weight += w; });
+  const double step = weight / static_cast<double>(kPlaces);
+  // Anywhere in its stratum, as many triangles may be alike.
+  const auto placeOf = [step](std::size_t n)
+  { return step * (static_cast<double>(n) + std::fmod(kGolden * static_cast<double>(n), 1.0)); };
   double passed = 0.0;
   std::size_t count = 0;
-  for (const auto& [a, b, c] : triangles)
-  {
-    const Vector3d normal = (b - a).cross(c - a);
-    passed += normal.norm();
-    for (; next < passed && count < kPlaces; next += step, ++count)
-    {
-      double u = std::fmod(kFirst * static_cast<double>(count), 1.0);
-      double v = std::fmod(kSecond * static_cast<double>(count), 1.0);
-      if (u + v > 1.0)
-      {
-        u = 1.0 - u;
-        v = 1.0 - v;
-      }
-      places.push_back({a + u * (b - a) + v * (c - a), normal.normalized()});
-    }
-  }
+  for (const volume::Triangle& triangle : triangles)
+    forPieces(
+        triangle, open,
+        [&](const volume::Triangle& piece, double w)
+        {
+          const auto& [a, b, c] = piece;
+          passed += w;
+          for (; count < kPlaces && placeOf(count) < passed; ++count)
+          {
+            double u = std::fmod(kFirst * static_cast<double>(count), 1.0);
+            double v = std::fmod(kSecond * static_cast<double>(count), 1.0);
+            if (u + v > 1.0)
+            {
+              u = 1.0 - u;
+              v = 1.0 - v;
+            }
+            places.push_back({a + u * (b - a) + v * (c - a), (b - a).cross(c - a).normalized()});
+          }
+        });
 }
 
-// Farthest-point sampling: indices of `places`, the nearest to the origin first.
+// Farthest-point sampling, with distances in units of the intended spacing until that is reached,
+// then as they are: indices of `places`, the nearest to the origin first.
 std::vector<std::size_t> spread(const std::vector<Place>& places, std::size_t most)
 {
+  std::vector<double> perSpacing; // squared
   std::size_t chosen = 0;
-  for (std::size_t n = 1; n < places.size(); ++n)
+  for (std::size_t n = 0; n < places.size(); ++n)
+  {
+    perSpacing.push_back(std::pow(coarsenessAt(places[n].point.norm()), -2.0));
     if (places[n].point.squaredNorm() < places[chosen].point.squaredNorm())
       chosen = n;
+  }
   std::vector<double> squared(places.size(), std::numeric_limits<double>::infinity());
   std::vector<std::size_t> result;
+  bool isGraded = true;
   for (;;)
   {
     result.push_back(chosen);
@@ -97,12 +144,48 @@ std::vector<std::size_t> spread(const std::vector<Place>& places, std::size_t mo
     squared[chosen] = 0.0;
     for (std::size_t n = 0; n < places.size(); ++n)
     {
-      squared[n] = std::min(squared[n], (places[n].point - at).squaredNorm());
+      squared[n] = std::min(squared[n], perSpacing[n] * (places[n].point - at).squaredNorm());
       if (squared[n] > squared[chosen])
         chosen = n;
     }
+    if (isGraded && squared[chosen] <= kFinest * kFinest)
+    {
+      isGraded = false;
+      for (std::size_t n = 0; n < places.size(); ++n)
+      {
+        squared[n] /= std::exchange(perSpacing[n], 1.0);
+        if (squared[n] > squared[chosen])
+          chosen = n;
+      }
+    }
     if (result.size() == most || squared[chosen] <= kFinest * kFinest)
       return result;
+  }
+}
+
+// Calls visit(piece, isNear) for pieces of the triangle within kInstrumentTip of the tip and beyond
+// it; small ones on the border count as both.
+template <typename Visit>
+void partAtWorkingEnd(const volume::Triangle& triangle, std::vector<volume::Triangle>& open,
+                      Visit visit)
+{
+  open.assign(1, triangle);
+  while (!open.empty())
+  {
+    const volume::Triangle t = open.back();
+    open.pop_back();
+    const auto [centre, radius] = TriangleBall(t);
+    const bool reachesIn = centre.norm() - radius <= kInstrumentTip;
+    const bool reachesOut = centre.norm() + radius >= kInstrumentTip;
+    if (reachesIn && reachesOut && radius > kBorder)
+    {
+      bisect(t, open);
+      continue;
+    }
+    if (reachesIn)
+      visit(t, true);
+    if (reachesOut)
+      visit(t, false);
   }
 }
 
@@ -150,10 +233,17 @@ PointShell makeInstrumentShell(const core::TriangleMesh& surface, std::size_t bu
   shell.burrCount = shell.points.size();
 
   const PointGrid grid(shell.points, kFinest);
-  Covering covering(grid);
+  Covering tip(grid);
+  Covering rest(grid);
+  for (const Place& place : places)
+    (place.point.norm() <= kInstrumentTip ? tip : rest).see(place.point);
+  std::vector<volume::Triangle> open;
   for (const volume::Triangle& triangle : tree.triangles())
-    covering.add(triangle, [](const Vector3d& p) { return p; });
-  shell.spacing = shell.burrSpacing = covering.bound();
+    partAtWorkingEnd(triangle, open,
+                     [&](const volume::Triangle& piece, bool isNear)
+                     { (isNear ? tip : rest).add(piece, [](const Vector3d& p) { return p; }); });
+  shell.burrSpacing = tip.bound();
+  shell.spacing = std::max(tip.bound(), rest.bound());
   return shell;
 }
 

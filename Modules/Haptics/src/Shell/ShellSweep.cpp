@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "SurfaceSamples.h"
@@ -164,8 +165,12 @@ double ShellSweep::penetration() const noexcept
     return ofSolid;
   const Eigen::Vector3d voxel = voxelOf(m_deepestPoint);
   const double slope = m_field->gradient(voxel, m_field->sample(voxel, *m_state), *m_state).norm();
-  return std::max(ofSolid, std::min(m_deepest / std::max(slope, 1e-9),
-                                    std::max(m_shell.burrRadius, m_field->voxel())));
+  const double depth = m_deepest / std::max(slope, 1e-9);
+  if (m_shell.burrRadius > 0.0)
+    return std::max(ofSolid, std::min(depth, std::max(m_shell.burrRadius, m_field->voxel())));
+  // The slope is that of the surface no deeper than a voxel.
+  return depth <= m_field->voxel() ? std::max(ofSolid, depth)
+                                   : std::numeric_limits<double>::quiet_NaN();
 }
 
 // Where f rises above 0 on the chord: the fraction of it that is free, 1 if all of it is.

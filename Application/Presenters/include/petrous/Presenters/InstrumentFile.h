@@ -28,9 +28,10 @@ constexpr std::size_t kMaxInstrumentTriangles = 200000;
 /// Reads an instrument from OBJ, STL, PLY or VTP (imaging::loadMesh): a closed surface in mm, or in
 /// the unit that the file states.
 ///
-/// The file's origin is the tip if it lies within 1 mm of the surface; else the tip is the point
-/// farthest from the hand, which is noted. `axis`, of kInstrumentAxes, leads from the tip to the
-/// hand in the file's own coordinates; the instrument is turned so that it becomes +z.
+/// The file's origin is the tip if it lies within 1 mm of the surface, which reaches no more than
+/// 1 mm beyond it along the axis; else the tip is the point farthest from the hand, which is noted.
+/// `axis`, of kInstrumentAxes, leads from the tip to the hand in the file's own coordinates; the
+/// instrument is turned so that it becomes +z.
 ///
 /// Throws FileError; InvalidParameter for an axis that does not exist, and for a surface that is
 /// not closed, encloses nothing, is shorter than kMinInstrument, longer than kMaxInstrument, or of
@@ -39,10 +40,11 @@ LoadedInstrument readInstrument(const std::filesystem::path& path,
                                 const std::string& axis = kInstrumentAxes[0],
                                 const core::Progress& progress = {});
 
-/// mm by which an instrument reaches beyond its tip, away from the hand; at least 0.
+/// mm by which an instrument reaches beyond its tip, away from the hand; 0 to 1.
 double reachBeyondTip(const session::Instrument& instrument) noexcept;
 
-/// "pick.stl: 2000 points, no place of its surface farther than 0.31 mm from one".
+/// "pick.stl: 2000 points, no place within 10 mm of its tip farther than 0.31 mm from one, and none
+/// at all farther than 1.20 mm; bone thinner than twice that may pass between them unfelt".
 std::string toString(const session::Instrument& instrument);
 
 } // namespace petrous::presenters

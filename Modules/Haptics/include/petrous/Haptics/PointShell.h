@@ -30,7 +30,8 @@ struct PointShell
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3d> normals; ///< unit, outward
   std::size_t burrCount = 0;
-  double burrSpacing = 0.0; ///< mm, as `spacing`, of the burr only; 0 without one
+  double burrSpacing = 0.0; ///< mm, as `spacing`, of the burr only, or of what of an instrument is
+                            ///< within kInstrumentTip of its tip
   double burrRadius = 0.0;  ///< mm, of the ball about the origin; 0 without one
   double burrTop = 0.0;     ///< mm along +z, above which the shaft hides the ball
   double spacing = 0.0;     ///< mm, largest distance of a surface point to its nearest shell point,
@@ -74,15 +75,21 @@ struct BurrShape
 /// the burr gets what is available (at least 3/5 of it) and `burrSpacing` gives the result.
 PointShell makeBurrShell(const BurrShape& shape, double voxel, std::size_t budget = 2000);
 
+/// mm from an instrument's tip, its working end: `burrSpacing` is of the surface within.
+constexpr double kInstrumentTip = 10.0;
+
 /// Samples the surface of an instrument, in frame T. The first point is the surface's nearest to
-/// the origin, the tip; each further one is, of some 50,000 places spread over the surface and of
-/// its vertices, the farthest from those before (farthest-point sampling), until `budget` is used
-/// up or every place has a point within 0.1 mm. So points are spaced evenly, whatever the
-/// triangles, and sharp ends have one.
+/// the origin, the tip; each further one is, of some 50,000 places on the surface and of its
+/// vertices, the farthest from those before (farthest-point sampling), in units of a spacing that
+/// grows linearly with the distance r from the tip, s (1 + r / 5 mm), up to 10 s; once every place
+/// has a point within that spacing for s = 0.1 mm, in mm. That ends when `budget` is used up or
+/// every place has a point within 0.1 mm. So points are dense at the tip, whatever the triangles,
+/// and sharp ends have one.
 ///
-/// `spacing` is the sampling error: tissue that is flat, or curved less than the instrument, is met
-/// by its points as by its surface, up to spacing^2 / 2R for a surface of radius R; an edge or
-/// spike of bone can sink between them by `spacing` at most.
+/// `spacing` is a distance between points, no bound on what they miss. With c the spacing at a
+/// place, bone that is flat or rounded is met there by up to c^2 / 2R late, for a surface of radius
+/// R; a straight cone of bone of half angle a on a flat side by up to c / tan(a); bone thinner than
+/// 2 c may pass between the points unfelt.
 ///
 /// surface  closed; may consist of several shells, with triangles of any orientation; mm
 /// budget   maximum number of points, in [200, 20000]

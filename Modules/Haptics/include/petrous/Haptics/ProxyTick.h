@@ -53,8 +53,9 @@ struct ProxyTick
   Wrench wrench; ///< on the hand, about the tool's origin, patient axes, before limits
   std::size_t contactCount = 0; ///< active contacts
   std::array<ProxyContact, kMaxContacts> contacts;
-  double thrust = 0.0;      ///< N, sum over the burr's contacts
-  double penetration = 0.0; ///< mm, of the deepest shell point in rigid tissue, as sampled
+  double thrust = 0.0; ///< N, sum over the burr's contacts
+  double penetration =
+      0.0; ///< mm, of the deepest shell point in rigid tissue, as sampled; NaN: unknown
   int rounds = 0;
   std::size_t nearPoints = 0;  ///< shell points examined
   std::size_t samples = 0;     ///< of the field

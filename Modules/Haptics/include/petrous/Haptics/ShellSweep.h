@@ -97,7 +97,7 @@ public:
   /// Depth of the deepest point at the tool's pose, or of the tissue deepest in its solid, mm; 0 if
   /// f <= 0 throughout. Considers the points examined on arrival (the others cannot be in tissue),
   /// or all of them after `measure`. In the flat interior of tissue, where depth cannot be
-  /// determined, the burr's radius.
+  /// determined, the burr's radius; NaN for a tool without one that is deeper than a voxel.
   double penetration() const noexcept;
 
   /// Examines all points and the solid at the present pose. Returns whether the tool is free; false

@@ -4,7 +4,6 @@
 
 #include <QComboBox>
 #include <QDialogButtonBox>
-#include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QGridLayout>
@@ -146,7 +145,7 @@ QWidget* AddPartsDialog::tableChoice(std::size_t row, const Part& part)
                 tr("Tables of names (*.ctbl *.txt *.label *.csv *.tsv *.json);;All files (*)"));
             if (file.isEmpty())
               return;
-            m_rows[row].table = QFile::encodeName(file).toStdString();
+            m_rows[row].table = pathOf(file);
             state->setText(tr("named by “%1”").arg(QFileInfo(file).fileName()));
           });
   auto* box = new QWidget;

@@ -3,7 +3,6 @@
 #include <QCheckBox>
 #include <QDialogButtonBox>
 #include <QDir>
-#include <QFile>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QLabel>
@@ -99,7 +98,7 @@ std::filesystem::path ArchiveDialog::file() const
 {
   const QString text = m_file->text();
   const bool isNamed = text.endsWith(library::kArchiveEnding, Qt::CaseInsensitive);
-  return QFile::encodeName(isNamed ? text : text + library::kArchiveEnding).toStdString();
+  return pathOf(isNamed ? text : text + library::kArchiveEnding);
 }
 
 library::ArchiveOptions ArchiveDialog::options() const

@@ -6,7 +6,6 @@
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDir>
-#include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
@@ -243,7 +242,7 @@ presenters::ExportOptions ExportDialog::options() const
   presenters::ExportOptions options;
   options.what = bytes(m_what->currentData().toString());
   options.part = bytes(m_part->currentData().toString());
-  options.out = QFile::encodeName(QDir::cleanPath(m_path->text().trimmed())).toStdString();
+  options.out = pathOf(QDir::cleanPath(m_path->text().trimmed()));
   if (isSeries())
     options.out += '/';
   options.onCt = m_onCt->isEnabled() && m_onCt->isChecked();

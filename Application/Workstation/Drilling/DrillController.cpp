@@ -6,7 +6,6 @@
 
 #include <QAction>
 #include <QApplication>
-#include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QInputDialog>
@@ -275,9 +274,8 @@ void DrillController::readInstrument(const QString& file, const QString& axis)
   m_reading.replace(
       [this, file, axis](const core::Progress& progress) -> BackgroundWork::Reply
       {
-        const auto read =
-            std::make_shared<const presenters::LoadedInstrument>(presenters::readInstrument(
-                QFile::encodeName(file).toStdString(), bytes(axis), progress));
+        const auto read = std::make_shared<const presenters::LoadedInstrument>(
+            presenters::readInstrument(pathOf(file), bytes(axis), progress));
         return [this, file, axis, read]
         {
           setInstrument(file, axis);

@@ -227,7 +227,7 @@ void ExchangeController::receiveScene(const ReceiveDialog::Choice& choice, const
   request.studyUid = choice.study;
   request.as = name;
   request.undeclaredBits = bits;
-  request.partial = QFile::encodeName(arriving(choice.study)).toStdString();
+  request.partial = pathOf(arriving(choice.study));
   m_keeper.run(
       tr("Receiving from %1").arg(words(choice.node.name)),
       [this, library = m_model.library(), choice,
@@ -285,9 +285,8 @@ void ExchangeController::receiveImages(const ReceiveDialog::Choice& choice)
   m_keeper.run(tr("Receiving from %1").arg(words(choice.node.name)),
                [this, choice, folder](const core::Progress& progress) -> BackgroundWork::Reply
                {
-                 const network::Transfer done =
-                     network::retrieve(choice.node, choice.study, choice.series,
-                                       QFile::encodeName(folder).toStdString(), progress);
+                 const network::Transfer done = network::retrieve(
+                     choice.node, choice.study, choice.series, pathOf(folder), progress);
                  return [this, done, folder]
                  {
                    emit statusMessage(tr("Received: %1").arg(transferText(done)));

@@ -1,12 +1,13 @@
 #include "PathRow.h"
 
 #include <QDir>
-#include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLineEdit>
 #include <QPushButton>
+
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -38,7 +39,7 @@ QString PathRow::text() const
 
 std::filesystem::path PathRow::path() const
 {
-  return QFile::encodeName(text()).toStdString();
+  return pathOf(text());
 }
 
 void PathRow::setText(const QString& text)

@@ -8,7 +8,6 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QClipboard>
-#include <QFile>
 #include <QFileDialog>
 #include <QKeyEvent>
 #include <QLabel>
@@ -540,7 +539,7 @@ void MeasureController::exportCsv()
   if (attempt(
           [&]
           {
-            const std::string path = QFile::encodeName(file).toStdString();
+            const std::filesystem::path path = pathOf(file);
             library::refuseOverwriting(path);
             core::writeFile(path, presenters::measurementsCsv(m_model.value()));
           }))

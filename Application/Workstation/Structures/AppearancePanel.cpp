@@ -5,7 +5,6 @@
 #include <QColorDialog>
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QFile>
 #include <QFileDialog>
 #include <QGridLayout>
 #include <QHBoxLayout>
@@ -631,9 +630,7 @@ void AppearancePanel::importFile()
   const QString file = QFileDialog::getOpenFileName(
       this, tr("Import a transfer function"), {}, tr("Transfer functions (*.json);;All files (*)"));
   if (!file.isEmpty())
-    attempt(
-        [&]
-        { m_editor.setJson(core::readFile(QFile::encodeName(file).toStdString(), kLargestFile)); });
+    attempt([&] { m_editor.setJson(core::readFile(pathOf(file), kLargestFile)); });
 }
 
 void AppearancePanel::exportFile()
@@ -644,7 +641,7 @@ void AppearancePanel::exportFile()
   dialog.setDefaultSuffix("json");
   if (dialog.exec() != QDialog::Accepted)
     return;
-  const std::string file = QFile::encodeName(dialog.selectedFiles().value(0)).toStdString();
+  const std::filesystem::path file = pathOf(dialog.selectedFiles().value(0));
   attempt(
       [&]
       {

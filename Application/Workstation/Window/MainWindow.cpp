@@ -1369,10 +1369,8 @@ std::filesystem::path MainWindow::chooseRecording()
     showRecording(toString(error));
     dialog.setDirectory(QDir::homePath());
   }
-  return dialog.exec() == QDialog::Accepted
-             ? std::filesystem::path(
-                   QFile::encodeName(dialog.selectedFiles().first()).toStdString())
-             : std::filesystem::path();
+  return dialog.exec() == QDialog::Accepted ? pathOf(dialog.selectedFiles().first())
+                                            : std::filesystem::path();
 }
 
 void MainWindow::showRecording(const QString& fault)

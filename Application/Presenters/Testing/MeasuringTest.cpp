@@ -327,7 +327,7 @@ TEST(Measuring, StatesTheDimensionsOfACanal)
   EXPECT_NEAR(*named(canal, "longest extent").value, 20.0, 0.4);
   EXPECT_NEAR(*named(canal, "second extent").value, 4.0, 0.4);
   EXPECT_NEAR(*named(canal, "third extent").value, 4.0, 0.4);
-  EXPECT_NEAR(*named(canal, "largest thickness").value, 4.0, 0.4);
+  EXPECT_NEAR(*named(canal, "largest thickness").value, 4.0, 0.6); // the lattice's inner circle
   EXPECT_NEAR(*named(canal, "length of the centre line").value, 20.0, 0.4);
   EXPECT_NEAR(*named(canal, "median diameter").value, 4.0, 0.25);
   EXPECT_NEAR(*named(canal, "longest extent").uncertainty, std::sqrt(2.0) * 0.25, 1e-9);
@@ -374,7 +374,8 @@ TEST(Measuring, KnowsWhetherItsTableWouldBeEmpty)
   EXPECT_TRUE(hasMeasurementRows(value)) << "the volumes of structures";
   value.labels.clear();
   EXPECT_FALSE(hasMeasurementRows(value));
-  EXPECT_EQ(core::csvRows(measurementsCsv(value), "t", ',').size(), 1U) << "the header alone";
+  const std::string table = measurementsCsv(value);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1) << "the header alone: " << table;
   value.measurements = {made(Kind::Mark, {{-1.25, 2, 3}})};
   EXPECT_TRUE(hasMeasurementRows(value));
 }

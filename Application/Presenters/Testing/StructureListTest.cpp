@@ -102,14 +102,13 @@ TEST_F(StructureListTest, HasBoneAndSoftTissueFirstAndThenTheKinds)
     parts.push_back(row.part);
     kinds.push_back(row.kind);
   }
-  EXPECT_EQ(parts,
-            (std::vector<std::string>{"ct", scene::kSoftTissue, "facial nerve", "sigmoid sinus",
-                                      "carotid", "stapes", "cochlea", "dura", "antrum", "masseter",
-                                      "implant"}));
+  EXPECT_EQ(parts, (std::vector<std::string>{"ct", scene::kSoftTissue, "facial nerve",
+                                             "sigmoid sinus", "carotid", "stapes", "cochlea",
+                                             "dura", "antrum", "masseter", "implant"}));
   using Kind = StructureKind;
-  EXPECT_EQ(kinds,
-            (std::vector<Kind>{Kind::Bone, Kind::SoftTissue, Kind::Nerve, Kind::Vessel, Kind::Vessel, Kind::Ossicle,
-                               Kind::InnerEar, Kind::Dura, Kind::Lumen, Kind::Other, Kind::Mesh}));
+  EXPECT_EQ(kinds, (std::vector<Kind>{Kind::Bone, Kind::SoftTissue, Kind::Nerve, Kind::Vessel,
+                                      Kind::Vessel, Kind::Ossicle, Kind::InnerEar, Kind::Dura,
+                                      Kind::Lumen, Kind::Other, Kind::Mesh}));
 }
 
 TEST_F(StructureListTest, ShowsOneAloneAndAgainWhatWasShownBefore)
@@ -145,12 +144,10 @@ TEST_F(StructureListTest, WhatTheUserDidSinceIsNotOverwritten)
   EXPECT_FALSE(only.isOn({"a"}));
   only.toggle({"c"});
   only.toggle({"c"});
-  EXPECT_EQ(shown(),
-            (std::map<std::string, bool>{{"ct", true},
-                                         {scene::kSoftTissue, false},
-                                         {"a", true},
-                                         {"b", true},
-                                         {"c", false}}));
+  EXPECT_EQ(
+      shown(),
+      (std::map<std::string, bool>{
+          {"ct", true}, {scene::kSoftTissue, false}, {"a", true}, {"b", true}, {"c", false}}));
 }
 
 TEST_F(StructureListTest, SoftTissueThatIsShownIsHiddenByOthersAlone)

@@ -21,8 +21,9 @@ struct StructureProperty;
 namespace petrous::workstation
 {
 
-/// Bone, soft tissue, structures and meshes of the open case: bone and soft tissue first, the others
-/// by kind in rows that fold; check boxes and numbers modify the case. The row of a kind changes all of them.
+/// Bone, soft tissue, structures and meshes of the open case: bone and soft tissue first, the
+/// others by kind in rows that fold; check boxes and numbers modify the case. The row of a kind
+/// changes all of them.
 class StructuresModel : public QAbstractItemModel
 {
   Q_OBJECT
@@ -104,7 +105,8 @@ private:
 
   presenters::WorkstationModel& m_model;
   std::vector<Row> m_rows;
-  std::vector<Kind> m_kinds; // of structures and meshes, as the model has them below bone and tissue
+  std::vector<Kind>
+      m_kinds; // of structures and meshes, as the model has them below bone and tissue
   Measures m_measured;
   std::uint64_t m_measuredOf = 0; // WorkstationModel::shownAs
   BackgroundWork m_work;          // measures large meshes in seconds

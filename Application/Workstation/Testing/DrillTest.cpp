@@ -81,15 +81,18 @@ TEST_F(Drill, StrokesAreNumberedAsTheHistoryHasThem)
   drill(600);
   ASSERT_TRUE(strokeEnds());
   action("Undo")->trigger();
-  EXPECT_EQ(window().statusBar()->currentMessage(), "Stroke 1 undone");
+  EXPECT_TRUE(
+      waitFor([this] { return window().statusBar()->currentMessage() == "Stroke 1 undone"; }));
   drill(600);
   ASSERT_TRUE(strokeEnds());
   ASSERT_EQ(window().model().value().dissection.strokes().size(), 2u) << "the first is set aside";
   ASSERT_EQ(window().model().value().applied(), 1u);
   action("Undo")->trigger();
-  EXPECT_EQ(window().statusBar()->currentMessage(), "Stroke 2 undone");
+  EXPECT_TRUE(
+      waitFor([this] { return window().statusBar()->currentMessage() == "Stroke 2 undone"; }));
   action("Redo")->trigger();
-  EXPECT_EQ(window().statusBar()->currentMessage(), "Stroke 2 drilled again");
+  EXPECT_TRUE(waitFor(
+      [this] { return window().statusBar()->currentMessage() == "Stroke 2 drilled again"; }));
 }
 
 TEST_F(Drill, AFreshWindowShowsTheSameHole)

@@ -162,8 +162,8 @@ TEST(SoftTissueMaterial, DrawsNoAir)
 {
   StructureAppearance look = softTissueLook();
   look.relative = false;
-  look.transfer = TransferFunction({{-100.0, {1.0F, 0.0F, 0.0F}, 0.4F, 0.2F},
-                                    {100.0, {1.0F, 0.0F, 0.0F}, 0.6F, 0.2F}});
+  look.transfer = TransferFunction(
+      {{-100.0, {1.0F, 0.0F, 0.0F}, 0.4F, 0.2F}, {100.0, {1.0F, 0.0F, 0.0F}, 0.6F, 0.2F}});
   const auto material = softTissueMaterial(look);
   ASSERT_TRUE(material);
   EXPECT_EQ(material->transfer.at(-110.0).extinction, 0.0) << "a twentieth of 200 HU below";

@@ -122,13 +122,18 @@ StructureAppearance OwnPresets::save(const StructureAppearance& look, const std:
 
 void OwnPresets::remove(const std::string& name) const
 {
-  if (isNamed(StructurePresets::builtIn().all(), name))
-    throw core::InvalidParameter("preset '" + name + "' is built in and cannot be removed");
+  const bool isBuiltIn = isNamed(StructurePresets::builtIn().all(), name);
+  const auto refuseBuiltIn = [&name]
+  { throw core::InvalidParameter("preset '" + name + "' is built in and cannot be removed"); };
   std::error_code none;
+  if (isBuiltIn && !std::filesystem::exists(m_file, none))
+    refuseBuiltIn();
   if (!std::filesystem::exists(m_file, none))
     throw core::InvalidParameter("the library has no preset '" + name + "'");
   const core::FileLock lock = lockOf(m_file);
   std::vector<StructureAppearance> presets = all();
+  if (isBuiltIn && !isNamed(presets, name))
+    refuseBuiltIn();
   if (!isNamed(presets, name))
     throw core::InvalidParameter("the library has no preset '" + name + "'");
   presets.erase(std::remove_if(presets.begin(), presets.end(),

@@ -55,7 +55,8 @@ TEST(GoneNames, AreForgottenWhereverTheyStand)
   value.mr[0].registration->error = scene::RegistrationError{};
   value.mr[0].registration->error->place = "the middle of 'Doe'";
   value.mr[0].registration->error->p95 = 1.5;
-  value.softTissue.sourceImage = value.boneLook.sourceImage = value.meshes[0].look.sourceImage = "Doe";
+  value.softTissue.sourceImage = value.boneLook.sourceImage = value.meshes[0].look.sourceImage =
+      "Doe";
   value.labels[0].structures[0].look.sourceImage = "T2";
   value.view.slices.emplace();
   value.view.slices->overlay = scene::ViewState::Slices::Overlay{"Doe", "blend", 0.5};

@@ -31,8 +31,8 @@ struct OpacityAxis
   static double rounded(double opacity) noexcept; ///< to three significant digits, at most 4 places
 };
 
-/// Edits the transfer functions of the open case [Chan2016, Fig. 10]: of bone, of soft tissue and of
-/// each structure of a label map, in the values of the image that it reads. A change is one
+/// Edits the transfer functions of the open case [Chan2016, Fig. 10]: of bone, of soft tissue and
+/// of each structure of a label map, in the values of the image that it reads. A change is one
 /// WorkstationModel::setLook; none while drilling. Without Qt; not thread-safe.
 class AppearanceEditor
 {
@@ -107,8 +107,8 @@ public:
   void setColor(const std::array<float, 3>& color);
   std::array<float, 3> color() const;
 
-  /// Of the surface, 0 to 1; of a lumen, how much it tints bone; of soft tissue, a factor of that of
-  /// its function. Below 1 the inside is seen.
+  /// Of the surface, 0 to 1; of a lumen, how much it tints bone; of soft tissue, a factor of that
+  /// of its function. Below 1 the inside is seen.
   void setSurfaceOpacity(double opacity);
 
   /// The built-in ones, then those of the library. Throws as OwnPresets::all.
@@ -143,8 +143,9 @@ public:
   /// function with which it begins; that of a CT has values in Hounsfield units, and is not fitted.
   void fit();
 
-  AppearanceHistograms::Histogram imageHistogram() const;  ///< that the selected part reads
-  AppearanceHistograms::Histogram insideHistogram() const; ///< within it; bone, soft tissue: nullptr
+  AppearanceHistograms::Histogram imageHistogram() const; ///< that the selected part reads
+  AppearanceHistograms::Histogram
+  insideHistogram() const; ///< within it; bone, soft tissue: nullptr
   bool counts() const noexcept { return m_isCounting; }
   /// Counts missing histograms, in any thread; then call `counted`. Empty: none, or under way.
   std::function<AppearanceHistograms(const core::Progress&)> beginCounting();
@@ -166,10 +167,10 @@ private:
   bool m_isCounting = false;
 };
 
-/// The look of a case's soft tissue with another image as its source: the values of one mean nothing
-/// in another, so that it gets the function of appearance::softTissueOfMr, or that of the default
-/// for the primary image (empty). Throws InvalidParameter if there is no such MR, and what reading
-/// it throws. `histogram`: of the MR; nullptr: it is counted.
+/// The look of a case's soft tissue with another image as its source: the values of one mean
+/// nothing in another, so that it gets the function of appearance::softTissueOfMr, or that of the
+/// default for the primary image (empty). Throws InvalidParameter if there is no such MR, and what
+/// reading it throws. `histogram`: of the MR; nullptr: it is counted.
 appearance::StructureAppearance softTissueReading(const scene::Case& value,
                                                   const std::string& image,
                                                   AppearanceHistograms::Histogram histogram = {});
@@ -187,8 +188,9 @@ appearance::StructureAppearance fitted(const appearance::StructureAppearance& lo
                                        const volume::IntensityHistogram& histogram,
                                        std::optional<double> above = {});
 
-/// The same for a part of a case, kBone for bone, kSoftTissue for soft tissue, whose histogram is counted first. Throws as well
-/// if the part has no values: a mesh, a lumen; or if it is soft tissue of a CT.
+/// The same for a part of a case, kBone for bone, kSoftTissue for soft tissue, whose histogram is
+/// counted first. Throws as well if the part has no values: a mesh, a lumen; or if it is soft
+/// tissue of a CT.
 appearance::StructureAppearance fitted(const scene::Case& value, const std::string& part,
                                        const core::Progress& progress = {});
 

@@ -25,9 +25,9 @@ public:
   ///
   /// Material 0 is bone, the others are the visible structures in the order of scene::labelSources.
   /// Of the MRs that appearances refer to, the first registered one is drawn; structures that refer
-  /// to another are drawn in a single colour, and soft tissue that does is not drawn; its MR is drawn
-  /// if bone and structures refer to none. Throws InvalidParameter if more than 255 structures
-  /// are shown, CancelledError, and what loading the parts throws.
+  /// to another are drawn in a single colour, and soft tissue that does is not drawn; its MR is
+  /// drawn if bone and structures refer to none. Throws InvalidParameter if more than 255
+  /// structures are shown, CancelledError, and what loading the parts throws.
   rendering::SceneContents contents(const scene::Case& value, const core::Progress& progress = {});
 
   /// Colours bone by its thickness over this structure (BoneThickness.h) from the next `contents`

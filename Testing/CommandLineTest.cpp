@@ -1077,7 +1077,10 @@ TEST_F(CommandLine, ScanSaysInWhichUnitTheGridIsWhereNoneMakesSense)
   std::string text = run("scan " + quoted(m_folder / "none.nrrd")).out;
   EXPECT_NE(text.find("this is in mm, as it states no unit: 4000 mm long"), std::string::npos)
       << text;
-  EXPECT_NE(run("scan " + quoted(stated)).code, 0) << "no voxel is 500 m large";
+  const auto metres = json("scan " + quoted(stated))["images"][0];
+  EXPECT_EQ(metres["unit_unclear"], true) << "no voxel is 500 m large";
+  EXPECT_EQ(metres["unit_stated"], true);
+  EXPECT_NE(run("new far --ct " + quoted(stated)).code, 0);
   const auto micro =
       json("scan " + quoted(write("um.nrrd", "space units: \"um\" \"um\" \"um\"\n")));
   EXPECT_EQ(micro["images"][0]["unit_unclear"], false);

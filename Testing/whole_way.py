@@ -175,7 +175,7 @@ def state(petrous, name, out):
 def manifest(petrous, name):
     """All of a case that is not voxels: but for its name, id, and what stays at home."""
     whole = json.loads((petrous.library / "cases" / (name + ".json")).read_text())
-    for own in ("name", "id", "revision"):
+    for own in ("name", "id", "revision", "sha256"):
         whole.pop(own)
     # Of another library's salt.
     for image in [whole["ct"], *whole["mr"]]:

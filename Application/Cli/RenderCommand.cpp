@@ -56,8 +56,8 @@ struct RenderOptions
   std::string crop, roi;
   std::vector<std::string> clip;
   std::optional<double> eyeSeparation, convergence;
-  std::optional<double> falloff, wetness, exposure;
-  std::optional<bool> shadows, toneCurve;
+  LightOptions light;
+  scene::ViewState::Light savedLight;
   std::string softTissue; ///< a preset, "true" or "false"; empty: as saved
   std::optional<double> widthMillimetres, dotsPerInch;
   std::string along;
@@ -150,16 +150,7 @@ void takeView(RenderOptions& options, Shot& shot, const scene::ViewState& saved)
   }
   if (options.stereo == "none" && (options.eyeSeparation || options.convergence))
     throw UsageError("--eye-separation and --convergence need --stereo");
-  if (view.light && !options.falloff)
-    options.falloff = view.light->falloff;
-  if (view.light && !options.wetness)
-    options.wetness = view.light->wetness;
-  if (view.light && !options.shadows)
-    options.shadows = view.light->shadows;
-  if (view.light && !options.exposure)
-    options.exposure = view.light->exposure;
-  if (view.light && !options.toneCurve)
-    options.toneCurve = view.light->toneCurve;
+  options.savedLight = view.light.value_or(options.savedLight);
   if (options.isPrint() || options.isFilm())
     options.stereo = "none";
   shot.stereo = *rendering::parseStereoMode(options.stereo);
@@ -194,11 +185,7 @@ rendering::SceneContents renderContents(const RenderOptions& options, const scen
   presenters::SceneAssembly assembly;
   assembly.showThickness(options.thickness);
   rendering::SceneContents contents = assembly.contents(value);
-  presenters::illuminate(contents, scene::ViewState::Light{options.falloff.value_or(0.0),
-                                                           options.wetness.value_or(0.0),
-                                                           options.shadows.value_or(false),
-                                                           options.exposure.value_or(0.0),
-                                                           options.toneCurve.value_or(false)});
+  presenters::illuminate(contents, options.light.over(options.savedLight));
   presenters::clip(contents, value.view.clipping, value.ct.geometry);
   return contents;
 }
@@ -266,30 +253,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
       ->type_name("MM")
       ->check(within({rendering::StereoRig::kNearestConvergence,
                       rendering::StereoRig::kFarthestConvergence, "mm"}));
-  command
-      .add_option("--light-falloff", options.falloff,
-                  "Distance at which the light has half its intensity, with the focal point as "
-                  "bright as without; 0: no falloff (as saved)")
-      ->type_name("MM")
-      ->check(within({0.0, 10000.0, "mm"}));
-  command
-      .add_option("--wetness", options.wetness,
-                  "Specular gloss of a wet surface, 0 to 1 (as saved)")
-      ->check(within({0.0, 1.0}));
-  command.add_flag_function(
-      "--shadows,!--no-shadows", [&options](std::int64_t times) { options.shadows = times > 0; },
-      "Darken cavities, and throw the soft shadow of a lamp above the view axis (as "
-      "saved)");
-  constexpr double kMaxExposure = scene::ViewState::Light::kMaxExposure;
-  command
-      .add_option("--exposure", options.exposure,
-                  "Brightness in stops, -4 to 4: one more doubles the luminance (as saved)")
-      ->type_name("EV")
-      ->check(within({-kMaxExposure, kMaxExposure, "EV"}));
-  command.add_flag_function(
-      "--tone-curve,!--no-tone-curve",
-      [&options](std::int64_t times) { options.toneCurve = times > 0; },
-      "Roll highlights off above 80 % instead of clipping them (as saved)");
+  addLightOptions(command, options.light, " (as saved)");
   command.add_flag("--soft-tissue,!--no-soft-tissue", options.softTissue,
                    "Draw what is neither bone nor a structure (as saved); --soft-tissue=PRESET: by "
                    "this preset (soft-tissue, skin)");

@@ -27,9 +27,8 @@ struct ViewCommandOptions
   std::string caseName, view, camera, at, window, stereo, crop, roi, overlay, mode, burr;
   std::string show, saveAs;
   std::vector<std::string> clip, zoom, cleared, removed;
-  std::optional<bool> shadows, toneCurve;
-  std::optional<double> falloff, wetness, exposure, eyeSeparation, convergence, opacity, diameter,
-      rpm, thrust;
+  LightOptions light;
+  std::optional<double> eyeSeparation, convergence, opacity, diameter, rpm, thrust;
 };
 
 void clear(scene::Case& value, const std::string& part)
@@ -129,17 +128,8 @@ void change(scene::Case& value, const ViewCommandOptions& options)
   if (!options.view.empty())
     value.camera = presenters::standardCamera(value, *rendering::parseView(options.view));
   changeSlices(value, options);
-  if (options.falloff || options.wetness || options.shadows || options.exposure ||
-      options.toneCurve)
-  {
-    if (!view.light)
-      view.light.emplace();
-    view.light->falloff = options.falloff.value_or(view.light->falloff);
-    view.light->wetness = options.wetness.value_or(view.light->wetness);
-    view.light->shadows = options.shadows.value_or(view.light->shadows);
-    view.light->exposure = options.exposure.value_or(view.light->exposure);
-    view.light->toneCurve = options.toneCurve.value_or(view.light->toneCurve);
-  }
+  if (options.light.any())
+    view.light = options.light.over(view.light.value_or(ViewState::Light()));
   if (!options.stereo.empty() || options.eyeSeparation || options.convergence)
   {
     if (!view.stereo)
@@ -311,27 +301,7 @@ void addViewCommand(CLI::App& app, Context& context)
       ->check(oneOf({"blend", "edges", "checker"}));
   command->add_option("--opacity", options->opacity, "Of the MR in a blend")
       ->check(within({0.0, 1.0}));
-  command
-      ->add_option("--light-falloff", options->falloff,
-                   "Distance at which the light has half its intensity, with the focal point as "
-                   "bright as without; 0: no falloff")
-      ->type_name("MM")
-      ->check(within({0.0, 10000.0, "mm"}));
-  command->add_option("--wetness", options->wetness, "Specular gloss of a wet surface, 0 to 1")
-      ->check(within({0.0, 1.0}));
-  command->add_flag_function(
-      "--shadows,!--no-shadows", [options](std::int64_t times) { options->shadows = times > 0; },
-      "Darker cavities, and the soft shadow of a lamp above the view axis");
-  constexpr double kMaxExposure = ViewState::Light::kMaxExposure;
-  command
-      ->add_option("--exposure", options->exposure,
-                   "Brightness in stops, -4 to 4: one more doubles the luminance")
-      ->type_name("EV")
-      ->check(within({-kMaxExposure, kMaxExposure, "EV"}));
-  command->add_flag_function(
-      "--tone-curve,!--no-tone-curve",
-      [options](std::int64_t times) { options->toneCurve = times > 0; },
-      "Roll highlights off above 80 % instead of clipping them");
+  addLightOptions(*command, options->light);
   command->add_option("--stereo", options->stereo, "none, side-by-side, interleaved or anaglyph")
       ->check(oneOf({"none", "side-by-side", "interleaved", "anaglyph"}));
   command->add_option("--eye-separation", options->eyeSeparation, "Distance between the eyes")

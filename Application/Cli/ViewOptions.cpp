@@ -141,4 +141,46 @@ std::optional<core::IndexBox> parseCrop(const std::string& crop, const std::stri
   return inside;
 }
 
+scene::ViewState::Light LightOptions::over(scene::ViewState::Light light) const
+{
+  light.falloff = falloff.value_or(light.falloff);
+  light.wetness = wetness.value_or(light.wetness);
+  light.shadows = shadows.value_or(light.shadows);
+  light.exposure = exposure.value_or(light.exposure);
+  light.toneCurve = toneCurve.value_or(light.toneCurve);
+  return light;
+}
+
+void addLightOptions(CLI::App& command, LightOptions& options, const std::string& defaultText)
+{
+  constexpr double kMaxExposure = scene::ViewState::Light::kMaxExposure;
+  const auto addFlag =
+      [&](const std::string& name, std::optional<bool>& value, const std::string& help)
+  {
+    command.add_flag_function(
+        "--" + name + ",!--no-" + name, [&value](std::int64_t times) { value = times > 0; },
+        help + defaultText);
+  };
+  command
+      .add_option("--light-falloff", options.falloff,
+                  "Distance at which the light has half its intensity, with the focal point as "
+                  "bright as without; 0: no falloff" +
+                      defaultText)
+      ->type_name("MM")
+      ->check(within({0.0, 10000.0, "mm"}));
+  command
+      .add_option("--wetness", options.wetness,
+                  "Specular gloss of a wet surface, 0 to 1" + defaultText)
+      ->check(within({0.0, 1.0}));
+  addFlag("shadows", options.shadows,
+          "Darken cavities, and throw the soft shadow of a lamp above the view axis");
+  command
+      .add_option("--exposure", options.exposure,
+                  "Brightness in stops, -4 to 4: one more doubles the luminance" + defaultText)
+      ->type_name("EV")
+      ->check(within({-kMaxExposure, kMaxExposure, "EV"}));
+  addFlag("tone-curve", options.toneCurve,
+          "Roll highlights off above 80 % instead of clipping them");
+}
+
 } // namespace petrous::cli

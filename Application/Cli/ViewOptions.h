@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
 
 #include "petrous/Scene/Case.h"
@@ -27,5 +28,19 @@ std::vector<scene::ViewState::Clipping::Plane> parsePlanes(const std::vector<std
 /// nullopt. Throws UsageError, also if both are given.
 std::optional<core::IndexBox> parseCrop(const std::string& crop, const std::string& roi,
                                         const core::GridGeometry& grid);
+
+/// The lamp, of `render` and `view`; nullopt: not given.
+struct LightOptions
+{
+  std::optional<double> falloff, wetness, exposure;
+  std::optional<bool> shadows, toneCurve;
+
+  bool any() const { return falloff || wetness || exposure || shadows || toneCurve; }
+  /// What was given, in place of that of `light`.
+  scene::ViewState::Light over(scene::ViewState::Light light) const;
+};
+
+/// `defaultText` ends the help of each, e.g. " (as saved)". The options must outlive the command.
+void addLightOptions(CLI::App& command, LightOptions& options, const std::string& defaultText = {});
 
 } // namespace petrous::cli

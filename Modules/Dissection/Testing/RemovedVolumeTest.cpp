@@ -47,7 +47,7 @@ TEST(RemovedVolume, ChangedBricksAreThoseThatACutTellsOf)
   volume::CutMask once = untouched;
   auto first = dissection::cut(once, {{-2, -2, -2}, {-2, -2, -2}, 1.0});
   std::sort(first.begin(), first.end());
-  EXPECT_EQ(dissection::cutBricks(once), first);
+  EXPECT_EQ(once.cutBricks(), first);
   EXPECT_EQ(dissection::changedBricks(untouched, once), first);
   volume::CutMask twice = once;
   auto second = dissection::cut(twice, {{2, 2, 2}, {2, 2, 2}, 1.0});

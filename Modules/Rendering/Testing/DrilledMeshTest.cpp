@@ -57,19 +57,6 @@ std::shared_ptr<const core::TriangleMesh> ballMesh(const Vector& center, double 
   return mesh;
 }
 
-/// Two triangles a side, far longer than a voxel.
-std::shared_ptr<const core::TriangleMesh> boxMesh(const Vector& lower, const Vector& upper)
-{
-  auto mesh = std::make_shared<core::TriangleMesh>();
-  for (int corner = 0; corner < 8; ++corner)
-    mesh->vertices.emplace_back(static_cast<float>((corner & 1) != 0 ? upper.x() : lower.x()),
-                                static_cast<float>((corner & 2) != 0 ? upper.y() : lower.y()),
-                                static_cast<float>((corner & 4) != 0 ? upper.z() : lower.z()));
-  mesh->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
-}
-
 double areaOf(const core::TriangleMesh& mesh)
 {
   double area = 0.0;
@@ -140,10 +127,11 @@ TEST(DrilledMesh, IsWholeWhereNothingWasCut)
   open.triangles.pop_back();
   EXPECT_FALSE(DrilledMesh(std::make_shared<const core::TriangleMesh>(open))
                    .surface(*cut(grid, [](const Vector& p) { return p.x(); })));
-  EXPECT_FALSE(DrilledMesh::reach(*ballMesh(Vector::Zero(), 4.0), grid).empty());
-  EXPECT_TRUE(DrilledMesh::reach(*ballMesh(Vector::Zero(), 4.0),
-                                 cube(8, 0.4, Eigen::Matrix3d::Identity(), Vector(50.0, 0.0, 0.0)))
-                  .empty());
+  EXPECT_TRUE(mesh.surface(*cut(grid, [](const Vector& p) { return p.x(); })));
+  // All of a grid elsewhere is gone.
+  const core::GridGeometry elsewhere =
+      cube(8, 0.4, Eigen::Matrix3d::Identity(), Vector(50.0, 0.0, 0.0));
+  EXPECT_FALSE(mesh.surface(*cut(elsewhere, [](const Vector&) { return -9.0; })));
   // All of it is gone.
   const auto nothing = mesh.surface(*cut(grid, [](const Vector& p) { return p.norm() - 8.0; }));
   ASSERT_TRUE(nothing);

@@ -82,17 +82,6 @@ ToolPose tool(const Vector& center, const Vector& axis, double radius = 2.0)
   return pose;
 }
 
-/// The box from (-1, -2, 0) to (1, 2, 30), as an instrument.
-std::shared_ptr<const core::TriangleMesh> bar()
-{
-  core::TriangleMesh mesh;
-  for (int n = 0; n < 8; ++n)
-    mesh.vertices.emplace_back(n & 1 ? 1.0F : -1.0F, n & 2 ? 2.0F : -2.0F, n & 4 ? 30.0F : 0.0F);
-  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  return std::make_shared<core::TriangleMesh>(mesh);
-}
-
 } // namespace
 
 TEST(Intermix, ShowsAMeshBeforeAndBehindTheBone)
@@ -128,7 +117,7 @@ TEST(Intermix, ShowsAnInstrumentAsItIsHeldInTheCavityAndBeforeTheBone)
 {
   SceneContents contents = cutBall();
   contents.tool = tool({2.0, -8.0, 3.0}, Vector(0.4, -1.0, 0.6));
-  contents.tool->instrument = bar();
+  contents.tool->instrument = boxMesh({-1.0, -2.0, 0.0}, {1.0, 2.0, 30.0});
   contents.tool->rotation =
       Eigen::Quaterniond::FromTwoVectors(Vector::UnitZ(), contents.tool->axisToHand) *
       Eigen::AngleAxisd(0.7, Vector::UnitZ());

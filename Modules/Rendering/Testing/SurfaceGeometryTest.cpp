@@ -32,17 +32,6 @@ SceneContents dull()
 
 const core::CameraPose kAlongX = along({1.0, 0.0, 0.0}, 40.0);
 
-/// The box from (-1, -2, 0) to (1, 2, 30), as an instrument.
-std::shared_ptr<const core::TriangleMesh> bar()
-{
-  core::TriangleMesh mesh;
-  for (int n = 0; n < 8; ++n)
-    mesh.vertices.emplace_back(n & 1 ? 1.0F : -1.0F, n & 2 ? 2.0F : -2.0F, n & 4 ? 30.0F : 0.0F);
-  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  return std::make_shared<core::TriangleMesh>(mesh);
-}
-
 } // namespace
 
 TEST(SurfaceGeometry, HideWhatLiesBehindThem)
@@ -97,7 +86,7 @@ TEST(SurfaceGeometry, ShowAnInstrumentInPlaceOfTheDrillAsItIsHeld)
   SceneContents contents = dull();
   ToolPose tool;
   tool.center = {3.0, 0.0, 0.0};
-  tool.instrument = bar();
+  tool.instrument = boxMesh({-1.0, -2.0, 0.0}, {1.0, 2.0, 30.0});
   contents.tool = tool;
   const auto distance = [&contents](double y, double z)
   {

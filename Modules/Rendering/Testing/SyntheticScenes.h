@@ -117,6 +117,20 @@ std::shared_ptr<volume::CutMask> cut(const core::GridGeometry& grid, const Kept&
   return mask;
 }
 
+/// Closed; two triangles a side.
+inline std::shared_ptr<const core::TriangleMesh> boxMesh(const Eigen::Vector3d& lower,
+                                                         const Eigen::Vector3d& upper)
+{
+  auto mesh = std::make_shared<core::TriangleMesh>();
+  for (int corner = 0; corner < 8; ++corner)
+    mesh->vertices.emplace_back(static_cast<float>((corner & 1) != 0 ? upper.x() : lower.x()),
+                                static_cast<float>((corner & 2) != 0 ? upper.y() : lower.y()),
+                                static_cast<float>((corner & 4) != 0 ? upper.z() : lower.z()));
+  mesh->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
 template <class Inside>
 std::shared_ptr<const volume::LabelMap> labels(const core::GridGeometry& grid, const Inside& inside)
 {

@@ -30,6 +30,21 @@ TEST(CutMask, StartsUntouchedAndCostsNoVoxels)
   EXPECT_LT(mask.residentBytes(), sizeof(CutMask::Brick));
 }
 
+TEST(CutMask, TellsWhereItWasCut)
+{
+  CutMask mask(kGrid);
+  EXPECT_TRUE(mask.cutBricks().empty());
+  EXPECT_TRUE(mask.untouched(kGrid.fullBox()));
+  const std::size_t brick = mask.brickIndex({1, 0, 1});
+  mask.setBrick(brick, filled(0));
+  EXPECT_EQ(mask.cutBricks(), (std::vector<std::size_t>{brick}));
+  EXPECT_FALSE(mask.untouched(kGrid.fullBox()));
+  EXPECT_FALSE(mask.untouched({{31, 15, 16}, {33, 16, 17}})) << "its corner";
+  EXPECT_TRUE(mask.untouched({{32, 0, 0}, {40, 20, 17}}));
+  EXPECT_TRUE(mask.untouched({{0, 0, 0}, {40, 20, 16}}));
+  EXPECT_TRUE(mask.untouched({})) << "no voxel";
+}
+
 TEST(CutMask, BrickBoxesTileTheGrid)
 {
   const CutMask mask(kGrid);

@@ -49,7 +49,7 @@ CutMask minimumOf(const CutMask& a, const CutMask& b)
 double volumeOf(const volume::TissueField& tissue, const CutMask& mask)
 {
   const CutMask untouched(mask.geometry());
-  return dissection::measureRemoved(tissue, untouched, mask, dissection::cutBricks(mask), {}).total;
+  return dissection::measureRemoved(tissue, untouched, mask, mask.cutBricks(), {}).total;
 }
 
 // Positive where this difference is, zero at its surface.
@@ -182,7 +182,7 @@ ApproachComparison compareApproaches(const scene::Case& value, const std::string
   comparison.both = std::max(a.removed + b.removed - either, 0.0);
   measureDistances(value, comparison, progress.part(0.4, 0.9));
 
-  if (const auto bricks = dissection::cutBricks(*comparison.either); !bricks.empty())
+  if (const auto bricks = comparison.either->cutBricks(); !bricks.empty())
   {
     const core::IndexBox box = comparison.either->boxOf(bricks);
     for (const Difference difference :

@@ -54,7 +54,7 @@ void RemovedTissue::addPoints(const volume::TissueField& tissue, const volume::C
 RemovedTissue::RemovedTissue(const volume::TissueField& tissue, const volume::CutMask& mask,
                              const core::Progress& progress)
 {
-  const std::vector<std::size_t> bricks = dissection::cutBricks(mask);
+  const std::vector<std::size_t> bricks = mask.cutBricks();
   std::vector<std::vector<Cell>> found(bricks.size());
   tbb::parallel_for(std::size_t{0}, bricks.size(),
                     [&](std::size_t n)

@@ -449,8 +449,7 @@ namespace
 std::optional<double> thicknessOf(const volume::Volume<float>& occupancy,
                                   const core::Progress& progress)
 {
-  constexpr double kReach =
-      20.0; // mm; no structure of the temporal bone is thicker than twice this
+  constexpr double kReach = 20.0; // mm; nothing in the temporal bone is thicker than twice this
   const auto distances = volume::makeDistanceField(occupancy, kReach, progress);
   if (!distances)
     return std::nullopt;

@@ -58,14 +58,7 @@ public:
 private:
   bool drilledNear(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const
   {
-    const core::IndexBox bricks =
-        m_mask.bricksCovering(m_mask.geometry().boxCovering(a.cwiseMin(b), a.cwiseMax(b)));
-    for (int k = bricks.lower[2]; k < bricks.upper[2]; ++k)
-      for (int j = bricks.lower[1]; j < bricks.upper[1]; ++j)
-        for (int i = bricks.lower[0]; i < bricks.upper[0]; ++i)
-          if (m_mask.brick(m_mask.brickIndex({i, j, k})))
-            return true;
-    return false;
+    return !m_mask.untouched(m_mask.geometry().boxCovering(a.cwiseMin(b), a.cwiseMax(b)));
   }
 
   bool isCut(const Eigen::Vector3d& patient) const

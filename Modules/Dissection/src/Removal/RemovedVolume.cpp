@@ -187,15 +187,6 @@ std::vector<std::size_t> withNeighbours(const CutMask& mask, const std::vector<s
 
 } // namespace
 
-std::vector<std::size_t> cutBricks(const CutMask& mask)
-{
-  std::vector<std::size_t> bricks;
-  for (std::size_t n = 0; n < mask.brickCount(); ++n)
-    if (mask.brick(n))
-      bricks.push_back(n);
-  return bricks;
-}
-
 std::vector<std::size_t> changedBricks(const CutMask& before, const CutMask& after)
 {
   std::vector<std::size_t> bricks;

@@ -56,8 +56,8 @@ namespace petrous::rendering
 /// highlight stay.
 ///
 /// Shadows (LightSettings::shadows; record 33): a surface that a ray in air or soft tissue meets,
-/// which stops no light on its way to it, and that is not
-/// such a face, with the normal n towards the camera, sees
+/// and that is not such a face, with the normal n towards the camera, sees (soft tissue stops
+/// nothing)
 ///   sky     1 - 1/pi integral over the hemisphere of n of (n . w) b(w) (1 - (d / r)^2) dw
 ///   lamp    1 - mean over the lamp's disc of b(w)
 /// where b(w) is the fraction that tissue and the tool stop of what comes from direction w, and d
@@ -144,9 +144,10 @@ Eigen::Vector3d displayed(const Eigen::Vector3d& color, const LightSettings& lig
 double sectionGrey(const SectionWindow& window, double value);
 
 /// light (c (ambient sky + (1 - ambient) facing lamp) + lamp (k_s specular facing^shininess
-///        + wetness facing^kWetShininess)), as displayed; k_s of the transfer function. `isScale`:
-///        a
-/// colour that is compared with a legend: light is at most the intensity, and nothing rolls off.
+///        + wetness facing^kWetShininess)), as displayed; k_s of the transfer function.
+///
+/// `isScale`: a colour that is compared with a legend; the light is at most the intensity then, and
+/// nothing rolls off.
 Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics, double shininess,
                              double cosine, const LightSettings& light, double distance,
                              const Seen& seen = {}, double focus = 0.0, bool isScale = false);

@@ -19,23 +19,6 @@ namespace
 
 constexpr double kLevel = 0.5; // of the mask
 
-core::IndexBox voxelsAround(const core::GridGeometry& grid, const Eigen::AlignedBox3d& patient)
-{
-  core::IndexBox box;
-  Eigen::AlignedBox3d voxels;
-  for (int corner = 0; corner < 8; ++corner)
-    voxels.extend(grid.voxelFromPatient(
-        patient.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner))));
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    const auto axis = static_cast<Eigen::Index>(a);
-    const double most = grid.dims()[a];
-    box.lower[a] = static_cast<int>(std::clamp(std::floor(voxels.min()[axis]), 0.0, most));
-    box.upper[a] = static_cast<int>(std::clamp(std::floor(voxels.max()[axis]) + 2.0, 0.0, most));
-  }
-  return box;
-}
-
 /// Splits edges that the cut may meet until they are short. Each edge is judged by itself, so that
 /// both triangles at it agree.
 class Refinement
@@ -69,15 +52,9 @@ private:
 
   bool mayBeCut(std::uint32_t a, std::uint32_t b) const
   {
-    Eigen::AlignedBox3d box(m_result.mesh.vertices[a].cast<double>().eval());
-    box.extend(m_result.mesh.vertices[b].cast<double>().eval());
-    const core::IndexBox bricks = m_mask.bricksCovering(voxelsAround(m_mask.geometry(), box));
-    for (int k = bricks.lower[2]; k < bricks.upper[2]; ++k)
-      for (int j = bricks.lower[1]; j < bricks.upper[1]; ++j)
-        for (int i = bricks.lower[0]; i < bricks.upper[0]; ++i)
-          if (m_mask.brick(m_mask.brickIndex({i, j, k})))
-            return true;
-    return false;
+    const Eigen::Vector3d from = m_result.mesh.vertices[a].cast<double>();
+    const Eigen::Vector3d to = m_result.mesh.vertices[b].cast<double>();
+    return !m_mask.untouched(m_mask.geometry().boxCovering(from.cwiseMin(to), from.cwiseMax(to)));
   }
 
   double lengthOf(std::uint32_t a, std::uint32_t b) const
@@ -153,15 +130,6 @@ core::TriangleMesh levelIn(const volume::CutMask& mask, const core::IndexBox& bo
 
 } // namespace
 
-core::IndexBox DrilledMesh::cutOf(const volume::CutMask& mask)
-{
-  std::vector<std::size_t> bricks;
-  for (std::size_t brick = 0; brick < mask.brickCount(); ++brick)
-    if (mask.brick(brick))
-      bricks.push_back(brick);
-  return bricks.empty() ? core::IndexBox{} : mask.boxOf(bricks);
-}
-
 DrilledMesh::DrilledMesh(std::shared_ptr<const core::TriangleMesh> mesh)
   : m_mesh(std::move(mesh))
   , m_tree(*m_mesh)
@@ -169,15 +137,12 @@ DrilledMesh::DrilledMesh(std::shared_ptr<const core::TriangleMesh> mesh)
 {
 }
 
-core::IndexBox DrilledMesh::reach(const core::TriangleMesh& mesh, const core::GridGeometry& grid)
-{
-  const auto [lower, upper] = mesh.bounds();
-  return voxelsAround(grid, {lower.cast<double>(), upper.cast<double>()});
-}
-
 std::optional<ShadedMesh> DrilledMesh::surface(const volume::CutMask& mask) const
 {
-  const core::IndexBox box = cutOf(mask).intersected(reach(*m_mesh, mask.geometry()));
+  const auto [lower, upper] = m_mesh->bounds();
+  const core::IndexBox box =
+      mask.boxOf(mask.cutBricks())
+          .intersected(mask.geometry().boxCovering(lower.cast<double>(), upper.cast<double>()));
   if (!closed() || box.empty())
     return std::nullopt;
   const Refinement refined(*m_mesh, mask);

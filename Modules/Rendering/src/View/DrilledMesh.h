@@ -26,11 +26,6 @@ public:
 
   bool closed() const noexcept { return m_inside.openEdges() == 0; }
 
-  /// Voxels of the mask that can cut a mesh.
-  static core::IndexBox reach(const core::TriangleMesh& mesh, const core::GridGeometry& grid);
-  /// Voxels in which a mask may be below its greatest value.
-  static core::IndexBox cutOf(const volume::CutMask& mask);
-
   /// nullopt: it is not cut, or not closed.
   std::optional<ShadedMesh> surface(const volume::CutMask& mask) const;
 

@@ -214,8 +214,7 @@ struct MeshActor
   {
     if (!m_isDrilled)
       return;
-    m_isOld =
-        m_isOld || !next || !DrilledMesh::reach(*mesh, next->geometry()).intersected(box).empty();
+    m_isOld = m_isOld || !next || !reach(*next).intersected(box).empty();
     m_mask = next;
   }
 
@@ -233,10 +232,7 @@ struct MeshActor
     if (!m_isOld || (sparing && Clock::now() - m_done < kShare * m_took))
       return;
     m_isOld = false;
-    const bool mayBeCut = m_isDrilled && m_mask &&
-                          !DrilledMesh::reach(*mesh, m_mask->geometry())
-                               .intersected(DrilledMesh::cutOf(*m_mask))
-                               .empty();
+    const bool mayBeCut = m_isDrilled && m_mask && !m_mask->untouched(reach(*m_mask));
     if (!mayBeCut && !m_isCut)
       return;
     const auto start = Clock::now();
@@ -255,6 +251,12 @@ struct MeshActor
   }
 
 private:
+  // Voxels that can cut it.
+  core::IndexBox reach(const volume::CutMask& mask) const
+  {
+    return mask.geometry().boxCovering(m_bounds[0].cast<double>(), m_bounds[1].cast<double>());
+  }
+
   void show(const core::TriangleMesh& shape, const std::vector<Eigen::Vector3f>& normals)
   {
     const auto surface = toPolyData(shape, normals);
@@ -262,7 +264,8 @@ private:
     actor.setSurface(surface);
   }
 
-  std::shared_ptr<const volume::CutMask> m_mask; // null: nothing cuts it
+  std::array<Eigen::Vector3f, 2> m_bounds = mesh->bounds(); // patient LPS mm
+  std::shared_ptr<const volume::CutMask> m_mask;            // null: nothing cuts it
   std::optional<DrilledMesh> m_shape;
   bool m_isDrilled = false;
   bool m_isOld = false; // what is shown

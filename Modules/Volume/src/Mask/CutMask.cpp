@@ -89,6 +89,26 @@ bool CutMask::untouched() const noexcept
                       [](const BrickVersion& version) { return version != nullptr; });
 }
 
+bool CutMask::untouched(const core::IndexBox& voxels) const noexcept
+{
+  const core::IndexBox bricks = bricksCovering(voxels);
+  for (int k = bricks.lower[2]; k < bricks.upper[2]; ++k)
+    for (int j = bricks.lower[1]; j < bricks.upper[1]; ++j)
+      for (int i = bricks.lower[0]; i < bricks.upper[0]; ++i)
+        if (m_bricks[brickIndex({i, j, k})])
+          return false;
+  return true;
+}
+
+std::vector<std::size_t> CutMask::cutBricks() const
+{
+  std::vector<std::size_t> bricks;
+  for (std::size_t n = 0; n < m_bricks.size(); ++n)
+    if (m_bricks[n])
+      bricks.push_back(n);
+  return bricks;
+}
+
 std::size_t CutMask::residentBytes() const noexcept
 {
   const auto made = std::count_if(m_bricks.begin(), m_bricks.end(),

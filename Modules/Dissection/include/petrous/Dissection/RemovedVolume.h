@@ -25,9 +25,6 @@ struct RemovedVolume
   std::vector<TouchedStructure> structures; ///< those with a removed volume above 0
 };
 
-/// The bricks in which something was cut.
-std::vector<std::size_t> cutBricks(const volume::CutMask& mask);
-
 /// The bricks of which two masks of one grid hold other versions.
 std::vector<std::size_t> changedBricks(const volume::CutMask& before, const volume::CutMask& after);
 

@@ -64,6 +64,10 @@ public:
   double sample(const Eigen::Vector3d& voxel) const noexcept;
 
   bool untouched() const noexcept; ///< no brick was ever written, or all were undone
+  /// The same of the bricks that a box of voxels intersects.
+  bool untouched(const core::IndexBox& voxels) const noexcept;
+  /// The bricks in which something was cut.
+  std::vector<std::size_t> cutBricks() const;
   std::size_t residentBytes() const noexcept;
 
   /// Bricks replaced since the last call, in order of first change, each once; clears the list.

@@ -39,11 +39,10 @@ bool tells(const TickRecord& record) noexcept
 {
   const auto fault = static_cast<ServoFault>(record.fault);
   const session::ServoParameters& p = record.input.parameters;
-  const bool clutched = p.clutch || (record.input.buttons & p.clutchButtons) != 0;
   const bool plain = p.scale == 1.0 && std::abs(p.camera[0]) == 1.0;
   const bool ticked = record.input.now > 0.0; // otherwise not a record of a tick
   // After a retreat the tool was re-anchored after the mapping.
-  return ticked && plain && !clutched && fault != ServoFault::Device &&
+  return ticked && plain && !record.input.clutched() && fault != ServoFault::Device &&
          fault != ServoFault::Clock && fault != ServoFault::Parameters &&
          fault != ServoFault::Retreated && record.mapped.pose().finite() &&
          record.input.device.pose().finite();
@@ -127,13 +126,16 @@ haptics::DeviceReading PointerDevice::read(double now) noexcept
   reading.time = now;
   reading.pose = m_pose;
   reading.buttons = buttonsNow(now);
-  reading.health = m_placed ? haptics::DeviceHealth::Good : haptics::DeviceHealth::NotReady;
+  const bool silent = now - m_heardAt > m_limits.silence;
+  reading.health = !m_placed ? haptics::DeviceHealth::NotReady
+                   : silent  ? haptics::DeviceHealth::Stale
+                             : haptics::DeviceHealth::Good;
   return reading;
 }
 
 std::uint32_t PointerDevice::buttonsNow(double now) noexcept
 {
-  const std::uint32_t held = now - m_heardAt <= m_limits.silence ? m_heard.buttons : 0U;
+  const std::uint32_t held = m_heard.buttons;
   const bool pressed = (held & kDrill) != 0;
   const double way = (m_heard.pose.pose().position - m_pose.position).norm();
   if (pressed && !m_pressed)

@@ -22,13 +22,23 @@ bool together(const TickRecord& record, const TickRecord& next)
              DissectionLoop::kTogether;
 }
 
-// The machine stood still, or a reading was lost.
+// The machine stood still, a reading was lost, or the tool is on its way back to the pointer after
+// that (Servo::awaitArrival).
 bool isInterruption(const TickRecord& record)
 {
-  const auto fault = static_cast<ServoFault>(record.fault);
-  return (fault == ServoFault::Stalled || fault == ServoFault::Device ||
-          fault == ServoFault::Clock) &&
-         record.input.drillWanted();
+  if (!record.input.drillWanted())
+    return false;
+  switch (static_cast<ServoFault>(record.fault))
+  {
+  case ServoFault::Stalled:
+  case ServoFault::Device:
+  case ServoFault::Clock:
+    return true;
+  case ServoFault::None:
+    return record.drill == 0 && !record.input.clutched() && !record.input.parameters.pause;
+  default:
+    return false;
+  }
 }
 
 } // namespace

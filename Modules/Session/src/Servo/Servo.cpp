@@ -84,7 +84,7 @@ Servo::Step Servo::judge(const TickInput& input) noexcept
   step.device = judgement.pose;
   const double* q = p.camera;
   step.view = {{q[0], q[1], q[2], q[3]}, p.scale};
-  step.clutch = p.clutch || (input.buttons & p.clutchButtons) != 0;
+  step.clutch = input.clutched();
   const bool led = step.usable && !step.clutch;
   step.pressed = led && (p.constantThrust & ServoParameters::kPressed) != 0;
   step.pointer = led && (p.constantThrust & ServoParameters::kPointer) != 0;

@@ -41,6 +41,11 @@ bool TickInput::drillWanted() const noexcept
   return parameters.drill || pedal >= down || (buttons & parameters.drillButtons) != 0;
 }
 
+bool TickInput::clutched() const noexcept
+{
+  return parameters.clutch || (buttons & parameters.clutchButtons) != 0;
+}
+
 bool isHeldOff(const TickRecord& record) noexcept
 {
   const double force = record.wrench.wrench().linear.norm();

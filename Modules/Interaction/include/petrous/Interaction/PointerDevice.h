@@ -18,7 +18,9 @@ namespace petrous::interaction
 /// reading's time is `now`. Between the window's updates, about 60 per second, the pose moves
 /// smoothly and never faster than `Limits`, so that a jump of the pointer is not a jump of the
 /// device (haptics::DeviceGuard). A drill that is pressed before the pose has arrived is reported
-/// when it has, since it must not drill on the way.
+/// when it has, since it must not drill on the way. A window that is silent for longer than
+/// `Limits::silence`, as during a slow frame, makes the device stale: nothing is drilled unseen,
+/// and with the drill still held the stroke goes on afterwards (DissectionLoop).
 ///
 /// The servo may re-anchor the tool where it is (clutch, restored tissue, a stall); `see` detects
 /// this from its records, so that the tool returns under the pointer.
@@ -36,7 +38,7 @@ public:
     double speed = 500.0;       ///< mm/s, in (0, 4000]
     double angularSpeed = 10.0; ///< rad/s, in (0, 50]
     double settle = 0.01;       ///< s, time constant of the approach to the wanted pose, in (0, 1]
-    double silence = 0.5; ///< s without an update from the window, after which buttons are released
+    double silence = 0.5; ///< s without an update from the window, after which the device is stale
   };
 
   /// center  mm, patient; as in session::ServoSetup

@@ -27,6 +27,8 @@ struct TickInput
   haptics::DeviceReading reading() const noexcept;
   /// By parameter, pedal or button, whether or not the burr may cut in this tick.
   bool drillWanted() const noexcept;
+  /// The tool is held in place, by parameter or button.
+  bool clutched() const noexcept;
 };
 
 /// Why a tick renders no force, or less than wanted.

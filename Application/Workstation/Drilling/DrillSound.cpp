@@ -70,6 +70,8 @@ std::function<void(const session::TickRecord&)> DrillSound::listener() const
   return [signal = m_signal](const session::TickRecord& record)
   {
     signal->running = record.drill != 0;
+    if (record.drill != 0)
+      signal->spindle = record.input.spindle();
     signal->load = forceOf(record).norm();
   };
 }

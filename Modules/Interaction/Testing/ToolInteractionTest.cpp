@@ -394,10 +394,11 @@ TEST(ToolInteraction, GivesADeviceTheCamerasAxesScaleClutchAndDrill)
   program.key(vtkCommand::KeyPressEvent, "c");
   program.key(vtkCommand::KeyPressEvent, "space");
   EXPECT_EQ(program.tool->GetParameters().clutch, 1);
-  EXPECT_EQ(program.tool->GetParameters().drill, 1);
+  using Parameters = session::ServoParameters;
+  EXPECT_EQ(program.tool->GetParameters().drill, Parameters::kDrill | Parameters::kPedalSpeed);
   program.tool->Release();
   EXPECT_EQ(program.tool->GetParameters().clutch, 0);
-  EXPECT_EQ(program.tool->GetParameters().drill, 0);
+  EXPECT_EQ(program.tool->GetParameters().drill, Parameters::kPedalSpeed);
 
   const Vector3d eye = program.eye();
   program.mouse(vtkCommand::LeftButtonPressEvent, 0, 0);
@@ -552,6 +553,7 @@ TEST(ToolInteraction, AProbeFollowsAndIsNotPressed)
   EXPECT_EQ(program.hand().buttons, 0U);
   EXPECT_EQ(program.tool->GetParameters().constantThrust, kHovers);
   EXPECT_EQ(program.tool->GetParameters().drillButtons, 0U);
+  EXPECT_EQ(program.tool->GetParameters().drill, 0);
   program.key(vtkCommand::KeyReleaseEvent, "space");
   program.key(vtkCommand::KeyPressEvent, "c");
   EXPECT_EQ(program.hand().buttons, PointerDevice::kFreeze);

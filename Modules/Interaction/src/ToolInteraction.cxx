@@ -22,6 +22,7 @@
 using petrous::interaction::AimSettings;
 using petrous::interaction::PointerDevice;
 using petrous::interaction::PointerToolController;
+using petrous::session::ServoParameters;
 
 vtkStandardNewMacro(vtkPetrousToolInteraction);
 
@@ -30,7 +31,6 @@ namespace
 
 constexpr float kBeforeTheStyle = 0.5F; // the style's priority is 0
 constexpr double kScalePerNotch = 1.25;
-constexpr double kPedalDown = 0.5;
 constexpr double kShiftThrust = 2.0; // of the set thrust, while Shift is held
 constexpr double kMaxThrust = 20.0;  // N
 constexpr double kTiltStep = 5.0;    // degrees
@@ -227,7 +227,7 @@ void vtkPetrousToolInteraction::See(const petrous::session::TickRecord& record)
   if (this->PointerHand && this->Aim && this->Device)
   {
     this->Aim->see(record, this->Device->see(record));
-    const bool pedal = this->DrillMode && record.input.pedal >= kPedalDown;
+    const bool pedal = this->DrillMode && record.input.pedalDown();
     if (pedal != this->PedalHeld)
     {
       this->PedalHeld = pedal;
@@ -534,8 +534,9 @@ void vtkPetrousToolInteraction::Press()
   using Press = PointerToolController::Press;
   if (this->Aim && this->Device && this->PointerHand)
   {
-    const Press touch = this->ButtonHeld ? Press::Touch : Press::None;
-    this->Aim->press(this->GetDrilling() || this->PedalHeld ? Press::Drill : touch);
+    // A pedal is in the readings by itself, and turns the spindle as fast as it is pressed.
+    const Press touch = this->ButtonHeld || this->PedalHeld ? Press::Touch : Press::None;
+    this->Aim->press(this->GetDrilling() ? Press::Drill : touch);
   }
   this->Send();
 }
@@ -568,9 +569,11 @@ void vtkPetrousToolInteraction::Send()
     if (this->CurrentRenderer)
       petrous::session::setCamera(this->Parameters,
                                   petrous::interaction::cameraOf(*this->CurrentRenderer));
-    this->Parameters.drill = this->Base.drill || this->GetDrilling() ? 1 : 0;
+    if (this->GetDrilling())
+      this->Parameters.drill |= ServoParameters::kDrill;
     this->Parameters.clutch = this->Base.clutch || this->FreezeKeyHeld ? 1 : 0;
   }
+  this->Parameters.drill |= ServoParameters::kPedalSpeed;
   if (!this->DrillMode)
   {
     this->Parameters.drill = 0;

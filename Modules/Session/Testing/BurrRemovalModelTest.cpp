@@ -240,6 +240,25 @@ TEST(BurrRemovalModel, ABurrThatDoesNotTurnOrDoesNotDrillTakesExactlyNothing)
   EXPECT_EQ(idle.removalModel.balance().predicted, 0.0);
 }
 
+// The laws are linear in the spindle's speed, which the pedal sets.
+TEST(BurrRemovalModel, RemovesByTheSpeedThatThePedalAsksFor)
+{
+  const auto setting = settingOf(Burr::Kind::Diamond, 1.0, 0.0, 0.3, 1e-3);
+  LawScene slow(setting);
+  slow.session.parameters.drill = ServoParameters::kPedalSpeed;
+  const auto pressed = [&slow](const TickRecord&) { slow.session.pedal = 0.25; };
+  slow.drill(0.001, pressed); // its first tick is at full speed
+  const double first = slow.removalModel.balance().predicted;
+  slow.drill(0.4, pressed);
+  LawScene full(setting);
+  full.session.parameters.drill = ServoParameters::kPedalSpeed;
+  full.drill(0.1);
+  const double all = full.removalModel.balance().predicted;
+  ASSERT_GT(all, 0.1);
+  EXPECT_NEAR(slow.removalModel.balance().predicted - first, all, 0.05 * all);
+  EXPECT_NEAR(slow.removalModel.balance().removed, full.removalModel.balance().removed, 0.1 * all);
+}
+
 // Half of the burr meets bone that takes a third of the work: the total work is the sum over the
 // volumes, each in its tissue.
 TEST(BurrRemovalModel, TissuesDivideTheWorkOfAStep)

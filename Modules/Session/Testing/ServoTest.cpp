@@ -120,6 +120,37 @@ TEST(Servo, DrillsByPedalButtonOrKeyAndOnlyWhileAllIsWell)
   EXPECT_FALSE(session.tick(kDevicePose).drill);
 }
 
+TEST(Servo, ThePedalsPressureIsTheFractionOfTheSpeed)
+{
+  TickInput input;
+  input.parameters.drillButtons = 2;
+  const auto spindle = [&input](double pedal, std::uint32_t buttons = 0)
+  {
+    input.pedal = pedal;
+    input.buttons = buttons;
+    EXPECT_EQ(input.drillWanted(), input.spindle() > 0.0) << pedal;
+    return input.spindle();
+  };
+  // As a switch.
+  EXPECT_EQ(spindle(0.0), 0.0);
+  EXPECT_EQ(spindle(0.49), 0.0);
+  EXPECT_EQ(spindle(0.5), 1.0);
+  EXPECT_EQ(spindle(0.0, 2), 1.0);
+  input.parameters.drill = ServoParameters::kPedalSpeed;
+  EXPECT_TRUE(input.parameters.valid());
+  EXPECT_EQ(spindle(0.0), 0.0);
+  EXPECT_EQ(spindle(0.049), 0.0); // a foot that rests on it
+  EXPECT_EQ(spindle(0.05), 0.05);
+  EXPECT_EQ(spindle(0.37), 0.37);
+  EXPECT_EQ(spindle(1.0), 1.0);
+  EXPECT_EQ(spindle(0.37, 1), 0.37);
+  EXPECT_EQ(spindle(0.37, 2), 1.0);
+  input.parameters.drill |= ServoParameters::kDrill;
+  EXPECT_EQ(spindle(0.37), 1.0);
+  input.parameters.drill = 4;
+  EXPECT_FALSE(input.parameters.valid());
+}
+
 // A mouse leaps and is pressed at once: the burr drills where it is pressed, not on its way there.
 TEST(Servo, APointerToolDrillsFromItsArrivalOn)
 {

@@ -40,7 +40,7 @@ DrillState DrillSignal::now() const noexcept
 {
   DrillState state;
   state.running = running.load(std::memory_order_relaxed);
-  state.rpm = rpm.load(std::memory_order_relaxed);
+  state.rpm = rpm.load(std::memory_order_relaxed) * spindle.load(std::memory_order_relaxed);
   state.flutes = flutes.load(std::memory_order_relaxed);
   state.load = load.load(std::memory_order_relaxed);
   state.wall = wall.load(std::memory_order_relaxed);

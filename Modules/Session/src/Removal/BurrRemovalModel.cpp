@@ -101,7 +101,7 @@ void BurrRemovalModel::press(const TickRecord& record, double seconds)
   m_spindle = m_wish.spindle = tool.rotation * Eigen::Vector3d::UnitZ();
   m_pressedArm = m_patchArm = m_arm = m_bitten ? armOfPatch() : armOf(m_wish.into, 0.0);
   m_wish.deepest = m_ahead;
-  m_rate = thrust * m_arm * m_speed;
+  m_rate = thrust * m_arm * m_speed * record.input.spindle();
   const double work = m_rate * seconds;
   m_owed += work;
   if (m_resistance > 0.0)

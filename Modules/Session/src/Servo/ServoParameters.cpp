@@ -35,6 +35,8 @@ const char* firstFault(const ServoParameters& p) noexcept
     return "the drift limit must lie within 0 to 50 mm";
   if (p.constantThrust > (ServoParameters::kPressed | ServoParameters::kPointer))
     return "the mode of constant thrust is unknown";
+  if (p.drill > (ServoParameters::kDrill | ServoParameters::kPedalSpeed))
+    return "the drill's mode is unknown";
   for (const double a : p.approach)
     if (!within(a, -1e6, 1e6))
       return "the approach's direction is not finite";

@@ -1,5 +1,6 @@
 #include "petrous/Session/TickRecord.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 
@@ -35,10 +36,40 @@ haptics::DeviceReading TickInput::reading() const noexcept
   return reading;
 }
 
+namespace
+{
+
+bool fullSpeedWanted(const TickInput& input) noexcept
+{
+  return (input.parameters.drill & ServoParameters::kDrill) != 0 ||
+         (input.buttons & input.parameters.drillButtons) != 0;
+}
+
+bool isSpeed(const TickInput& input) noexcept
+{
+  return (input.parameters.drill & ServoParameters::kPedalSpeed) != 0;
+}
+
+} // namespace
+
+bool TickInput::pedalDown() const noexcept
+{
+  constexpr double kSwitched = 0.5;
+  return pedal >= (isSpeed(*this) ? ServoParameters::kLeastPressure : kSwitched);
+}
+
 bool TickInput::drillWanted() const noexcept
 {
-  constexpr double down = 0.5; // of the pedal
-  return parameters.drill || pedal >= down || (buttons & parameters.drillButtons) != 0;
+  return fullSpeedWanted(*this) || pedalDown();
+}
+
+double TickInput::spindle() const noexcept
+{
+  if (fullSpeedWanted(*this))
+    return 1.0;
+  if (!pedalDown())
+    return 0.0;
+  return isSpeed(*this) ? std::min(pedal, 1.0) : 1.0;
 }
 
 bool TickInput::clutched() const noexcept

@@ -24,6 +24,7 @@ struct RemovalBalance
 /// which removes tissue up to the depth it allows (RemovalDepthSolver); work below a step of the
 /// search is owed and added to the next step.
 ///
+/// omega  rad/s, the spindle's speed as the pedal sets it (TickInput::spindle)
 /// F_t  N, vector sum of the burr's contact forces, so that opposing walls that wedge the burr do
 ///      not count twice
 /// r    mm, distance of the contact from the spindle axis: the mean over the patch removed by the
@@ -75,7 +76,7 @@ private:
   void forfeit(double work);
 
   dissection::RemovalDepthSolver& m_search;
-  double m_speed; // rad/s
+  double m_speed; // rad/s, at full speed
   double m_voxel; // mm
   double m_ahead; // mm
   dissection::RemovalDepthSolver::Wish m_wish;

@@ -23,9 +23,9 @@ struct ServoParameters
   /// wheel (driftLimit); if pressed, its length is the distance to the surface.
   double approach[3] = {0.0, 0.0, 0.0};
   std::uint32_t clutchButtons = 0; ///< device buttons that hold the tool in place
-  std::uint32_t drillButtons = 0;  ///< device buttons that drill, like the pedal
+  std::uint32_t drillButtons = 0;  ///< device buttons that drill at full speed
   std::uint8_t clutch = 0;         ///< 1: held by other means, e.g. a key
-  std::uint8_t drill = 0;          ///< 1: on by other means
+  std::uint8_t drill = 0;          ///< bits kDrill and kPedalSpeed
   std::uint8_t constantThrust = 0; ///< bits kPressed and kPointer
   std::uint8_t pause = 0;          ///< 1: no force, no drilling
   /// mm by which the goal of a device without force feedback may lead a tool held by tissue, in [0,
@@ -34,6 +34,13 @@ struct ServoParameters
   float driftLimit = 0.0F;
 
   static constexpr double kMaxTurn = 0.35; ///< rad
+
+  /// The drill is on, at full speed, by other means than the device's buttons and pedal.
+  static constexpr std::uint8_t kDrill = 1;
+  /// The pedal's pressure is the fraction of the spindle's speed, as with a surgical drill: on from
+  /// kLeastPressure. Without this bit, as in recordings of earlier versions, a pedal is a switch.
+  static constexpr std::uint8_t kPedalSpeed = 2;
+  static constexpr double kLeastPressure = 0.05;
 
   /// The device provides a pose only; the tool is pressed there with `thrust`.
   static constexpr std::uint8_t kPressed = 1;

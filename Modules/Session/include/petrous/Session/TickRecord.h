@@ -27,6 +27,9 @@ struct TickInput
   haptics::DeviceReading reading() const noexcept;
   /// By parameter, pedal or button, whether or not the burr may cut in this tick.
   bool drillWanted() const noexcept;
+  bool pedalDown() const noexcept;
+  /// Fraction of the spindle's speed that is wanted, 0 to 1 (ServoParameters::kPedalSpeed).
+  double spindle() const noexcept;
   /// The tool is held in place, by parameter or button.
   bool clutched() const noexcept;
 };

@@ -26,6 +26,7 @@ class DrillSignal
 public:
   std::atomic<bool> running{false};
   std::atomic<double> rpm{60000.0};
+  std::atomic<double> spindle{1.0}; ///< fraction of it that the pedal asks for
   std::atomic<int> flutes{8};
   std::atomic<double> load{0.0};
   std::atomic<double> wall{5.0};

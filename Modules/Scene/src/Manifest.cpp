@@ -547,13 +547,12 @@ ViewState::Slices slicesIn(const json& j)
   slices.level = j.at("window_level").get<double>();
   if (j.contains("planes"))
   {
-    decltype(slices.planes)::value_type planes;
-    for (std::size_t n = 0; n < planes.size(); ++n)
+    slices.planes.emplace();
+    for (std::size_t n = 0; n < slices.planes->size(); ++n)
     {
       const json& plane = j.at("planes").at(kPlanes[n]);
-      planes[n] = {plane.at("zoom").get<double>(), vectorIn(plane.at("offset_mm"))};
+      (*slices.planes)[n] = {plane.at("zoom").get<double>(), vectorIn(plane.at("offset_mm"))};
     }
-    slices.planes = planes;
   }
   if (j.contains("overlay"))
   {
@@ -564,12 +563,11 @@ ViewState::Slices slicesIn(const json& j)
   if (j.contains("turned"))
   {
     const json& turned = j.at("turned");
-    ViewState::Slices::Turned planes;
-    planes.kind = turned.at("kind").get<std::string>();
-    for (std::size_t n = 0; n < planes.planes.size(); ++n)
-      planes.planes[n] = {vectorIn(turned.at(kPlanes[n]).at("right")),
-                          vectorIn(turned.at(kPlanes[n]).at("down"))};
-    slices.turned = std::move(planes);
+    slices.turned.emplace();
+    slices.turned->kind = turned.at("kind").get<std::string>();
+    for (std::size_t n = 0; n < slices.turned->planes.size(); ++n)
+      slices.turned->planes[n] = {vectorIn(turned.at(kPlanes[n]).at("right")),
+                                  vectorIn(turned.at(kPlanes[n]).at("down"))};
   }
   if (j.contains("slab"))
     slices.slab = {j.at("slab").at("thickness_mm").get<double>(),

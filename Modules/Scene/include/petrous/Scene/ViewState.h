@@ -15,70 +15,90 @@
 namespace petrous::scene
 {
 
+// Outside of ViewState, since a class whose members have initial values is default constructible
+// only where the class around it is complete: std::optional<Slices>::emplace() (CWG 1397).
+
+/// A plane of the slices, whose picture is centred on the crosshair and shows the whole slice at 1.
+struct SlicePlane
+{
+  double zoom = 1.0;                     ///< at least 1
+  Eigen::Vector3d offset{0.0, 0.0, 0.0}; ///< of the picture's centre, patient LPS mm
+};
+
+/// Planes that are not the standard ones; patient LPS.
+struct TurnedPlanes
+{
+  /// Of length 1, perpendicular to each other.
+  struct Axes
+  {
+    Eigen::Vector3d right{1.0, 0.0, 0.0}; ///< along the picture's rows
+    Eigen::Vector3d down{0.0, 1.0, 0.0};  ///< along its columns
+  };
+  std::string kind; ///< "petrous", "free", or "tool-axial", ... by the one across the tool
+  std::array<Axes, 3> planes; ///< in place of axial, coronal, sagittal
+};
+
+/// What the slices showed.
+struct SlicesView
+{
+  using Plane = SlicePlane;
+  using Turned = TurnedPlanes;
+  /// An MR over the CT.
+  struct Overlay
+  {
+    std::string mr;       ///< of the case
+    std::string mode;     ///< "blend", "edges" or "checker"
+    double opacity = 0.5; ///< of the MR in a blend, 0 to 1
+  };
+  /// What a slice shows of the layer around it.
+  struct Slab
+  {
+    double thickness = 0.0; ///< mm; above 0
+    std::string projection; ///< "mip", "minip" or "mean"
+  };
+  Eigen::Vector3d crosshair{0.0, 0.0, 0.0}; ///< patient LPS mm
+  double width = 0.0;                       ///< of the grey window, in the CT's unit; above 0
+  double level = 0.0;
+  std::optional<std::array<Plane, 3>> planes = {}; ///< axial, coronal, sagittal
+  std::optional<Overlay> overlay = {};
+  std::optional<Turned> turned = {};
+  std::optional<Slab> slab = {};
+};
+
+struct LightView
+{
+  double falloff = 0.0;   ///< mm from the lamp to half its intensity; 0: none
+  double wetness = 0.0;   ///< 0 to 1
+  bool shadows = false;   ///< ambient occlusion, and the lamp's shadow
+  double exposure = 0.0;  ///< EV, -kMaxExposure to kMaxExposure
+  bool toneCurve = false; ///< highlights roll off instead of being clipped
+  static constexpr double kMaxExposure = 4.0;
+};
+
+struct StereoView
+{
+  std::string mode = "none"; ///< or "side-by-side", "interleaved", "anaglyph", "quad-buffer"
+  std::optional<double> eyeSeparation; ///< mm; nullopt: by the microscope's usual angle
+  std::optional<double> convergence;   ///< mm from the camera; nullopt: the focal point
+};
+
+struct ToolView
+{
+  dissection::Burr burr;
+  double thrust = 1.0;  ///< N, of a device without force
+  bool byWheel = false; ///< the wheel moves the burr in depth
+};
+
 /// How a case was looked at when it was saved, besides its camera, and the tool that was set. What
 /// is absent is as the program that shows the case has it.
 struct ViewState
 {
   static constexpr std::size_t kMaxClippingPlanes = 6;
 
-  struct Slices
-  {
-    /// Of a plane, whose picture is centred on the crosshair and shows the whole slice at 1.
-    struct Plane
-    {
-      double zoom = 1.0;                     ///< at least 1
-      Eigen::Vector3d offset{0.0, 0.0, 0.0}; ///< of the picture's centre, patient LPS mm
-    };
-    /// An MR over the CT.
-    struct Overlay
-    {
-      std::string mr;       ///< of the case
-      std::string mode;     ///< "blend", "edges" or "checker"
-      double opacity = 0.5; ///< of the MR in a blend, 0 to 1
-    };
-    /// Planes that are not the standard ones; patient LPS.
-    struct Turned
-    {
-      /// Of length 1, perpendicular to each other.
-      struct Axes
-      {
-        Eigen::Vector3d right{1.0, 0.0, 0.0}; ///< along the picture's rows
-        Eigen::Vector3d down{0.0, 1.0, 0.0};  ///< along its columns
-      };
-      std::string kind; ///< "petrous", "free", or "tool-axial", ... by the one across the tool
-      std::array<Axes, 3> planes; ///< in place of axial, coronal, sagittal
-    };
-    /// What a slice shows of the layer around it.
-    struct Slab
-    {
-      double thickness = 0.0; ///< mm; above 0
-      std::string projection; ///< "mip", "minip" or "mean"
-    };
-    Eigen::Vector3d crosshair{0.0, 0.0, 0.0}; ///< patient LPS mm
-    double width = 0.0;                       ///< of the grey window, in the CT's unit; above 0
-    double level = 0.0;
-    std::optional<std::array<Plane, 3>> planes = {}; ///< axial, coronal, sagittal
-    std::optional<Overlay> overlay = {};
-    std::optional<Turned> turned = {};
-    std::optional<Slab> slab = {};
-  };
-
-  struct Light
-  {
-    double falloff = 0.0;   ///< mm from the lamp to half its intensity; 0: none
-    double wetness = 0.0;   ///< 0 to 1
-    bool shadows = false;   ///< ambient occlusion, and the lamp's shadow
-    double exposure = 0.0;  ///< EV, -kMaxExposure to kMaxExposure
-    bool toneCurve = false; ///< highlights roll off instead of being clipped
-    static constexpr double kMaxExposure = 4.0;
-  };
-
-  struct Stereo
-  {
-    std::string mode = "none"; ///< or "side-by-side", "interleaved", "anaglyph", "quad-buffer"
-    std::optional<double> eyeSeparation; ///< mm; nullopt: by the microscope's usual angle
-    std::optional<double> convergence;   ///< mm from the camera; nullopt: the focal point
-  };
+  using Slices = SlicesView;
+  using Light = LightView;
+  using Stereo = StereoView;
+  using Tool = ToolView;
 
   /// What is cut away from the picture, not from the bone.
   struct Clipping
@@ -91,13 +111,6 @@ struct ViewState
     std::vector<Plane> planes;          ///< at most kMaxClippingPlanes
     std::optional<core::IndexBox> crop; ///< voxels of the CT that are shown; not empty
     bool empty() const { return planes.empty() && !crop; }
-  };
-
-  struct Tool
-  {
-    dissection::Burr burr;
-    double thrust = 1.0;  ///< N, of a device without force
-    bool byWheel = false; ///< the wheel moves the burr in depth
   };
 
   /// A view that the user named.

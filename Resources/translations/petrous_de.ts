@@ -1997,10 +1997,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>Fräsen</translation>
     </message>
     <message>
-        <source>Burr</source>
-        <translation>Fräse</translation>
-    </message>
-    <message>
         <source>Rake, °</source>
         <translation>Spanwinkel, °</translation>
     </message>
@@ -2075,6 +2071,26 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>%1: %2</source>
         <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>A&amp;dd</source>
+        <translation>Hinzu&amp;fügen</translation>
+    </message>
+    <message>
+        <source>Another burr, of the kind and with the numbers of the one that is selected</source>
+        <translation>Eine weitere Fräse, mit Art und Zahlen der ausgewählten</translation>
+    </message>
+    <message>
+        <source>R&amp;emove</source>
+        <translation>Entfer&amp;nen</translation>
+    </message>
+    <message>
+        <source>Takes the selected burr out. Strokes and recordings keep its name</source>
+        <translation>Entfernt die ausgewählte Fräse. Bohrzüge und Aufzeichnungen behalten ihren Namen</translation>
     </message>
 </context>
 <context>
@@ -2722,10 +2738,6 @@ Ohne ihn dreht Ziehen den Patienten.</translation>
         <translation>Diamant</translation>
     </message>
     <message>
-        <source>Kind of the burr: a cutting burr takes some six times as much in the same time as a diamond one</source>
-        <translation>Art der Fräse: Eine schneidende trägt in derselben Zeit etwa sechsmal so viel ab wie eine Diamantfräse</translation>
-    </message>
-    <message>
         <source> krpm</source>
         <translation> krpm</translation>
     </message>
@@ -2768,6 +2780,18 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>Pick, dissector or curette from a file: the left button, or Space, presses it on the tissue, and it removes nothing</source>
         <translation>Häkchen, Dissektor oder Kürette aus einer Datei: Die linke Taste oder die Leertaste drückt es auf das Gewebe, und es trägt nichts ab</translation>
+    </message>
+    <message>
+        <source>Kind of the burr: a cutting burr takes some six times as much in the same time as a diamond one. More burrs: Drill &gt; Materials and burrs…</source>
+        <translation>Art der Fräse: Eine schneidende trägt in derselben Zeit etwa sechsmal so viel ab wie eine Diamantfräse. Weitere Fräsen: Bohren &gt; Materialien und Fräsen…</translation>
+    </message>
+    <message>
+        <source>Diamond burr</source>
+        <translation>Diamantfräse</translation>
+    </message>
+    <message>
+        <source>Cutting burr</source>
+        <translation>Schneidende Fräse</translation>
     </message>
 </context>
 <context>
@@ -9065,14 +9089,6 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>&amp;Bereiche</translation>
     </message>
     <message>
-        <source>Other &amp;kind of burr</source>
-        <translation>Andere Fräsen&amp;art</translation>
-    </message>
-    <message>
-        <source>Cutting or diamond</source>
-        <translation>Schneidend oder Diamant</translation>
-    </message>
-    <message>
         <source>Handp&amp;iece</source>
         <translation>Handst&amp;ück</translation>
     </message>
@@ -9167,6 +9183,14 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>A closed surface (OBJ, STL, PLY, VTP) of 1 to 300 mm, its tip at the origin: it is felt and drawn, and removes nothing</source>
         <translation>Eine geschlossene Oberfläche (OBJ, STL, PLY, VTP) von 1 bis 300 mm, die Spitze im Ursprung: Sie wird gefühlt und gezeichnet und trägt nichts ab</translation>
+    </message>
+    <message>
+        <source>Cutting, diamond, or the next one of your own</source>
+        <translation>Schneidend, Diamant oder die nächste eigene</translation>
+    </message>
+    <message>
+        <source>Next &amp;kind of burr</source>
+        <translation>Nächste Fräsen&amp;art</translation>
     </message>
 </context>
 </TS>

@@ -672,7 +672,7 @@ void MainWindow::connectActions()
   on(m_actions->softWindow, [this] { m_slices->softWindow(); });
   on(m_actions->temporalWindow, [this] { m_slices->temporalWindow(); });
   on(m_actions->fitSlices, [this] { m_slices->fit(); });
-  on(m_actions->otherKind, [this] { m_bar->toggleKind(); });
+  on(m_actions->otherKind, [this] { m_bar->nextBurr(); });
   constexpr double kTurn = 5.0; // degrees
   on(m_actions->turnLeft, [this] { m_drill->turnHandpiece(kTurn, 0.0); });
   on(m_actions->turnRight, [this] { m_drill->turnHandpiece(-kTurn, 0.0); });

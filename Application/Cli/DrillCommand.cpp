@@ -195,8 +195,10 @@ void play(const Context& context, const Options& options)
   session::TouchScene touch(value, progress, 0, true);
   const auto journal = journalOf(library, value, touch);
   session::PathDrill session(value, touch, tool);
-  DrillReport report(value, touch, instrument ? 0.0 : 0.5 * tool.tool.burr.diameter, options.log,
-                     context.json());
+  const presenters::MeasuredTool measured =
+      instrument ? presenters::MeasuredTool(*instrument->shell)
+                 : presenters::MeasuredTool(0.5 * tool.tool.burr.diameter);
+  DrillReport report(value, touch, measured, options.log, context.json());
 
   std::size_t ticks = 0;
   const double start = path.samples().front().time;
@@ -258,7 +260,8 @@ void replay(const Context& context, const Options& options)
   session::TouchScene touch(value, progress, reader.setup().scene.firstState, true);
   const auto journal = journalOf(library, value, touch);
   presenters::RecordingPlayer session(value, touch, reader, options.replay, camera);
-  DrillReport report(value, touch, 0.5 * reader.setup().burr.diameter, options.log, context.json());
+  DrillReport report(value, touch, presenters::MeasuredTool(0.5 * reader.setup().burr.diameter),
+                     options.log, context.json());
 
   std::size_t ticks = 0;
   while (session.next())

@@ -191,7 +191,8 @@ TEST(BurrCatalogue, HasSeveralBurrsOfOneKindByTheirNames)
             "the burr 'coarse' is a diamond one in this catalogue, not a cutting one");
 
   // Twice the wear coefficient takes half the energy: w = 3 H / k.
-  const auto& bone = MaterialCatalogue::builtIn().material("cortical-bone");
+  const auto known = MaterialCatalogue::builtIn();
+  const auto& bone = known.material("cortical-bone");
   EXPECT_DOUBLE_EQ(resistanceOf(bone, catalogue.model("coarse")),
                    0.5 * resistanceOf(bone, catalogue.model("diamond")));
 }

@@ -330,6 +330,32 @@ TEST_F(TouchCommand, DrillsWhatItIsPressedOnAndTheSameEveryTime)
   EXPECT_TRUE(textOf(m_folder / "log.csv") == text);
 }
 
+TEST_F(TouchCommand, DrillsWithABurrOfTheLibrarysCatalogueByItsName)
+{
+  const auto path = press(1.13, true);
+  const double usual = json(drill(path, " --burr diamond"))["removed_mm3"];
+  json("undo plane");
+  std::ofstream(m_folder / "coarse.json") << R"({"burrs": [
+    {"kind": "cutting", "rake_deg": -10, "diameters_mm": [4]},
+    {"kind": "diamond", "wear_coefficient": 0.1, "diameters_mm": [4]},
+    {"name": "coarse", "kind": "diamond", "wear_coefficient": 0.2, "diameters_mm": [4]}]})";
+  const std::string own = " --burr coarse --burrs " + quoted(m_folder / "coarse.json");
+  const auto file = m_folder / "coarse.ticks";
+  const double coarse = json(drill(path, own + " --record " + quoted(file)))["removed_mm3"];
+  EXPECT_GT(coarse, 1.1 * usual) << "half the energy per volume";
+  const auto stroke = json("history plane")["strokes"].back();
+  EXPECT_EQ(stroke["burr"], "diamond");
+  EXPECT_EQ(stroke["burr_name"], "coarse");
+  EXPECT_NE(run("history plane").out.find("4.0 mm coarse"), std::string::npos);
+
+  json("undo plane");
+  const std::string again = "drill plane --replay " + quoted(file);
+  expectRefused(again + " --burr diamond", 3, "coarse burr 4 mm");
+  EXPECT_EQ(json(again + " --burr coarse")["replay"]["equal"], true);
+  EXPECT_EQ(json("history plane")["strokes"].back()["burr_name"], "coarse");
+  expectRefused(drill(path, " --burr coarse"), 2, "there are cutting, diamond");
+}
+
 TEST_F(TouchCommand, RemovesNothingThatItDoesNotTouch)
 {
   const auto answer = json(drill(press(2.2, true), "")); // 0.07 mm above the surface

@@ -407,6 +407,7 @@ json strokesJson(const scene::Case& value)
          {"started_at", stroke.info.startedAt.empty() ? json() : json(stroke.info.startedAt)},
          {"duration_s", stroke.info.duration},
          {"burr", dissection::nameOf(burr.kind)},
+         {"burr_name", dissection::nameOf(burr)},
          {"diameter_mm", burr.diameter},
          {"rpm", burr.rpm},
          {"removed_mm3", stroke.info.removed},

@@ -23,7 +23,7 @@ namespace
 
 struct Options
 {
-  std::string caseName, path, kind = "cutting";
+  std::string caseName, path, burr = "cutting";
   double diameter = 4.0;
   double rpm = 60000.0;
   double rate = 1000.0;
@@ -36,19 +36,12 @@ struct Options
   bool given(const char* name) const { return command->count(name) > 0; }
 };
 
-dissection::Burr burrFrom(const Options& options)
-{
-  dissection::Burr burr;
-  burr.kind = *dissection::parseBurrKind(options.kind);
-  burr.diameter = options.diameter;
-  burr.rpm = options.rpm;
-  return burr;
-}
-
+// All but which burr of the catalogue it is.
 session::PathDrill::Options toolFrom(const Options& options)
 {
   session::PathDrill::Options result;
-  result.tool.burr = burrFrom(options);
+  result.tool.burr.diameter = options.diameter;
+  result.tool.burr.rpm = options.rpm;
   result.tool.mode = options.mode == "3dof" ? session::TouchTool::Mode::ThreeDof
                                             : session::TouchTool::Mode::SixDof;
   result.thrust = options.thrust;
@@ -66,8 +59,8 @@ void checkTool(const Options& options, const session::RecordingSetup& recorded)
   };
   const session::PathDrill::Options tool = toolFrom(options);
   const bool three = tool.tool.mode == session::TouchTool::Mode::ThreeDof;
-  if (options.given("--burr") && tool.tool.burr.kind != recorded.burr.kind)
-    refuse("--burr " + options.kind);
+  if (options.given("--burr") && options.burr != nameOf(recorded.burr))
+    refuse("--burr " + options.burr);
   if (options.given("--diameter") && tool.tool.burr.diameter != recorded.burr.diameter)
     refuse("--diameter " + fixed(options.diameter, 2));
   if (options.given("--rpm") && tool.tool.burr.rpm != recorded.burr.rpm)
@@ -192,17 +185,20 @@ void play(const Context& context, const Options& options)
   const auto& instrument = tool.tool.instrument;
 
   library::Library library = context.openLibrary();
+  tool.catalogues = cataloguesFrom(options, library.folder());
+  setModel(tool.tool.burr, burrNamed(options.burr, tool.catalogues.burrs));
   scene::Case value;
   const auto leftOut = openCase(context, library, options, value, progress);
   const library::SavedState opened = value;
   tool.camera = presenters::currentCamera(value);
   tool.recording = options.record;
-  tool.catalogues = cataloguesFrom(options, library.folder());
   session::TouchScene touch(value, progress, 0, true);
   const auto journal = journalOf(library, value, touch);
   session::PathDrill session(value, touch, tool);
-  DrillReport report(value, touch, instrument ? 0.0 : 0.5 * tool.tool.burr.diameter, options.log,
-                     context.json());
+  const presenters::MeasuredTool measured =
+      instrument ? presenters::MeasuredTool(*instrument->shell)
+                 : presenters::MeasuredTool(0.5 * tool.tool.burr.diameter);
+  DrillReport report(value, touch, measured, options.log, context.json());
 
   std::size_t ticks = 0;
   const double start = path.samples().front().time;
@@ -264,7 +260,8 @@ void replay(const Context& context, const Options& options)
   session::TouchScene touch(value, progress, reader.setup().scene.firstState, true);
   const auto journal = journalOf(library, value, touch);
   presenters::RecordingPlayer session(value, touch, reader, options.replay, camera);
-  DrillReport report(value, touch, 0.5 * reader.setup().burr.diameter, options.log, context.json());
+  DrillReport report(value, touch, presenters::MeasuredTool(0.5 * reader.setup().burr.diameter),
+                     options.log, context.json());
 
   std::size_t ticks = 0;
   while (session.next())
@@ -349,8 +346,10 @@ void addDrillCommand(CLI::App& app, Context& context)
           "Along which axis of its file the instrument lies, from the tip to the hand (z+)")
       ->check(oneOf({presenters::kInstrumentAxes.begin(), presenters::kInstrumentAxes.end()}))
       ->needs(instrument);
-  command->add_option("--burr", options->kind, "cutting or diamond (cutting)")
-      ->check(oneOf({"cutting", "diamond"}))
+  command
+      ->add_option("--burr", options->burr,
+                   "A burr's name in the catalogue: cutting, diamond or one of your own (cutting)")
+      ->check(offers({"cutting", "diamond"}))
       ->excludes(instrument);
   command->add_option("--diameter", options->diameter, "Diameter of the burr, mm (4)")
       ->check(within({0.1, 20.0, "mm"}))

@@ -108,17 +108,18 @@ void DrillLog::close()
   asParameter([this] { m_file.commit(); });
 }
 
-DrillReport::DrillReport(scene::Case& value, session::TouchScene& scene, double radius,
-                         const std::string& log, bool distances)
+DrillReport::DrillReport(scene::Case& value, session::TouchScene& scene,
+                         const presenters::MeasuredTool& tool, const std::string& log,
+                         bool distances)
   : m_case(value)
   , m_position(value.dissection.history().position())
   , m_before(value.dissection.strokes().size())
-  , m_cuts(radius > 0.0)
+  , m_cuts(!tool.isInstrument())
 {
   if (!log.empty())
     m_log.emplace(log, value, scene);
   if (distances && !(value.labels.empty() && value.meshes.empty()))
-    m_distances.emplace(value, radius);
+    m_distances.emplace(value, tool);
 }
 
 void DrillReport::add(const session::TickRecord& record, const std::optional<TickRemoval>& removal)
@@ -143,7 +144,7 @@ void DrillReport::add(const session::TickRecord& record, const std::optional<Tic
   m_placed = m_placed || (fault != ServoFault::Device && fault != ServoFault::Clock &&
                           fault != ServoFault::Parameters);
   if (m_distances && m_placed)
-    m_distances->add(record.proxy.pose().position);
+    m_distances->add(record.proxy.pose());
 }
 
 void DrillReport::close()

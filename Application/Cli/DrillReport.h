@@ -58,8 +58,8 @@ public:
   /// log        the file of `--log`, or empty
   /// distances  whether the minimum distance of the burr to each labelled structure is computed
   /// Case and scene must outlive this.
-  DrillReport(scene::Case& value, session::TouchScene& scene, double radius, const std::string& log,
-              bool distances);
+  DrillReport(scene::Case& value, session::TouchScene& scene, const presenters::MeasuredTool& tool,
+              const std::string& log, bool distances);
 
   /// The servo's tick, timed.
   template <typename Call>

@@ -65,8 +65,8 @@ void printStroke(const Context& context, const scene::Case& value, std::size_t n
   const auto& info = value.dissection.strokes()[n]->info;
   std::string line = std::to_string(n + 1) + state +
                      (info.startedAt.empty() ? "" : info.startedAt + "  ") +
-                     fixed(info.burr.diameter, 1) + " mm " + dissection::nameOf(info.burr.kind) +
-                     ", " + fixed(info.duration, 1) + " s, " + fixed(info.removed, 2) + " mm3";
+                     fixed(info.burr.diameter, 1) + " mm " + dissection::nameOf(info.burr) + ", " +
+                     fixed(info.duration, 1) + " s, " + fixed(info.removed, 2) + " mm3";
   for (const auto& touched : info.structures)
     line += "; " + touched.name + " " + fixed(touched.volume, 2) + " mm3";
   context.print(line + (info.recovered ? "; recovered" : ""));

@@ -161,6 +161,18 @@ double millimetresOf(const std::string& unit)
                           : 1.0;
 }
 
+dissection::BurrModel burrNamed(const std::string& name, const dissection::BurrCatalogue& burrs)
+{
+  try
+  {
+    return burrs.model(name);
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    throw UsageError(std::string("--burr: ") + error.what());
+  }
+}
+
 imaging::UndeclaredBits undeclaredBitsOf(const std::string& bits)
 {
   return bits == "stored"      ? imaging::UndeclaredBits::LeaveOut

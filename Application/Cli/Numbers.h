@@ -11,6 +11,7 @@
 
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/PatientBox.h"
+#include "petrous/Dissection/BurrCatalogue.h"
 #include "petrous/Imaging/SeriesGeometry.h"
 
 namespace petrous::cli
@@ -63,6 +64,9 @@ std::string fixed(double value, int digits);
 
 /// Millimetres of "mm", "cm", "m", "um" or "inch".
 double millimetresOf(const std::string& unit);
+
+/// The burr that --burr names; otherwise throws UsageError naming those that there are.
+dissection::BurrModel burrNamed(const std::string& name, const dissection::BurrCatalogue& burrs);
 
 /// What "stored", "allocated" or nothing says of --bits.
 imaging::UndeclaredBits undeclaredBitsOf(const std::string& bits);

@@ -7,6 +7,7 @@
 #include "Numbers.h"
 #include "ViewOptions.h"
 #include "petrous/Dissection/BurrName.h"
+#include "petrous/Dissection/Catalogues.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Rendering/Stereo.h"
@@ -109,7 +110,8 @@ void changeSlices(scene::Case& value, const ViewCommandOptions& options)
     saved->overlay->opacity = *options.opacity;
 }
 
-void change(scene::Case& value, const ViewCommandOptions& options)
+void change(scene::Case& value, const ViewCommandOptions& options,
+            const std::optional<dissection::BurrModel>& burr)
 {
   if (!options.view.empty() && !options.camera.empty())
     throw UsageError("view: give --view or --camera, not both");
@@ -145,12 +147,12 @@ void change(scene::Case& value, const ViewCommandOptions& options)
     view.clipping.planes = parsePlanes(options.clip);
   if (const auto crop = parseCrop(options.crop, options.roi, value.ct.geometry))
     view.clipping.crop = crop;
-  if (!options.burr.empty() || options.diameter || options.rpm || options.thrust)
+  if (burr || options.diameter || options.rpm || options.thrust)
   {
     if (!view.tool)
       view.tool.emplace();
-    if (!options.burr.empty())
-      view.tool->burr.kind = *dissection::parseBurrKind(options.burr);
+    if (burr)
+      setModel(view.tool->burr, *burr);
     view.tool->burr.diameter = options.diameter.value_or(view.tool->burr.diameter);
     view.tool->burr.rpm = options.rpm.value_or(view.tool->burr.rpm);
     view.tool->thrust = options.thrust.value_or(view.tool->thrust);
@@ -231,6 +233,7 @@ nlohmann::json viewJson(const scene::Case& value)
   nlohmann::json tool = nullptr;
   if (view.tool)
     tool = {{"burr", dissection::nameOf(view.tool->burr.kind)},
+            {"burr_name", dissection::nameOf(view.tool->burr)},
             {"diameter_mm", view.tool->burr.diameter},
             {"rpm", view.tool->burr.rpm},
             {"thrust_n", view.tool->thrust},
@@ -254,7 +257,10 @@ void run(const Context& context, const ViewCommandOptions& options)
   library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   const nlohmann::json before = viewJson(value);
-  change(value, options);
+  std::optional<dissection::BurrModel> burr;
+  if (!options.burr.empty())
+    burr = burrNamed(options.burr, dissection::Catalogues::in(library.folder()).burrs);
+  change(value, options, burr);
   warnOfView(context, value, options.view);
   const nlohmann::json now = viewJson(value);
   const bool isChanged = now != before;
@@ -322,8 +328,10 @@ void addViewCommand(CLI::App& app, Context& context)
       ->type_name("i0,i1,j0,j1,k0,k1");
   command->add_option("--roi", options->roi, "Show this box, patient LPS mm")
       ->type_name("x0,x1,y0,y1,z0,z1");
-  command->add_option("--burr", options->burr, "cutting or diamond")
-      ->check(oneOf({"cutting", "diamond"}));
+  command
+      ->add_option("--burr", options->burr,
+                   "A burr's name in the library's catalogue: cutting, diamond or one of your own")
+      ->check(offers({"cutting", "diamond"}));
   command->add_option("--diameter", options->diameter, "Of the burr")
       ->type_name("MM")
       ->check(within({0.01, 100.0, "mm"}));

@@ -1082,17 +1082,6 @@
     </message>
 </context>
 <context>
-    <name>petrous::workstation::BurrWarnings</name>
-    <message>
-        <source>no warnings yet: structures are being measured</source>
-        <translation>noch keine Warnungen: Die Strukturen werden vermessen</translation>
-    </message>
-    <message>
-        <source>no warnings: the structures cannot be measured</source>
-        <translation>keine Warnungen: Die Strukturen lassen sich nicht vermessen</translation>
-    </message>
-</context>
-<context>
     <name>petrous::workstation::CaseDocumentController</name>
     <message>
         <source>%1 “%2”</source>
@@ -1997,10 +1986,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>Fräsen</translation>
     </message>
     <message>
-        <source>Burr</source>
-        <translation>Fräse</translation>
-    </message>
-    <message>
         <source>Rake, °</source>
         <translation>Spanwinkel, °</translation>
     </message>
@@ -2075,6 +2060,26 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>%1: %2</source>
         <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>A&amp;dd</source>
+        <translation>Hinzu&amp;fügen</translation>
+    </message>
+    <message>
+        <source>Another burr, of the kind and with the numbers of the one that is selected</source>
+        <translation>Eine weitere Fräse, mit Art und Zahlen der ausgewählten</translation>
+    </message>
+    <message>
+        <source>R&amp;emove</source>
+        <translation>Entfer&amp;nen</translation>
+    </message>
+    <message>
+        <source>Takes the selected burr out. Strokes and recordings keep its name</source>
+        <translation>Entfernt die ausgewählte Fräse. Bohrzüge und Aufzeichnungen behalten ihren Namen</translation>
     </message>
 </context>
 <context>
@@ -2722,10 +2727,6 @@ Ohne ihn dreht Ziehen den Patienten.</translation>
         <translation>Diamant</translation>
     </message>
     <message>
-        <source>Kind of the burr: a cutting burr takes some six times as much in the same time as a diamond one</source>
-        <translation>Art der Fräse: Eine schneidende trägt in derselben Zeit etwa sechsmal so viel ab wie eine Diamantfräse</translation>
-    </message>
-    <message>
         <source> krpm</source>
         <translation> krpm</translation>
     </message>
@@ -2768,6 +2769,18 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>Pick, dissector or curette from a file: the left button, or Space, presses it on the tissue, and it removes nothing</source>
         <translation>Häkchen, Dissektor oder Kürette aus einer Datei: Die linke Taste oder die Leertaste drückt es auf das Gewebe, und es trägt nichts ab</translation>
+    </message>
+    <message>
+        <source>Kind of the burr: a cutting burr takes some six times as much in the same time as a diamond one. More burrs: Drill &gt; Materials and burrs…</source>
+        <translation>Art der Fräse: Eine schneidende trägt in derselben Zeit etwa sechsmal so viel ab wie eine Diamantfräse. Weitere Fräsen: Bohren &gt; Materialien und Fräsen…</translation>
+    </message>
+    <message>
+        <source>Diamond burr</source>
+        <translation>Diamantfräse</translation>
+    </message>
+    <message>
+        <source>Cutting burr</source>
+        <translation>Schneidende Fräse</translation>
     </message>
 </context>
 <context>
@@ -2883,10 +2896,6 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>Drill &gt; Instrument takes it up when the stroke is done</source>
         <translation>Bohren &gt; Instrument nimmt es auf, wenn der Bohrzug beendet ist</translation>
-    </message>
-    <message>
-        <source>%1: felt at %2 points, no place within 10 mm of its tip farther than %3 mm from one, and none at all farther than %4 mm; bone thinner than twice that may pass between them unfelt</source>
-        <translation>%1: an %2 Punkten gefühlt, keine Stelle bis 10 mm von der Spitze weiter als %3 mm von einem entfernt und überhaupt keine weiter als %4 mm; Knochen, der dünner als das Doppelte ist, kann ungefühlt zwischen ihnen hindurchgehen</translation>
     </message>
 </context>
 <context>
@@ -4485,6 +4494,12 @@ Seine Oberfläche ist auf ±%3 mm bekannt: %4</translation>
         <source>maybe within %1 mm</source>
         <translation>vielleicht innerhalb von %1 mm</translation>
     </message>
+    <message>
+        <source>
+The instrument is measured at points: between them it may be %1 mm nearer</source>
+        <translation>
+Das Instrument wird an Punkten gemessen: Dazwischen kann es %1 mm näher sein</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::NearbyPanel</name>
@@ -4523,8 +4538,12 @@ Verletzt: %1, %2</translation>
         <translation>Die Strukturen lassen sich nicht vermessen: %1</translation>
     </message>
     <message>
-        <source>Take up the burr (D) to see how far the structures are from it</source>
-        <translation>Nehmen Sie die Fräse auf (D), um zu sehen, wie weit die Strukturen von ihr entfernt sind</translation>
+        <source>No structure that is shown lies within %1 mm of the instrument</source>
+        <translation>Keine gezeigte Struktur liegt innerhalb von %1 mm um das Instrument</translation>
+    </message>
+    <message>
+        <source>Take up the burr (D) or an instrument to see how far the structures are from it</source>
+        <translation>Nehmen Sie die Fräse (D) oder ein Instrument auf, um zu sehen, wie weit die Strukturen entfernt sind</translation>
     </message>
 </context>
 <context>
@@ -7746,16 +7765,8 @@ Nichts verlässt diesen Rechner.</translation>
         <translation>Volumen</translation>
     </message>
     <message>
-        <source>Burr</source>
-        <translation>Fräse</translation>
-    </message>
-    <message>
         <source>Name and colour: click the colour to change it</source>
         <translation>Name und Farbe: Ein Klick auf die Farbe ändert sie</translation>
-    </message>
-    <message>
-        <source>From the burr&apos;s ball to the structure&apos;s surface</source>
-        <translation>Von der Kugel der Fräse zur Oberfläche der Struktur</translation>
     </message>
     <message>
         <source>Show</source>
@@ -7808,6 +7819,14 @@ Nichts verlässt diesen Rechner.</translation>
     <message>
         <source>What lies below the surface threshold and is no structure, in 3D alone: it is air to the hand and the drill</source>
         <translation>Was unter der Oberflächenschwelle liegt und keine Struktur ist, nur in 3D: Für Hand und Bohrer ist es Luft</translation>
+    </message>
+    <message>
+        <source>Tool</source>
+        <translation>Werkzeug</translation>
+    </message>
+    <message>
+        <source>From the burr&apos;s ball, or the instrument, to the structure&apos;s surface</source>
+        <translation>Von der Kugel der Fräse oder vom Instrument zur Oberfläche der Struktur</translation>
     </message>
 </context>
 <context>
@@ -7951,6 +7970,17 @@ Nichts verlässt diesen Rechner.</translation>
     <message>
         <source>3D view</source>
         <translation>3D-Ansicht</translation>
+    </message>
+</context>
+<context>
+    <name>petrous::workstation::ToolWarnings</name>
+    <message>
+        <source>no warnings yet: structures are being measured</source>
+        <translation>noch keine Warnungen: Die Strukturen werden vermessen</translation>
+    </message>
+    <message>
+        <source>no warnings: the structures cannot be measured</source>
+        <translation>keine Warnungen: Die Strukturen lassen sich nicht vermessen</translation>
     </message>
 </context>
 <context>
@@ -9065,14 +9095,6 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>&amp;Bereiche</translation>
     </message>
     <message>
-        <source>Other &amp;kind of burr</source>
-        <translation>Andere Fräsen&amp;art</translation>
-    </message>
-    <message>
-        <source>Cutting or diamond</source>
-        <translation>Schneidend oder Diamant</translation>
-    </message>
-    <message>
         <source>Handp&amp;iece</source>
         <translation>Handst&amp;ück</translation>
     </message>
@@ -9167,6 +9189,14 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>A closed surface (OBJ, STL, PLY, VTP) of 1 to 300 mm, its tip at the origin: it is felt and drawn, and removes nothing</source>
         <translation>Eine geschlossene Oberfläche (OBJ, STL, PLY, VTP) von 1 bis 300 mm, die Spitze im Ursprung: Sie wird gefühlt und gezeichnet und trägt nichts ab</translation>
+    </message>
+    <message>
+        <source>Cutting, diamond, or the next one of your own</source>
+        <translation>Schneidend, Diamant oder die nächste eigene</translation>
+    </message>
+    <message>
+        <source>Next &amp;kind of burr</source>
+        <translation>Nächste Fräsen&amp;art</translation>
     </message>
 </context>
 </TS>

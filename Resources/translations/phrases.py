@@ -285,7 +285,7 @@ def said(group, found):
 # Sources without phrases: words that are looked for, formats, and errors that only a defect of the
 # program causes.
 WITHOUT = set("""
-    BurrCatalogue BurrShell Catalogue CheckedParameters ClippedRegion ConstrainedProxy ContactQp
+    BurrShell Catalogue CheckedParameters ClippedRegion ConstrainedProxy ContactQp
     DicomWriter DistanceField ForceDisplay ForceLimits GlProgram GoneNames HapticField
     HeaderCache IdentityText IntensityHistogram IntensityVolume JsonFault LabelField LabelMap
     LabelPriority LevelImage Log MaterialCatalogue NotedProvenance OccupancyGrid PassivityGuard

@@ -1552,6 +1552,14 @@
         <translation>Material „%1“ kann nicht entfernt werden: Voreinstellungen geben es Strukturen</translation>
     </message>
     <message>
+        <source>burr '%1' has its name for good: it is the usual one of its kind</source>
+        <translation>Fräse „%1“ behält ihren Namen: Sie ist die übliche ihrer Art</translation>
+    </message>
+    <message>
+        <source>burr '%1' cannot be removed: it is the usual one of its kind</source>
+        <translation>Fräse „%1“ kann nicht entfernt werden: Sie ist die übliche ihrer Art</translation>
+    </message>
+    <message>
         <source>'%~1' is not a diameter: numbers above 0, up to 10 mm</source>
         <translation>„%~1“ ist kein Durchmesser: Zahlen über 0, bis 10 mm</translation>
     </message>
@@ -3716,12 +3724,52 @@
         <translation>er nimmt Voxel außerhalb des Gitters</translation>
     </message>
     <message>
+        <source>there is no kind of burr '%~1'; there are cutting and diamond</source>
+        <translation>es gibt keine Art von Fräse „%~1“; es gibt cutting und diamond</translation>
+    </message>
+    <message>
+        <source>'%1' cannot be a burr's name: it has a to z, 0 to 9 and hyphens, at most 40</source>
+        <translation>„%1“ kann kein Name einer Fräse sein: Er besteht aus a bis z, 0 bis 9 und Bindestrichen, höchstens 40</translation>
+    </message>
+    <message>
+        <source>burr '%1' must be of the kind of that name</source>
+        <translation>Fräse „%1“ muss von der Art dieses Namens sein</translation>
+    </message>
+    <message>
+        <source>burr '%1': 'diameters_mm' must list diameters above 0 to 10 mm</source>
+        <translation>Fräse „%1“: „diameters_mm“ muss Durchmesser über 0 bis 10 mm aufzählen</translation>
+    </message>
+    <message>
+        <source>there are two burrs '%1'; each needs a name of its own</source>
+        <translation>es gibt zwei Fräsen „%1“; jede braucht einen eigenen Namen</translation>
+    </message>
+    <message>
+        <source>there must be a burr '%~1', the usual one of its kind</source>
+        <translation>es muss eine Fräse „%~1“ geben, die übliche ihrer Art</translation>
+    </message>
+    <message>
+        <source>there is no burr '%1'; there are %2</source>
+        <translation>es gibt keine Fräse „%1“; es gibt %2</translation>
+    </message>
+    <message>
+        <source>the burr '%1' is a %~2 one in this catalogue, not a %~3 one</source>
+        <translation>die Fräse „%1“ ist in diesem Katalog von der Art %~2, nicht %~3</translation>
+    </message>
+    <message>
+        <source>material '%1' with the %2 burr: %~3</source>
+        <translation>Material „%1“ mit der Fräse %2: %~3</translation>
+    </message>
+    <message>
         <source>cutting</source>
         <translation>schneidend</translation>
     </message>
     <message>
         <source>diamond</source>
         <translation>Diamant</translation>
+    </message>
+    <message>
+        <source>a burr's name must have a to z, 0 to 9 and hyphens, at most 40</source>
+        <translation>der Name einer Fräse muss aus a bis z, 0 bis 9 und Bindestrichen bestehen, höchstens 40</translation>
     </message>
     <message>
         <source>%1, line %#2: %~3</source>

@@ -139,6 +139,43 @@ TEST_F(CatalogueEditorTest, RefusesANumberWithItsRangeInTheUnitOfTheTable)
   EXPECT_NE(ofBurr(0, 60.0), "taken");
 }
 
+TEST_F(CatalogueEditorTest, HasBurrsOfTheUsersOwnBesideTheUsualOnes)
+{
+  CatalogueEditor editor(folder);
+  const std::size_t row = editor.addBurr(1);
+  EXPECT_EQ(editor.burrs()[row].name, "diamond-2");
+  EXPECT_EQ(editor.burrs()[row].kind, dissection::Burr::Kind::Diamond);
+  EXPECT_FALSE(editor.isUsualBurr(row));
+  CatalogueEditor::Burr own = editor.burrs()[row];
+  own.name = "coarse-diamond";
+  own.constant = 0.2;
+  own.diameters = {5.0, 3.0};
+  editor.setBurr(row, own);
+  const auto refused = [&](CatalogueEditor::Burr one, const char* name)
+  {
+    one.name = name;
+    EXPECT_THROW(editor.setBurr(row, one), core::InvalidParameter) << name;
+  };
+  for (const char* name : {"", "Coarse", "cutting", "diamond"})
+    refused(own, name);
+  own.constant = 1.5;
+  refused(own, "coarse-diamond");
+  CatalogueEditor::Burr usual = editor.burrs()[0];
+  usual.name = "other";
+  EXPECT_THROW(editor.setBurr(0, usual), core::InvalidParameter) << "cases name it by its kind";
+  EXPECT_THROW(editor.removeBurr(1), core::InvalidParameter);
+  editor.save();
+
+  const auto burrs = dissection::Catalogues::in(folder).burrs;
+  ASSERT_EQ(burrs.all().size(), 3u);
+  EXPECT_DOUBLE_EQ(burrs.model("coarse-diamond").wearCoefficient, 0.2);
+  EXPECT_EQ(burrs.model("coarse-diamond").diameters, (std::vector<double>{3.0, 5.0}));
+  EXPECT_DOUBLE_EQ(burrs.model("diamond").wearCoefficient, 0.1);
+  editor.removeBurr(row);
+  editor.save();
+  EXPECT_FALSE(hasFile("burrs.json"));
+}
+
 TEST_F(CatalogueEditorTest, TheProgramsOwnNeedsNoFile)
 {
   CatalogueEditor editor(folder);

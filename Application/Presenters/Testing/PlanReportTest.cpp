@@ -35,7 +35,7 @@ scene::Case planned()
   const auto drill = [&value](const Vector3d& at, double seconds)
   {
     dissection::StrokeInfo info;
-    info.burr = {dissection::Burr::Kind::Diamond, 4.0, 30000.0};
+    info.burr = {dissection::Burr::Kind::Diamond, 4.0, 30000.0, {}};
     info.duration = seconds;
     value.dissection.beginStroke(info);
     value.dissection.cut({at, at, 2.0});

@@ -46,10 +46,11 @@ constexpr int kKind = Qt::UserRole + 2;
 
 QString burrText(const dissection::Burr& burr)
 {
-  return ApproachPanel::tr("%1 mm %2")
-      .arg(numberText(burr.diameter, 1), burr.kind == dissection::Burr::Kind::Diamond
-                                             ? ApproachPanel::tr("diamond")
-                                             : ApproachPanel::tr("cutting"));
+  const bool isDiamond = burr.kind == dissection::Burr::Kind::Diamond;
+  const QString name = !burr.name.empty() ? words(burr.name)
+                       : isDiamond        ? ApproachPanel::tr("diamond")
+                                          : ApproachPanel::tr("cutting");
+  return ApproachPanel::tr("%1 mm %2").arg(numberText(burr.diameter, 1), name);
 }
 
 // In place of a picture that is not drawn yet: nothing that could be taken for one.

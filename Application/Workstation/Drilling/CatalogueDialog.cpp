@@ -39,6 +39,7 @@ enum MaterialColumn
 
 enum BurrColumn
 {
+  BurrName,
   Kind,
   Rake,
   Wear,
@@ -113,8 +114,8 @@ CatalogueDialog::CatalogueDialog(presenters::CatalogueEditor editor,
                       {tr("Name"), tr("Shown as"), tr("Cutting energy, GPa"), tr("Friction"),
                        tr("Hardness, HV"), tr("Source, and how certain")}))
   , m_burrs(table("burrs", tr("Burrs"),
-                  {tr("Burr"), tr("Rake, °"), tr("Wear coefficient"), tr("Diameters, mm"),
-                   tr("Source, and how certain")}))
+                  {tr("Name"), tr("Kind"), tr("Rake, °"), tr("Wear coefficient"),
+                   tr("Diameters, mm"), tr("Source, and how certain")}))
   , m_bone(new QLabel)
   , m_lost(new QLabel)
   , m_fault(new QLabel)
@@ -138,11 +139,20 @@ CatalogueDialog::CatalogueDialog(presenters::CatalogueEditor editor,
   }
   auto* addOne = button(tr("&Add"), "addMaterial",
                         tr("Another material, with the numbers of the one that is selected"));
-  m_remove = button(tr("&Remove"), "removeMaterial", tr("Takes the selected material out"));
-  auto* row = new QHBoxLayout;
-  row->addWidget(addOne);
-  row->addWidget(m_remove);
-  row->addStretch(1);
+  m_removeMaterial = button(tr("&Remove"), "removeMaterial", tr("Takes the selected material out"));
+  auto* addOther = button(tr("A&dd"), "addBurr",
+                          tr("Another burr, of the kind and with the numbers of the one that is "
+                             "selected"));
+  m_removeBurr = button(tr("R&emove"), "removeBurr",
+                        tr("Takes the selected burr out. Strokes and recordings keep its name"));
+  const auto rowOf = [](QPushButton* first, QPushButton* second)
+  {
+    auto* row = new QHBoxLayout;
+    row->addWidget(first);
+    row->addWidget(second);
+    row->addStretch(1);
+    return row;
+  };
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Save | QDialogButtonBox::Cancel);
   auto* builtIn = buttons->addButton(tr("As &built in"), QDialogButtonBox::ResetRole);
   builtIn->setObjectName("catalogueBuiltIn");
@@ -153,24 +163,28 @@ CatalogueDialog::CatalogueDialog(presenters::CatalogueEditor editor,
   buttons->button(QDialogButtonBox::Cancel)->setText(tr("Cancel"));
   for (auto* one : buttons->buttons()) // Return enters a cell
     static_cast<QPushButton*>(one)->setAutoDefault(false);
-  addOne->setAutoDefault(false);
-  m_remove->setAutoDefault(false);
+  for (QPushButton* one : {addOne, m_removeMaterial, addOther, m_removeBurr})
+    one->setAutoDefault(false);
 
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(intro);
   layout->addWidget(m_materials, 3);
-  layout->addLayout(row);
+  layout->addLayout(rowOf(addOne, m_removeMaterial));
   layout->addWidget(m_bone);
-  layout->addWidget(m_burrs, 1);
+  layout->addWidget(m_burrs, 2);
+  layout->addLayout(rowOf(addOther, m_removeBurr));
   layout->addWidget(m_lost);
   layout->addWidget(m_fault);
   layout->addWidget(buttons);
 
   connect(m_materials, &QTableWidget::cellChanged, this, &CatalogueDialog::materialEntered);
   connect(m_burrs, &QTableWidget::cellChanged, this, &CatalogueDialog::burrEntered);
-  connect(m_materials, &QTableWidget::itemSelectionChanged, this, &CatalogueDialog::enableRemove);
-  connect(addOne, &QPushButton::clicked, this, &CatalogueDialog::add);
-  connect(m_remove, &QPushButton::clicked, this, &CatalogueDialog::remove);
+  for (QTableWidget* one : {m_materials, m_burrs})
+    connect(one, &QTableWidget::itemSelectionChanged, this, &CatalogueDialog::enableRemove);
+  connect(addOne, &QPushButton::clicked, this, &CatalogueDialog::addMaterial);
+  connect(m_removeMaterial, &QPushButton::clicked, this, &CatalogueDialog::removeMaterial);
+  connect(addOther, &QPushButton::clicked, this, &CatalogueDialog::addBurr);
+  connect(m_removeBurr, &QPushButton::clicked, this, &CatalogueDialog::removeBurr);
   connect(builtIn, &QPushButton::clicked, this, &CatalogueDialog::setBuiltIn);
   connect(buttons, &QDialogButtonBox::accepted, this, &CatalogueDialog::save);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
@@ -181,18 +195,20 @@ CatalogueDialog::CatalogueDialog(presenters::CatalogueEditor editor,
 void CatalogueDialog::fill()
 {
   const QScopedValueRollback<bool> filling(m_filling, true);
-  const int count = static_cast<int>(m_editor.materials().size());
-  const int current = m_materials->currentRow();
-  const bool isOther = count != m_materials->rowCount();
-  m_materials->setRowCount(count);
-  for (int row = 0; row < count; ++row)
-    fillMaterial(row);
-  if (isOther || current < 0) // goes to the first column, from which Tab would go on
-    m_materials->selectRow(std::clamp(current, 0, count - 1));
+  const auto fillTable = [](QTableWidget& one, std::size_t rows, const auto& fillRow)
+  {
+    const int count = static_cast<int>(rows);
+    const int current = one.currentRow();
+    const bool isOther = count != one.rowCount();
+    one.setRowCount(count);
+    for (int row = 0; row < count; ++row)
+      fillRow(row);
+    if (isOther || current < 0) // goes to the first column, from which Tab would go on
+      one.selectRow(std::clamp(current, 0, count - 1));
+  };
+  fillTable(*m_materials, m_editor.materials().size(), [this](int row) { fillMaterial(row); });
+  fillTable(*m_burrs, m_editor.burrs().size(), [this](int row) { fillBurr(row); });
   enableRemove();
-  m_burrs->setRowCount(static_cast<int>(m_editor.burrs().size()));
-  for (int row = 0; row < m_burrs->rowCount(); ++row)
-    fillBurr(row);
   const auto& bone = m_editor.bone();
   m_bone->setText(
       tr("Bone that nobody labelled goes from “%1” at %2 HU to “%3” at %4 HU.")
@@ -208,9 +224,13 @@ void CatalogueDialog::fill()
 
 void CatalogueDialog::enableRemove()
 {
-  const int at = m_materials->currentRow();
-  m_remove->setEnabled(at >= 0 && at < static_cast<int>(m_editor.materials().size()) &&
-                       !m_editor.isBuiltIn(static_cast<std::size_t>(at)));
+  const int material = m_materials->currentRow();
+  m_removeMaterial->setEnabled(material >= 0 &&
+                               material < static_cast<int>(m_editor.materials().size()) &&
+                               !m_editor.isBuiltIn(static_cast<std::size_t>(material)));
+  const int burr = m_burrs->currentRow();
+  m_removeBurr->setEnabled(burr >= 0 && burr < static_cast<int>(m_editor.burrs().size()) &&
+                           !m_editor.isUsualBurr(static_cast<std::size_t>(burr)));
 }
 
 void CatalogueDialog::fillMaterial(int row)
@@ -227,9 +247,11 @@ void CatalogueDialog::fillMaterial(int row)
 
 void CatalogueDialog::fillBurr(int row)
 {
-  const auto& one = m_editor.burrs()[static_cast<std::size_t>(row)];
+  const auto at = static_cast<std::size_t>(row);
+  const auto& one = m_editor.burrs()[at];
   const bool isCutting = one.kind == dissection::Burr::Kind::Cutting;
   const QString none = QString::fromUtf8("–");
+  put(*m_burrs, row, BurrName, words(one.name), !m_editor.isUsualBurr(at));
   put(*m_burrs, row, Kind, isCutting ? tr("Cutting") : tr("Diamond"), false);
   put(*m_burrs, row, Rake, isCutting ? number(one.constant) : none, isCutting);
   put(*m_burrs, row, Wear, isCutting ? none : number(one.constant), !isCutting);
@@ -295,6 +317,7 @@ void CatalogueDialog::burrEntered(int row, int column)
       {
         const auto at = static_cast<std::size_t>(row);
         auto one = m_editor.burrs()[at];
+        one.name = bytes(m_burrs->item(row, BurrName)->text().trimmed());
         const bool isCutting = one.kind == dissection::Burr::Kind::Cutting;
         one.constant = numberIn(*m_burrs, row, isCutting ? Rake : Wear, one.constant);
         const std::string diameters = bytes(m_burrs->item(row, Diameters)->text().trimmed());
@@ -303,10 +326,10 @@ void CatalogueDialog::burrEntered(int row, int column)
         one.source = textIn(*m_burrs, row, BurrSource, one.source);
         m_editor.setBurr(at, one);
       },
-      cellOf(*m_burrs, m_burrs->item(row, Kind)->text(), column));
+      cellOf(*m_burrs, words(m_editor.burrs()[static_cast<std::size_t>(row)].name), column));
 }
 
-void CatalogueDialog::add()
+void CatalogueDialog::addMaterial()
 {
   int added = -1;
   enter(
@@ -322,7 +345,7 @@ void CatalogueDialog::add()
   m_materials->editItem(m_materials->item(added, Name));
 }
 
-void CatalogueDialog::remove()
+void CatalogueDialog::removeMaterial()
 {
   const int row = m_materials->currentRow();
   if (row < 0)
@@ -334,6 +357,29 @@ void CatalogueDialog::remove()
         checkUnused(m_editor.materials()[at].name);
         m_editor.removeMaterial(at);
       });
+}
+
+void CatalogueDialog::addBurr()
+{
+  int added = -1;
+  enter(
+      [&]
+      {
+        const auto like = static_cast<std::size_t>(std::max(m_burrs->currentRow(), 0));
+        added = static_cast<int>(m_editor.addBurr(like));
+      });
+  if (added < 0)
+    return;
+  m_burrs->setCurrentCell(added, BurrName);
+  m_burrs->setFocus();
+  m_burrs->editItem(m_burrs->item(added, BurrName));
+}
+
+void CatalogueDialog::removeBurr()
+{
+  const int row = m_burrs->currentRow();
+  if (row >= 0)
+    enter([&] { m_editor.removeBurr(static_cast<std::size_t>(row)); });
 }
 
 void CatalogueDialog::setBuiltIn()

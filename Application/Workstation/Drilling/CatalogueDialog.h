@@ -35,8 +35,10 @@ private:
   void checkUnused(const std::string& material) const;
   void materialEntered(int row, int column);
   void burrEntered(int row, int column);
-  void add();
-  void remove();
+  void addMaterial();
+  void addBurr();
+  void removeMaterial();
+  void removeBurr();
   void setBuiltIn();
   void save();
 
@@ -47,7 +49,8 @@ private:
   QLabel* m_bone;
   QLabel* m_lost;
   QLabel* m_fault;
-  QPushButton* m_remove;
+  QPushButton* m_removeMaterial;
+  QPushButton* m_removeBurr;
   QPushButton* m_save;
   bool m_filling = false;
 };

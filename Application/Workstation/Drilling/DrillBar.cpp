@@ -13,6 +13,8 @@
 
 #include "Bind.h"
 #include "DiameterBox.h"
+#include "Theme.h"
+#include "petrous/Dissection/BurrName.h"
 
 namespace petrous::workstation
 {
@@ -59,13 +61,14 @@ DrillBar::DrillBar(QWidget* parent)
   m_diameter->setObjectName("burrDiameter");
   m_diameter->setToolTip(
       tr("Diameter of the burr, mm, of those that are sold ([ smaller, ] larger)"));
-  m_kind->addItem(tr("Cutting"), static_cast<int>(dissection::Burr::Kind::Cutting));
-  m_kind->addItem(tr("Diamond"), static_cast<int>(dissection::Burr::Kind::Diamond));
   m_kind->setObjectName("burrKind");
+  m_kind->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  offerBurrs();
   offerDiameters();
   m_diameter->setValue(4.0);
   m_kind->setToolTip(tr("Kind of the burr: a cutting burr takes some six times as much in "
-                        "the same time as a diamond one"));
+                        "the same time as a diamond one. More burrs: Drill > Materials and "
+                        "burrs…"));
   m_speed->setRange(10, 100);
   m_speed->setSingleStep(5);
   m_speed->setValue(60);
@@ -104,6 +107,7 @@ DrillBar::DrillBar(QWidget* parent)
   connect(m_kind, qOverload<int>(&QComboBox::currentIndexChanged), this,
           [this]
           {
+            m_asked = burr();
             const QSignalBlocker once(m_diameter);
             offerDiameters();
           });
@@ -116,13 +120,45 @@ DrillBar::DrillBar(QWidget* parent)
 
 void DrillBar::setBurrs(const dissection::BurrCatalogue& burrs)
 {
+  const std::string before = nameOf(burr());
   m_burrs = burrs;
+  {
+    const QSignalBlocker kind(m_kind);
+    offerBurrs();
+    select(m_asked);
+  }
   offerDiameters();
+  if (nameOf(burr()) != before)
+    emit burrChanged();
+}
+
+void DrillBar::offerBurrs()
+{
+  m_kind->clear();
+  for (const dissection::BurrModel& one : m_burrs.all())
+  {
+    const auto usual = dissection::parseBurrKind(one.name);
+    const QString name = !usual                                      ? words(one.name)
+                         : *usual == dissection::Burr::Kind::Diamond ? tr("Diamond")
+                                                                     : tr("Cutting");
+    const QString kind =
+        one.kind == dissection::Burr::Kind::Diamond ? tr("Diamond burr") : tr("Cutting burr");
+    m_kind->addItem(name, words(one.name));
+    m_kind->setItemData(m_kind->count() - 1, kind, Qt::ToolTipRole);
+  }
+}
+
+void DrillBar::select(const dissection::Burr& burr)
+{
+  const dissection::BurrModel* own = m_burrs.find(nameOf(burr));
+  const dissection::BurrModel& model =
+      own && own->kind == burr.kind ? *own : m_burrs.model(burr.kind);
+  m_kind->setCurrentIndex(m_kind->findData(words(model.name)));
 }
 
 void DrillBar::offerDiameters()
 {
-  m_diameter->setDiameters(m_burrs.model(burr().kind).diameters);
+  m_diameter->setDiameters(m_burrs.model(burr()).diameters);
 }
 
 void DrillBar::stepDiameter(int steps)
@@ -130,16 +166,16 @@ void DrillBar::stepDiameter(int steps)
   m_diameter->stepBy(steps);
 }
 
-void DrillBar::toggleKind()
+void DrillBar::nextBurr()
 {
-  m_kind->setCurrentIndex(1 - m_kind->currentIndex());
+  m_kind->setCurrentIndex((m_kind->currentIndex() + 1) % m_kind->count());
 }
 
 dissection::Burr DrillBar::burr() const
 {
   dissection::Burr burr;
   burr.diameter = m_diameter->value();
-  burr.kind = static_cast<dissection::Burr::Kind>(m_kind->currentData().toInt());
+  setModel(burr, m_burrs.model(bytes(m_kind->currentData().toString())));
   burr.rpm = 1000.0 * m_speed->value();
   return burr;
 }
@@ -150,7 +186,8 @@ void DrillBar::setBurr(const dissection::Burr& burr)
     const QSignalBlocker kind(m_kind);
     const QSignalBlocker diameter(m_diameter);
     const QSignalBlocker speed(m_speed);
-    m_kind->setCurrentIndex(m_kind->findData(static_cast<int>(burr.kind)));
+    m_asked = burr;
+    select(burr);
     m_diameter->setValue(burr.diameter);
     offerDiameters(); // takes the nearest
     m_speed->setValue(static_cast<int>(std::lround(burr.rpm / 1000.0)));

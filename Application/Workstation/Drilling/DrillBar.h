@@ -33,12 +33,15 @@ public:
   /// checked: an instrument is in use; it removes nothing. In the menu only.
   QAction* instrumentAction() const noexcept { return m_instrument; }
   void stepDiameter(int steps); ///< among those available
-  void toggleKind();            ///< cutting or diamond
-  /// The available diameters, per kind.
+  void nextBurr();              ///< the next one of the catalogue, then the first
+  /// The available burrs and their diameters. The one that was last selected or set stays if it is
+  /// there, else the usual one of its kind takes its place.
   void setBurrs(const dissection::BurrCatalogue& burrs);
   dissection::Burr burr() const;
-  void setBurr(const dissection::Burr& burr); ///< the nearest that is available
-  QAction* wheelAction() const noexcept       ///< checked: the wheel moves the burr in depth
+  /// In the nearest diameter that is available; for one that is not in the catalogue, or of another
+  /// kind there, the usual one of its kind.
+  void setBurr(const dissection::Burr& burr);
+  QAction* wheelAction() const noexcept ///< checked: the wheel moves the burr in depth
   {
     return m_wheel;
   }
@@ -54,9 +57,12 @@ signals:
   void pressChanged(); ///< thrust, or how depth is controlled
 
 private:
+  void offerBurrs();
+  void select(const dissection::Burr& burr);
   void offerDiameters();
 
   dissection::BurrCatalogue m_burrs = dissection::BurrCatalogue::builtIn();
+  dissection::Burr m_asked; // also while the catalogue does not have it
   QAction* m_drill;
   QAction* m_pointer;
   QAction* m_instrument;

@@ -276,21 +276,18 @@ void DrillController::readInstrument(const QString& file, const QString& axis)
       {
         const auto read = std::make_shared<const presenters::LoadedInstrument>(
             presenters::readInstrument(pathOf(file), bytes(axis), progress));
-        return [this, file, axis, read]
+        const auto measured =
+            std::make_shared<const presenters::MeasuredTool>(*read->instrument->shell);
+        return [this, file, axis, read, measured]
         {
           setInstrument(file, axis);
           m_instrument = read->instrument;
+          m_measured = measured;
           emit instrumentRead(file, axis);
           const bool isTaken = !m_model.drilling(); // an open stroke goes on
           if (isTaken)
             m_tool == Tool::Instrument ? renewTool() : setTool(Tool::Instrument);
-          QStringList lines{tr("%1: felt at %2 points, no place within 10 mm of its tip farther "
-                               "than %3 mm from one, and none at all farther than %4 mm; bone "
-                               "thinner than twice that may pass between them unfelt")
-                                .arg(words(m_instrument->name))
-                                .arg(m_instrument->shell->points.size())
-                                .arg(numberText(m_instrument->shell->burrSpacing, 2))
-                                .arg(numberText(m_instrument->shell->spacing, 2))};
+          QStringList lines{phrase(presenters::toString(*m_instrument))};
           for (const std::string& note : read->notes)
             lines += windowText(phrase(note));
           if (!isTaken)
@@ -515,7 +512,7 @@ void DrillController::putAway()
   const auto news = m_model.stopTouch();
   m_view.display().endTouch();
   m_sound.toolGone();
-  emit burrGone();
+  emit toolGone();
   if (!m_fault.isEmpty())
     emit faulted({});
   m_fault.clear();
@@ -583,14 +580,16 @@ void DrillController::show(const session::TouchSession::News& news)
   if (m_tool == Tool::Pointer && isPlaced(record))
     read(record);
   showFault(news);
-  const Eigen::Vector3d burr = record.proxy.pose().position;
+  const haptics::Pose pose = record.proxy.pose();
   if (m_tool == Tool::Burr && isPlaced(record))
-    emit burrMoved(burr, toolRadius());
+    emit toolMoved(presenters::MeasuredTool(toolRadius()), pose);
+  if (m_tool == Tool::Instrument && isPlaced(record))
+    emit toolMoved(*m_measured, pose);
   if (!m_model.drilling())
     return;
-  emit pointed(burr);
+  emit pointed(pose.position);
   if (m_slicesFollow)
-    m_model.setCrosshair(burr);
+    m_model.setCrosshair(pose.position);
 }
 
 void DrillController::read(const TickRecord& record)

@@ -62,8 +62,9 @@ signals:
   void pointed(const Eigen::Vector3d& patient); ///< the surface under the pointer, or the tool
   void pointedNowhere();
   void tissueWanted(); ///< a tool was chosen, but the case is not prepared for it
-  void burrMoved(const Eigen::Vector3d& center, double radius); ///< patient LPS mm; each frame
-  void burrGone();                                              ///< put away
+  /// Of a burr or an instrument in use, at X_PT; each frame.
+  void toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose);
+  void toolGone(); ///< put away
   /// nullptr if nothing was removed.
   void strokeEnded(const std::shared_ptr<const petrous::dissection::Stroke>& stroke);
   void statusMessage(const QString& line); ///< progress of slow operations, or errors
@@ -116,6 +117,7 @@ private:
   BackgroundWork m_preparation; // of the tool
   BackgroundWork m_reading;     // of an instrument
   std::shared_ptr<const session::Instrument> m_instrument;
+  std::shared_ptr<const presenters::MeasuredTool> m_measured; // it
   QString m_instrumentFile, m_instrumentAxis;
   std::optional<Eigen::Vector3d> m_tip; // last one probed
   QTimer m_frames;

@@ -64,7 +64,7 @@ ReplayController::ReplayController(presenters::WorkstationModel& model, ThreeDVi
       read(m_file);
   };
   m_panel->onRecordingsChanged = [this] { listRecordings(); };
-  m_panel->onBurrMoved = [this] { burrMoved(); };
+  m_panel->onToolMoved = [this] { toolMoved(); };
   connect(&m_work, &BackgroundWork::failed, this,
           [this](const QString& why)
           {
@@ -77,7 +77,7 @@ ReplayController::ReplayController(presenters::WorkstationModel& model, ThreeDVi
 ReplayController::~ReplayController()
 {
   m_panel->onCaseChanged = m_panel->onPartsChanged = m_panel->onRecordingsChanged =
-      m_panel->onBurrMoved = {};
+      m_panel->onToolMoved = {};
   m_panel->setReview(nullptr); // the panel lives on
 }
 
@@ -281,7 +281,7 @@ void ReplayController::showGhost()
 }
 
 // Each frame of the tool in use, and when it was put away.
-void ReplayController::burrMoved()
+void ReplayController::toolMoved()
 {
   const bool drills = m_model.drilling();
   if (!drills && m_waits)

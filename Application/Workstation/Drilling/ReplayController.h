@@ -63,7 +63,7 @@ private:
   void frame();
   void goTo(double seconds);
   void showGhost();
-  void burrMoved();
+  void toolMoved();
   void exportTable();
 
   presenters::WorkstationModel& m_model;

@@ -283,16 +283,16 @@ void ReplayPanel::attachmentsChanged()
     onRecordingsChanged();
 }
 
-void ReplayPanel::burrMoved(const Eigen::Vector3d& /*center*/, double /*radius*/)
+void ReplayPanel::toolMoved(const presenters::MeasuredTool& /*tool*/, const haptics::Pose& /*pose*/)
 {
-  if (onBurrMoved)
-    onBurrMoved();
+  if (onToolMoved)
+    onToolMoved();
 }
 
-void ReplayPanel::burrGone()
+void ReplayPanel::toolGone()
 {
-  if (onBurrMoved)
-    onBurrMoved();
+  if (onToolMoved)
+    onToolMoved();
 }
 
 double ReplayPanel::speed() const

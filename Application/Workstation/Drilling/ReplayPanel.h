@@ -37,12 +37,12 @@ public:
   bool startsWithDrill() const;
 
   // What the panel hears it hears through its controller.
-  std::function<void()> onCaseChanged, onPartsChanged, onRecordingsChanged, onBurrMoved;
+  std::function<void()> onCaseChanged, onPartsChanged, onRecordingsChanged, onToolMoved;
   void caseChanged() override;
   void partsChanged() override;
   void attachmentsChanged() override;
-  void burrMoved(const Eigen::Vector3d& center, double radius) override;
-  void burrGone() override;
+  void toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose) override;
+  void toolGone() override;
 
 signals:
   void recordingChosen(int row);

@@ -69,7 +69,7 @@ QPixmap signOf(const NearbyStructure& structure)
 QString distanceOf(const NearbyStructure& structure)
 {
   return NearbyModel::tr("%1 mm ± %2")
-      .arg(numberText(structure.distance, 1), numberText(structure.uncertainty.millimetres(), 1));
+      .arg(numberText(structure.distance, 1), numberText(structure.unsure(), 1));
 }
 
 QString noteOf(const NearbyStructure& structure)
@@ -126,11 +126,17 @@ QVariant NearbyModel::data(const QModelIndex& index, int role) const
            : row.state == State::Warned ? QVariant(warningColor())
                                         : QVariant();
   if (role == Qt::ToolTipRole)
-    return tr("%1: %2\nIts surface is known to ±%3 mm: %4")
-        .arg(shownName(row.name))
-        .arg(noteOf(row))
-        .arg(row.uncertainty.millimetres(), 0, 'f', 2)
-        .arg(phrase(toString(row.uncertainty)));
+  {
+    QString tip = tr("%1: %2\nIts surface is known to ±%3 mm: %4")
+                      .arg(shownName(row.name))
+                      .arg(noteOf(row))
+                      .arg(row.uncertainty.millimetres(), 0, 'f', 2)
+                      .arg(phrase(toString(row.uncertainty)));
+    if (row.sampling > 0.0)
+      tip += tr("\nThe instrument is measured at points: between them it may be %1 mm nearer")
+                 .arg(row.sampling, 0, 'f', 2);
+    return tip;
+  }
   if (role == Qt::DecorationRole && index.column() == Name)
     return signOf(row);
   if (role == Qt::TextAlignmentRole && index.column() == Distance)

@@ -49,7 +49,7 @@ NearbyPanel::NearbyPanel(presenters::WorkstationModel& model, QWidget* parent)
   layout->addWidget(list, 1);
   layout->addWidget(m_line);
   setMinimumWidth(280);
-  burrGone();
+  toolGone();
 }
 
 void NearbyPanel::say(const QString& line)
@@ -60,7 +60,7 @@ void NearbyPanel::say(const QString& line)
 
 void NearbyPanel::caseChanged()
 {
-  burrGone();
+  toolGone();
   stateChanged();
 }
 
@@ -89,7 +89,7 @@ void NearbyPanel::showRemoved()
   m_removed->setText(text);
 }
 
-void NearbyPanel::burrMoved(const Eigen::Vector3d& center, double radius)
+void NearbyPanel::toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose)
 {
   m_hasBurr = true;
   if (!isVisible() || (m_sinceAsked.isValid() && m_sinceAsked.elapsed() < kAgain))
@@ -98,16 +98,18 @@ void NearbyPanel::burrMoved(const Eigen::Vector3d& center, double radius)
   showRemoved();
   try
   {
-    auto near = m_model.nearby(center, radius);
+    auto near = m_model.nearby(tool, pose);
     if (!near)
     {
       m_structures->show({});
       return say(tr("Measuring the structures…"));
     }
     const QString unmeasured = phrase(m_model.unmeasuredNearby());
+    const QString none = tool.isInstrument()
+                             ? tr("No structure that is shown lies within %1 mm of the instrument")
+                             : tr("No structure that is shown lies within %1 mm of the burr");
     say(near->empty() && unmeasured.isEmpty()
-            ? tr("No structure that is shown lies within %1 mm of the burr")
-                  .arg(presenters::WorkstationModel::kNear, 0, 'f', 0)
+            ? none.arg(presenters::WorkstationModel::kNear, 0, 'f', 0)
             : unmeasured);
     m_structures->show(std::move(*near));
   }
@@ -118,12 +120,12 @@ void NearbyPanel::burrMoved(const Eigen::Vector3d& center, double radius)
   }
 }
 
-void NearbyPanel::burrGone()
+void NearbyPanel::toolGone()
 {
   m_hasBurr = false;
   m_structures->show({});
   m_sinceAsked.invalidate();
-  say(tr("Take up the burr (D) to see how far the structures are from it"));
+  say(tr("Take up the burr (D) or an instrument to see how far the structures are from it"));
 }
 
 void NearbyPanel::showEvent(QShowEvent* event)
@@ -136,7 +138,7 @@ void NearbyPanel::hideEvent(QHideEvent* event)
 {
   QWidget::hideEvent(event);
   const bool needed = m_hasBurr; // for warnings
-  burrGone();
+  toolGone();
   if (!needed)
     m_model.forgetNearby();
 }

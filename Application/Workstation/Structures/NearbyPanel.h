@@ -22,8 +22,8 @@ public:
 
   void caseChanged() override;
   void stateChanged() override;
-  void burrMoved(const Eigen::Vector3d& center, double radius) override;
-  void burrGone() override;
+  void toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose) override;
+  void toolGone() override;
 
   const NearbyModel& structures() const { return *m_structures; }
 

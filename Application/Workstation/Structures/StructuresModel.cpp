@@ -592,12 +592,13 @@ QVariant StructuresModel::headerData(int section, Qt::Orientation orientation, i
     return isProperty                ? tr(propertyAt(section).column.title)
            : section == Name         ? tr("Structure")
            : section == VolumeColumn ? tr("Volume")
-                                     : tr("Burr");
+                                     : tr("Tool");
   if (role == Qt::ToolTipRole)
-    return isProperty                ? tr(propertyAt(section).column.tip)
-           : section == Name         ? tr("Name and colour: click the colour to change it")
-           : section == VolumeColumn ? tr("Volume, mm³")
-                                     : tr("From the burr's ball to the structure's surface");
+    return isProperty        ? tr(propertyAt(section).column.tip)
+           : section == Name ? tr("Name and colour: click the colour to change it")
+           : section == VolumeColumn
+               ? tr("Volume, mm³")
+               : tr("From the burr's ball, or the instrument, to the structure's surface");
   const bool isNumber = isProperty ? propertyAt(section).isNumber() : section != Name;
   if (role == Qt::TextAlignmentRole)
     return int((isNumber ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);

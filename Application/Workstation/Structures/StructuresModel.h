@@ -32,7 +32,7 @@ public:
   {
     Name,
     VolumeColumn, ///< mm^3, "open" of an open mesh, "…" while it is measured; empty: not known
-    Burr,         ///< distance to the burr that is in use, mm, and how well it is known
+    Burr, ///< distance to the burr or instrument that is in use, mm, and how well it is known
     FirstProperty ///< and those after it: kStructureProperties with a column
   };
 

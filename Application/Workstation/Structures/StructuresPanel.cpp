@@ -575,15 +575,15 @@ void StructuresPanel::appearanceChanged()
 }
 
 // Measured only where it is seen.
-void StructuresPanel::burrMoved(const Eigen::Vector3d& center, double radius)
+void StructuresPanel::toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose)
 {
   if (!isVisible() || (m_sinceNear.isValid() && m_sinceNear.elapsed() < kNearAgain))
     return;
   m_sinceNear.start();
   try
   {
-    auto near = m_model.nearby(center, radius);
-    // Distances from where the burr was are none.
+    auto near = m_model.nearby(tool, pose);
+    // Distances from where the tool was are none.
     m_structures->setNear(near ? std::move(*near) : std::vector<presenters::NearbyStructure>());
   }
   catch (const std::exception&) // said in the panel "Near the burr"
@@ -597,7 +597,7 @@ void StructuresPanel::burrMoved(const Eigen::Vector3d& center, double radius)
   }
 }
 
-void StructuresPanel::burrGone()
+void StructuresPanel::toolGone()
 {
   m_structures->setNear({});
   m_list->setColumnHidden(StructuresModel::Burr, true);

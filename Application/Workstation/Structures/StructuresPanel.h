@@ -42,8 +42,8 @@ public:
   void caseChanged() override;
   void partsChanged() override;
   void appearanceChanged() override;
-  void burrMoved(const Eigen::Vector3d& center, double radius) override;
-  void burrGone() override;
+  void toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose) override;
+  void toolGone() override;
 
 signals:
   void thicknessAsked(const QString& structure); ///< a second request turns it off

@@ -106,7 +106,7 @@ TEST_F(CatalogueDialogs, WhatTheLawsDoNotAllowIsToldAndNotTaken)
   EXPECT_FALSE(materials.item(0, 0)->flags() & Qt::ItemIsEditable) << "presets give it";
   EXPECT_FALSE(edit.findChild<QPushButton*>("removeMaterial")->isEnabled());
   auto& burrs = table(edit, "burrs");
-  burrs.item(0, 1)->setText("70");
+  burrs.item(0, 2)->setText("70");
   EXPECT_TRUE(edit.findChild<QLabel*>("catalogueFault")->isVisible());
   edit.reject();
   EXPECT_FALSE(std::filesystem::exists(folder() / "library" / "materials.json"));
@@ -118,7 +118,7 @@ TEST_F(CatalogueDialogs, DiametersComeToTheDrillBarAndGoBackWithTheProgramsOwn)
   openWindow("ball");
   auto& edit = dialog();
   auto& burrs = table(edit, "burrs");
-  burrs.item(0, 3)->setText("0.6, 2.3");
+  burrs.item(0, 4)->setText("0.6, 2.3");
   edit.findChild<QPushButton*>("catalogueSave")->click();
   EXPECT_EQ(read().burrs.model(dissection::Burr::Kind::Cutting).diameters,
             (std::vector<double>{0.6, 2.3}));
@@ -128,6 +128,53 @@ TEST_F(CatalogueDialogs, DiametersComeToTheDrillBarAndGoBackWithTheProgramsOwn)
   again.findChild<QPushButton*>("catalogueBuiltIn")->click();
   again.findChild<QPushButton*>("catalogueSave")->click();
   EXPECT_FALSE(std::filesystem::exists(folder() / "library" / "burrs.json"));
+}
+
+TEST_F(CatalogueDialogs, ABurrThatIsAddedIsOfferedAndDrillsUnderItsName)
+{
+  saveBall("ball");
+  openWindow("ball");
+  auto& choice = *window().findChild<QComboBox*>("burrKind");
+  ASSERT_EQ(choice.count(), 2);
+  {
+    auto& edit = dialog();
+    auto& burrs = table(edit, "burrs");
+    auto& remove = *edit.findChild<QPushButton*>("removeBurr");
+    burrs.selectRow(1);
+    EXPECT_FALSE(remove.isEnabled());
+    EXPECT_FALSE(burrs.item(1, 0)->flags() & Qt::ItemIsEditable);
+    edit.findChild<QPushButton*>("addBurr")->click();
+    ASSERT_EQ(burrs.rowCount(), 3);
+    EXPECT_EQ(burrs.item(2, 0)->text(), "diamond-2");
+    EXPECT_TRUE(remove.isEnabled());
+    burrs.item(2, 0)->setText("Coarse");
+    EXPECT_TRUE(isShown(edit, "catalogueFault"));
+    EXPECT_EQ(burrs.item(2, 0)->text(), "diamond-2");
+    burrs.item(2, 0)->setText("coarse-diamond");
+    burrs.item(2, 3)->setText("0.2");
+    burrs.item(2, 4)->setText("3, 5");
+    EXPECT_FALSE(isShown(edit, "catalogueFault"));
+    edit.findChild<QPushButton*>("catalogueSave")->click();
+  }
+  EXPECT_DOUBLE_EQ(read().burrs.model("coarse-diamond").wearCoefficient, 0.2);
+  EXPECT_EQ(choice.currentText(), "Cutting") << "stays";
+  choice.setCurrentIndex(choice.findText("coarse-diamond"));
+  EXPECT_EQ(window().findChild<QDoubleSpinBox*>("burrDiameter")->value(), 3.0) << "of 4 mm before";
+  drill(600, 20);
+  const auto& strokes = window().model().value().dissection.strokes();
+  ASSERT_EQ(strokes.size(), 1u);
+  EXPECT_EQ(strokes[0]->info.burr.name, "coarse-diamond");
+  EXPECT_EQ(strokes[0]->info.burr.kind, dissection::Burr::Kind::Diamond);
+
+  // Taken out while it is selected: the usual one of its kind, and the stroke keeps its name.
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  auto& edit = dialog();
+  table(edit, "burrs").selectRow(2);
+  edit.findChild<QPushButton*>("removeBurr")->click();
+  edit.findChild<QPushButton*>("catalogueSave")->click();
+  EXPECT_EQ(choice.count(), 2);
+  EXPECT_EQ(choice.currentText(), "Diamond");
+  EXPECT_EQ(window().model().value().dissection.strokes()[0]->info.burr.name, "coarse-diamond");
 }
 
 TEST_F(CatalogueDialogs, AMaterialOfTheOpenCaseStaysWithTheBuiltInTables)
@@ -211,7 +258,7 @@ TEST_F(CatalogueDialogs, NumbersKeepTheDigitsThatAreNotShown)
   openWindow("ball");
   auto& edit = dialog();
   table(edit, "materials").item(0, 3)->setText("0.55");
-  table(edit, "burrs").item(0, 1)->setText("-12");
+  table(edit, "burrs").item(0, 2)->setText("-12");
   edit.findChild<QPushButton*>("catalogueSave")->click();
   EXPECT_DOUBLE_EQ(read().materials.material("cortical-bone").friction, 0.55);
   EXPECT_NEAR(read().materials.material("cortical-bone").hardness / 9.807e6, 42.123456789, 1e-9);

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <QComboBox>
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -521,8 +522,9 @@ TEST_F(Drill, ThePointerTakesTheBurrOutOfItsHole)
   ASSERT_NE(controller, nullptr);
   Eigen::Vector3d burr(0.0, 0.0, 0.0);
   QStringList faults;
-  QObject::connect(controller, &DrillController::burrMoved, &window(),
-                   [&](const Eigen::Vector3d& center, double) { burr = center; });
+  QObject::connect(controller, &DrillController::toolMoved, &window(),
+                   [&](const presenters::MeasuredTool&, const haptics::Pose& pose)
+                   { burr = pose.position; });
   QObject::connect(controller, &DrillController::faulted, &window(),
                    [&](const QString& fault) { faults += fault; });
   const QPoint middle = view().rect().center();

@@ -74,6 +74,29 @@ TEST_F(InstrumentWindow, IsDrawnAsItIsAndPressedOnBoneOfWhichItTakesNone)
   ASSERT_TRUE(waitFor([this] { return tool() && !tool()->instrument; }));
 }
 
+// The nerve is a sphere of 4 mm about the centre of the ball.
+TEST_F(InstrumentWindow, IsWarnedOfAStructureFromItsNearestPoint)
+{
+  scene::Case value = ballCase("ball");
+  value.labels.front().structures.front().look.warning = 40.0; // mm
+  library().save(value);
+  openWindow("ball");
+  drillController().readInstrument(writePick("pick.obj"), "z+");
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  ASSERT_TRUE(isHeld());
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
+  EXPECT_TRUE(waitFor([this] { return view().display().warning().startsWith("nerve "); }))
+      << view().display().warning().toStdString();
+  QTest::qWait(500); // until it is at rest
+  const QStringList words = view().display().warning().split(' ');
+  ASSERT_GT(words.size(), 2);
+  // Its tip is nearest, which points at the ball from outside.
+  EXPECT_NEAR(words[1].toDouble(), (tool()->center - kBallCenter).norm() - 4.0, 0.4);
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
+  action("Instrument")->trigger();
+  EXPECT_TRUE(waitFor([this] { return view().display().warning().isEmpty(); }));
+}
+
 TEST_F(InstrumentWindow, IsRememberedAndReadWhenItIsTakenUpAgain)
 {
   saveBall("ball");

@@ -4,9 +4,9 @@
 #include <QLabel>
 #include <QTreeView>
 
-#include "BurrWarnings.h"
 #include "NearbyModel.h"
 #include "StructuresModel.h"
+#include "ToolWarnings.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -165,15 +165,16 @@ TEST_F(Nearby, NamesWhatIsStillBeingMeasured)
     model.setLook("nerve", look);
   };
   change(0.0);
-  BurrWarnings warnings(model);
+  ToolWarnings warnings(model);
   QString text;
   bool isAlarmed = false;
-  QObject::connect(&warnings, &BurrWarnings::warned, [&](const QString& lines) { text = lines; });
-  QObject::connect(&warnings, &BurrWarnings::alarmed, [&](bool near) { isAlarmed = near; });
+  QObject::connect(&warnings, &ToolWarnings::warned, [&](const QString& lines) { text = lines; });
+  QObject::connect(&warnings, &ToolWarnings::alarmed, [&](bool near) { isAlarmed = near; });
   const auto ask = [&]
   {
     QTest::qWait(100); // it answers a few times a second
-    warnings.burrMoved(kBallCenter + Eigen::Vector3d(0.0, 0.0, 9.0), 1.0);
+    warnings.toolMoved(presenters::MeasuredTool(1.0), {kBallCenter + Eigen::Vector3d(0.0, 0.0, 9.0),
+                                                       Eigen::Quaterniond::Identity()});
   };
   ASSERT_TRUE(waitFor(
       [&]

@@ -134,6 +134,24 @@ TEST_F(Settings, WhatNobodyUnderstandsIsTheUsual)
   openWindow();
 }
 
+TEST_F(Settings, ABurrIsKeptByItsNameAndAnEarlierFilesByItsKind)
+{
+  const QString file = QString::fromStdString((folder() / "burr.conf").string());
+  std::ofstream(file.toStdString()) << "[burr]\ndiameter_mm=3\nrpm=60000\nkind=diamond\n";
+  WindowSettings settings(file);
+  ASSERT_TRUE(settings.burr());
+  EXPECT_EQ(settings.burr()->kind, dissection::Burr::Kind::Diamond);
+  EXPECT_TRUE(settings.burr()->name.empty());
+  dissection::Burr own = *settings.burr();
+  own.name = "coarse-diamond";
+  settings.keepBurr(own);
+  EXPECT_EQ(settings.burr()->name, "coarse-diamond");
+  EXPECT_EQ(settings.burr()->kind, dissection::Burr::Kind::Diamond);
+  own.name.clear();
+  settings.keepBurr(own);
+  EXPECT_TRUE(settings.burr()->name.empty());
+}
+
 TEST_F(Settings, AModeThatTheDriverHasNotIsNotTaken)
 {
   WindowSettings settings(QString::fromStdString((folder() / "quad.conf").string()));

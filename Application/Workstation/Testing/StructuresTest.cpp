@@ -475,7 +475,8 @@ TEST_F(Structures, NoDistanceOfAnotherPlaceStaysWhereNoneIsKnown)
   const auto ask = [&panel](double away)
   {
     QTest::qWait(200); // it answers a few times a second
-    panel.burrMoved(kBallCenter + Eigen::Vector3d(0.0, 0.0, away), 1.0);
+    panel.toolMoved(presenters::MeasuredTool(1.0), {kBallCenter + Eigen::Vector3d(0.0, 0.0, away),
+                                                    Eigen::Quaterniond::Identity()});
   };
   ASSERT_TRUE(waitFor(
       [&]

@@ -68,7 +68,7 @@ protected:
     view.clipping.planes = {{kBallCenter, Eigen::Vector3d(0.0, 0.6, 0.8)}};
     view.clipping.crop = core::IndexBox{{0, 0, 0}, {64, 64, 50}};
     view.tool = scene::ViewState::Tool{
-        {dissection::Burr::Kind::Diamond, 3.0, 70000.0 / 3.0}, 7.0 / 3.0, true};
+        {dissection::Burr::Kind::Diamond, 3.0, 70000.0 / 3.0, {}}, 7.0 / 3.0, true};
     return ball;
   }
 };

@@ -35,7 +35,6 @@
 #include "AttachmentsController.h"
 #include "Banner.h"
 #include "BranchController.h"
-#include "BurrWarnings.h"
 #include "CaseDocumentController.h"
 #include "CaseSaver.h"
 #include "CaseStamps.h"
@@ -72,6 +71,7 @@
 #include "ThicknessController.h"
 #include "ThreeDView.h"
 #include "ThumbnailDrawer.h"
+#include "ToolWarnings.h"
 #include "VideoController.h"
 #include "ViewArea.h"
 #include "ViewStateController.h"
@@ -520,15 +520,15 @@ void MainWindow::connectModel()
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
   for (const auto& [entry, panel] : m_panels)
   {
-    connect(m_drill, &DrillController::burrMoved, panel, &Panel::burrMoved);
-    connect(m_drill, &DrillController::burrGone, panel, &Panel::burrGone);
+    connect(m_drill, &DrillController::toolMoved, panel, &Panel::toolMoved);
+    connect(m_drill, &DrillController::toolGone, panel, &Panel::toolGone);
   }
-  connect(m_drill, &DrillController::burrMoved, m_sliceControl, &SliceController::toolMoved);
-  auto* warnings = new BurrWarnings(m_model, this);
-  connect(m_drill, &DrillController::burrMoved, warnings, &BurrWarnings::burrMoved);
-  connect(m_drill, &DrillController::burrGone, warnings, &BurrWarnings::burrGone);
-  connect(warnings, &BurrWarnings::warned, &m_view->display(), &SceneDisplay::setWarning);
-  connect(warnings, &BurrWarnings::alarmed, &m_drill->sound(), &DrillSound::setWarning);
+  connect(m_drill, &DrillController::toolMoved, m_sliceControl, &SliceController::toolMoved);
+  auto* warnings = new ToolWarnings(m_model, this);
+  connect(m_drill, &DrillController::toolMoved, warnings, &ToolWarnings::toolMoved);
+  connect(m_drill, &DrillController::toolGone, warnings, &ToolWarnings::toolGone);
+  connect(warnings, &ToolWarnings::warned, &m_view->display(), &SceneDisplay::setWarning);
+  connect(warnings, &ToolWarnings::alarmed, &m_drill->sound(), &DrillSound::setWarning);
   connect(m_drill, &DrillController::strokeEnded, this, &MainWindow::strokeEnded);
   connect(m_drill, &DrillController::faulted, m_touch, &QLabel::setText);
   const auto say = [this](const QString& line)
@@ -672,7 +672,7 @@ void MainWindow::connectActions()
   on(m_actions->softWindow, [this] { m_slices->softWindow(); });
   on(m_actions->temporalWindow, [this] { m_slices->temporalWindow(); });
   on(m_actions->fitSlices, [this] { m_slices->fit(); });
-  on(m_actions->otherKind, [this] { m_bar->toggleKind(); });
+  on(m_actions->otherKind, [this] { m_bar->nextBurr(); });
   constexpr double kTurn = 5.0; // degrees
   on(m_actions->turnLeft, [this] { m_drill->turnHandpiece(kTurn, 0.0); });
   on(m_actions->turnRight, [this] { m_drill->turnHandpiece(-kTurn, 0.0); });

@@ -6,10 +6,16 @@
 
 #include <QWidget>
 
+namespace petrous::haptics
+{
+struct Pose;
+}
+
 namespace petrous::presenters
 {
+class MeasuredTool;
 class WorkstationModel;
-}
+} // namespace petrous::presenters
 
 namespace petrous::workstation
 {
@@ -38,9 +44,9 @@ public:
   virtual void appearanceChanged() {}            ///< threshold, or a structure's appearance
   virtual void stateChanged() {}                 ///< strokes
   virtual void attachmentsChanged() {}           ///< or a recording ended
-  /// The burr's centre, patient LPS mm, and radius, mm; each frame.
-  virtual void burrMoved(const Eigen::Vector3d& /*center*/, double /*radius*/) {}
-  virtual void burrGone() {} ///< it was put away
+  /// A burr or an instrument in use, at X_PT; each frame.
+  virtual void toolMoved(const presenters::MeasuredTool& /*tool*/, const haptics::Pose& /*pose*/) {}
+  virtual void toolGone() {} ///< it was put away
 };
 
 /// What panels are made from.

@@ -213,7 +213,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                      tr("The next smaller one that is sold"));
   largerBurr =
       make(drill, tr("&Larger burr"), Qt::Key_BracketRight, tr("The next larger one that is sold"));
-  otherKind = make(drill, tr("Other &kind of burr"), Qt::Key_L, tr("Cutting or diamond"));
+  otherKind = make(drill, tr("Next &kind of burr"), Qt::Key_L,
+                   tr("Cutting, diamond, or the next one of your own"));
   QMenu* handpiece = drill->addMenu(tr("Handp&iece"));
   turnLeft = make(handpiece, tr("Turn counterclock&wise"), Qt::ALT + Qt::Key_Left,
                   tr("About the line of sight, by 5 degrees; Alt with the wheel does so, too"));

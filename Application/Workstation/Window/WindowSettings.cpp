@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "petrous/Dissection/BurrName.h"
+
 namespace petrous::workstation
 {
 
@@ -141,6 +143,9 @@ std::optional<dissection::Burr> WindowSettings::burr() const
       burr.diameter = *diameter;
       burr.kind = value;
       burr.rpm = *rpm;
+      if (const std::string own = m_file.value("burr/name").toString().toStdString();
+          dissection::isCatalogueName(own))
+        setName(burr, own);
       return burr;
     }
   return std::nullopt;
@@ -150,6 +155,7 @@ void WindowSettings::keepBurr(const dissection::Burr& burr)
 {
   m_file.setValue("burr/diameter_mm", burr.diameter);
   m_file.setValue("burr/rpm", burr.rpm);
+  m_file.setValue("burr/name", QString::fromStdString(nameOf(burr)));
   for (const auto& [value, name] : kKinds)
     if (value == burr.kind)
       m_file.setValue("burr/kind", name);

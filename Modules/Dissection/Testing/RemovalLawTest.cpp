@@ -10,6 +10,7 @@
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Dissection/BurrCatalogue.h"
+#include "petrous/Dissection/BurrName.h"
 
 using namespace petrous;
 using dissection::AbrasiveWear;
@@ -158,6 +159,67 @@ TEST(MaterialCatalogue, WhatIsWrongIsNamed)
   EXPECT_NE(pair.find("material 'x' with the cutting burr: friction less the rake's tangent"),
             std::string::npos)
       << pair;
-  EXPECT_NE(thrown([] { BurrCatalogue(R"({"burrs":[]})", "B"); }).find("one burr of the kind"),
+  EXPECT_EQ(thrown([] { BurrCatalogue(R"({"burrs":[]})", "B"); }),
+            "B: there must be a burr 'cutting', the usual one of its kind");
+}
+
+TEST(BurrCatalogue, HasSeveralBurrsOfOneKindByTheirNames)
+{
+  const BurrCatalogue catalogue(R"({"burrs": [
+    {"name": "coarse", "kind": "diamond", "wear_coefficient": 0.2, "diameters_mm": [2, 3]},
+    {"kind": "diamond", "wear_coefficient": 0.1, "diameters_mm": [4]},
+    {"name": "fluted-8", "kind": "cutting", "rake_deg": -5, "diameters_mm": [5]},
+    {"kind": "cutting", "rake_deg": -10, "diameters_mm": [4]}]})",
+                                "B");
+  std::vector<std::string> names;
+  for (const auto& one : catalogue.all())
+    names.push_back(one.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"cutting", "diamond", "coarse", "fluted-8"}));
+  EXPECT_DOUBLE_EQ(catalogue.model(Burr::Kind::Diamond).wearCoefficient, 0.1);
+  EXPECT_DOUBLE_EQ(catalogue.model("coarse").wearCoefficient, 0.2);
+  Burr burr;
+  setModel(burr, catalogue.model("coarse"));
+  EXPECT_EQ(burr.kind, Burr::Kind::Diamond);
+  EXPECT_EQ(nameOf(burr), "coarse");
+  EXPECT_EQ(catalogue.model(burr).diameters, (std::vector<double>{2.0, 3.0}));
+  setModel(burr, catalogue.model("cutting"));
+  EXPECT_TRUE(burr.name.empty()) << "as cases of earlier programs have it";
+  EXPECT_EQ(thrown([&] { catalogue.model("fine"); }),
+            "there is no burr 'fine'; there are cutting, diamond, coarse, fluted-8");
+  burr.name = "coarse"; // and of the kind cutting
+  EXPECT_EQ(thrown([&] { catalogue.model(burr); }),
+            "the burr 'coarse' is a diamond one in this catalogue, not a cutting one");
+
+  // Twice the wear coefficient takes half the energy: w = 3 H / k.
+  const auto known = MaterialCatalogue::builtIn();
+  const auto& bone = known.material("cortical-bone");
+  EXPECT_DOUBLE_EQ(resistanceOf(bone, catalogue.model("coarse")),
+                   0.5 * resistanceOf(bone, catalogue.model("diamond")));
+}
+
+TEST(BurrCatalogue, RefusesNamesThatWouldMislead)
+{
+  const auto refusal = [](const std::string& more)
+  {
+    const std::string text = burrs(-10.0);
+    return thrown([&] { BurrCatalogue(text.substr(0, text.size() - 2) + "," + more + "]}", "B"); });
+  };
+  const std::string rest = R"("wear_coefficient":0.1,"diameters_mm":[4]})";
+  EXPECT_EQ(refusal(R"({"name":"fine","kind":"diamond",)" + rest), "");
+  EXPECT_EQ(refusal(R"({"name":"Fine grit","kind":"diamond",)" + rest),
+            "B: 'Fine grit' cannot be a burr's name: it has a to z, 0 to 9 and hyphens, at most "
+            "40");
+  EXPECT_EQ(refusal(R"({"kind":"diamond",)" + rest),
+            "B: there are two burrs 'diamond'; each needs a name of its own");
+  EXPECT_EQ(refusal(R"({"name":"cutting","kind":"diamond",)" + rest),
+            "B: burr 'cutting' must be of the kind of that name");
+  // The law's domain holds for each of them.
+  const BurrCatalogue steep(R"({"burrs": [
+    {"kind": "cutting", "rake_deg": -10, "diameters_mm": [4]},
+    {"kind": "diamond", "wear_coefficient": 0.1, "diameters_mm": [4]},
+    {"name": "steep", "kind": "cutting", "rake_deg": 25, "diameters_mm": [4]}]})",
+                            "B");
+  EXPECT_NE(thrown([&] { checkPairs(MaterialCatalogue::builtIn(), steep); })
+                .find("with the steep burr: friction less the rake's tangent"),
             std::string::npos);
 }

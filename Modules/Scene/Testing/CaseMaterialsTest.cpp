@@ -47,15 +47,37 @@ TEST(CaseMaterials, OfAnMrAreSoftTissueWhateverItsBrightnessExceptInStructures)
   const auto catalogues = dissection::Catalogues::builtIn();
   for (const Kind kind : {Kind::Cutting, Kind::Diamond})
   {
+    dissection::Burr used;
+    used.kind = kind;
     const auto& burr = catalogues.burrs.model(kind);
     const auto of = [&](const char* material)
     { return dissection::resistanceOf(catalogues.materials.material(material), burr); };
-    const auto mr = scene::tissueResistance(rampCase(scene::Modality::Mr), catalogues, kind);
+    const auto mr = scene::tissueResistance(rampCase(scene::Modality::Mr), catalogues, used);
     for (const double x : {0.0, 3.0, 7.0})
       EXPECT_EQ(mr.at({x, 0.0, 0.0}), of("soft-tissue")) << x;
     EXPECT_EQ(mr.at({7.0, 2.0, 0.0}), of("cortical-bone"));
-    const auto ct = scene::tissueResistance(rampCase(scene::Modality::Ct), catalogues, kind);
+    const auto ct = scene::tissueResistance(rampCase(scene::Modality::Ct), catalogues, used);
     EXPECT_NEAR(ct.at({0.0, 0.0, 0.0}), of("cellular-bone"), 1e-9);
     EXPECT_NEAR(ct.at({7.0, 0.0, 0.0}), of("cortical-bone"), 1e-9);
   }
+}
+
+TEST(CaseMaterials, AreAsHardAsTheConstantsOfTheNamedBurrSay)
+{
+  dissection::Catalogues catalogues = dissection::Catalogues::builtIn();
+  catalogues.burrs = dissection::BurrCatalogue(R"({"burrs": [
+    {"kind": "cutting", "rake_deg": -10, "diameters_mm": [4]},
+    {"kind": "diamond", "wear_coefficient": 0.1, "diameters_mm": [4]},
+    {"name": "coarse", "kind": "diamond", "wear_coefficient": 0.2, "diameters_mm": [4]}]})",
+                                               "burrs.json");
+  const scene::Case value = rampCase(scene::Modality::Ct);
+  dissection::Burr burr;
+  burr.kind = Kind::Diamond;
+  const double usual = scene::tissueResistance(value, catalogues, burr).at({7.0, 0.0, 0.0});
+  burr.name = "coarse";
+  // w = 3 H / k: twice the wear coefficient, half the energy.
+  EXPECT_NEAR(scene::tissueResistance(value, catalogues, burr).at({7.0, 0.0, 0.0}), 0.5 * usual,
+              1e-9 * usual);
+  burr.name = "polishing";
+  EXPECT_THROW(scene::tissueResistance(value, catalogues, burr), core::InvalidParameter);
 }

@@ -10,7 +10,9 @@
 
 #include "petrous/Appearance/AppearanceMaterial.h"
 #include "petrous/Appearance/StructureProperties.h"
+#include "petrous/Dissection/BurrName.h"
 #include "petrous/Scene/ApplyRegistration.h"
+#include "petrous/Scene/HistoryText.h"
 #include "petrous/Scene/Manifest.h"
 
 using namespace petrous;
@@ -791,8 +793,8 @@ scene::Case viewedCase()
   view.stereo = scene::ViewState::Stereo{"interleaved", 22.2, std::nullopt};
   view.clipping.planes = {{Vector3d(0.1, 0.2, 0.3), Vector3d(0.0, 0.6, 0.8)}};
   view.clipping.crop = core::IndexBox{{1, 2, 3}, {4, 5, 6}};
-  view.tool =
-      scene::ViewState::Tool{{dissection::Burr::Kind::Diamond, 7.0 / 3.0, 54321.1}, 0.7, true};
+  view.tool = scene::ViewState::Tool{
+      {dissection::Burr::Kind::Diamond, 7.0 / 3.0, 54321.1, "coarse"}, 0.7, true};
   scene::Attachment film;
   film.kind = scene::Attachment::Kind::Video;
   film.name = "film.mp4";
@@ -1119,5 +1121,55 @@ TEST(Manifest, OpensStoredCasesOfEarlierPrograms)
     EXPECT_EQ(value.description.side, scene::Side::Left);
     EXPECT_EQ(value.description.date, "2028-02-29");
     EXPECT_EQ(value.description.tags.size(), 2u);
+  }
+}
+
+TEST(Manifest, NamesABurrOfTheUsersOwnBesideItsKind)
+{
+  scene::Case value = fullCase();
+  dissection::Stroke stroke;
+  stroke.info.burr.kind = dissection::Burr::Kind::Diamond;
+  stroke.info.burr.name = "coarse-diamond";
+  auto usual = stroke;
+  usual.info.burr.name.clear();
+  value.dissection = dissection::Dissection({std::make_shared<const dissection::Stroke>(stroke),
+                                             std::make_shared<const dissection::Stroke>(usual)},
+                                            dissection::History::line(2, 2));
+  value.view.tool.emplace();
+  value.view.tool->burr = stroke.info.burr;
+  const std::string text = scene::toManifest(value);
+  auto written = nlohmann::json::parse(text);
+  auto& first = written["dissection"]["strokes"][0];
+  EXPECT_EQ(first["burr"], "diamond") << "what an earlier program reads";
+  EXPECT_EQ(first["burr_name"], "coarse-diamond");
+  EXPECT_FALSE(written["dissection"]["strokes"][1].contains("burr_name"));
+  const auto back = scene::fromManifest(text, "m.json");
+  EXPECT_EQ(back.dissection.strokes()[0]->info.burr.name, "coarse-diamond");
+  EXPECT_TRUE(back.dissection.strokes()[1]->info.burr.name.empty());
+  EXPECT_TRUE(*back.view.tool == *value.view.tool);
+  EXPECT_EQ(scene::strokeFromText(scene::toText(stroke)).info.burr.name, "coarse-diamond")
+      << "in the journal";
+
+  // As an earlier program saves it.
+  first.erase("burr_name");
+  written["view"]["tool"].erase("burr_name");
+  const auto earlier = scene::fromManifest(written.dump(), "m.json");
+  EXPECT_EQ(dissection::nameOf(earlier.dissection.strokes()[0]->info.burr), "diamond");
+  EXPECT_EQ(dissection::nameOf(earlier.view.tool->burr), "diamond");
+  EXPECT_FALSE(*earlier.view.tool == *value.view.tool);
+
+  for (const char* wrong : {"Doe^John", "two words", "\xE2\x80\xAE"})
+  {
+    first["burr_name"] = wrong;
+    try
+    {
+      scene::fromManifest(written.dump(), "m.json");
+      ADD_FAILURE() << wrong;
+    }
+    catch (const scene::ManifestError& error)
+    {
+      EXPECT_EQ(error.reason, scene::ManifestError::Reason::Damaged);
+      EXPECT_EQ(std::string(error.what()).find(wrong), std::string::npos) << error.what();
+    }
   }
 }

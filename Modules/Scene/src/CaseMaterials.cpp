@@ -25,10 +25,10 @@ const appearance::StructureAppearance* lookOf(const Case& value, const std::stri
 
 dissection::TissueResistance tissueResistance(const Case& value,
                                               const dissection::Catalogues& catalogues,
-                                              dissection::Burr::Kind kind)
+                                              const dissection::Burr& used)
 {
   const auto& materials = catalogues.materials;
-  const dissection::BurrModel& burr = catalogues.burrs.model(kind);
+  const dissection::BurrModel& burr = catalogues.burrs.model(used);
   struct Ranked
   {
     int priority;

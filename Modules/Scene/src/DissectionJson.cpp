@@ -100,6 +100,8 @@ json strokeOut(const dissection::Stroke& stroke)
          {"rpm", burr.rpm},
          {"removed_mm3", stroke.info.removed},
          {"structures", structures}};
+  if (!burr.name.empty())
+    j["burr_name"] = burr.name;
   if (stroke.info.camera)
     j["camera"] = cameraOut(*stroke.info.camera);
   if (stroke.info.recovered)
@@ -116,6 +118,7 @@ dissection::Stroke strokeIn(const json& j)
   stroke.info.duration = j.at("duration_s").get<double>();
   stroke.info.burr.kind = dissection::parseBurrKind(j.at("burr").get<std::string>())
                               .value_or(dissection::Burr::Kind::Cutting);
+  dissection::setName(stroke.info.burr, j.value("burr_name", std::string()));
   stroke.info.burr.diameter = j.at("diameter_mm").get<double>();
   stroke.info.burr.rpm = j.at("rpm").get<double>();
   stroke.info.removed = j.at("removed_mm3").get<double>();

@@ -624,11 +624,14 @@ ViewState::Stereo stereoIn(const json& j)
 
 json toolOut(const ViewState::Tool& tool)
 {
-  return {{"burr", dissection::nameOf(tool.burr.kind)},
-          {"diameter_mm", tool.burr.diameter},
-          {"rpm", tool.burr.rpm},
-          {"thrust_n", tool.thrust},
-          {"by_wheel", tool.byWheel}};
+  json j{{"burr", dissection::nameOf(tool.burr.kind)},
+         {"diameter_mm", tool.burr.diameter},
+         {"rpm", tool.burr.rpm},
+         {"thrust_n", tool.thrust},
+         {"by_wheel", tool.byWheel}};
+  if (!tool.burr.name.empty())
+    j["burr_name"] = tool.burr.name;
+  return j;
 }
 
 ViewState::Tool toolIn(const json& j)
@@ -637,7 +640,10 @@ ViewState::Tool toolIn(const json& j)
   if (!kind)
     throw core::InvalidParameter("view: a burr must be cutting or diamond");
   ViewState::Tool tool;
-  tool.burr = {*kind, j.at("diameter_mm").get<double>(), j.at("rpm").get<double>()};
+  tool.burr.kind = *kind;
+  tool.burr.diameter = j.at("diameter_mm").get<double>();
+  tool.burr.rpm = j.at("rpm").get<double>();
+  dissection::setName(tool.burr, j.value("burr_name", std::string()));
   tool.thrust = j.at("thrust_n").get<double>();
   tool.byWheel = j.at("by_wheel").get<bool>();
   return tool;

@@ -135,8 +135,8 @@ bool operator==(const ViewState::Clipping& a, const ViewState::Clipping& b)
 
 bool operator==(const ViewState::Tool& a, const ViewState::Tool& b)
 {
-  return std::tie(a.burr.kind, a.burr.diameter, a.burr.rpm, a.thrust, a.byWheel) ==
-         std::tie(b.burr.kind, b.burr.diameter, b.burr.rpm, b.thrust, b.byWheel);
+  return std::tie(a.burr.kind, a.burr.name, a.burr.diameter, a.burr.rpm, a.thrust, a.byWheel) ==
+         std::tie(b.burr.kind, b.burr.name, b.burr.diameter, b.burr.rpm, b.thrust, b.byWheel);
 }
 
 void checkViewName(const std::string& name)

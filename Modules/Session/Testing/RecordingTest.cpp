@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "../../Core/Testing/SystemCalls.h"
+#include "petrous/Dissection/BurrName.h"
 #include "petrous/Session/RecordingReader.h"
 #include "petrous/Session/RecordingWriter.h"
 
@@ -222,6 +223,7 @@ TEST_F(Recording, KeepsTheSetupToTheLastDigit)
   setup.note = "phantom, \"left\" side; \xC3\xA4";
   setup.burr.kind = dissection::Burr::Kind::Diamond;
   setup.burr.diameter = 0.1 + 0.2;
+  setup.burr.name = "coarse-diamond";
   setup.proxy.stiffness = 1.0 / 3.0;
   setup.proxy.bisections = 9;
   setup.servo.center = {1e-300, -7.0 / 3.0, 1e17};
@@ -238,6 +240,8 @@ TEST_F(Recording, KeepsTheSetupToTheLastDigit)
   EXPECT_EQ(got.note, setup.note);
   EXPECT_EQ(got.burr.kind, setup.burr.kind);
   EXPECT_EQ(got.burr.diameter, setup.burr.diameter);
+  EXPECT_EQ(got.burr.name, "coarse-diamond");
+  EXPECT_EQ(toString(got).rfind("coarse-diamond burr ", 0), 0u) << toString(got);
   EXPECT_EQ(got.proxy.stiffness, setup.proxy.stiffness);
   EXPECT_EQ(got.proxy.bisections, 9);
   EXPECT_EQ(got.servo.center, setup.servo.center);
@@ -255,6 +259,20 @@ TEST_F(Recording, KeepsTheSetupToTheLastDigit)
   EXPECT_EQ(got.scene.firstState, setup.scene.firstState);
   write({}, RecordingSetup());
   EXPECT_FALSE(RecordingReader(file()).setup().servo.passivity);
+}
+
+// Of programs that knew one burr of each kind.
+TEST_F(Recording, ASetupWithoutABurrsNameIsOfTheUsualOneOfItsKind)
+{
+  RecordingSetup setup;
+  setup.burr.kind = dissection::Burr::Kind::Diamond;
+  const std::string text = toJson(setup);
+  EXPECT_EQ(text.find("burr_name"), std::string::npos);
+  EXPECT_EQ(dissection::nameOf(setupFromJson(text).burr), "diamond");
+  setup.burr.name = "coarse-diamond";
+  EXPECT_NE(toJson(setup).find(R"("burr":"diamond")"), std::string::npos) << "for such programs";
+  setup.burr.name = "Doe, John";
+  EXPECT_THROW(setupFromJson(toJson(setup)), core::InvalidParameter);
 }
 
 TEST_F(Recording, RefusesASetupThatCannotBeWritten)

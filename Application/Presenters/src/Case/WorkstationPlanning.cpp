@@ -22,21 +22,22 @@ bool WorkstationModel::measureNearby()
   return m_nearby->ready();
 }
 
-std::optional<std::vector<NearbyStructure>> WorkstationModel::nearby(const Eigen::Vector3d& burr,
-                                                                     double radius)
+std::optional<std::vector<NearbyStructure>> WorkstationModel::nearby(const MeasuredTool& tool,
+                                                                     const haptics::Pose& pose)
 {
   if (!measureNearby())
     return std::nullopt;
-  return m_nearby->around(*m_case, burr, radius, kNear, strokeSoFar());
+  return m_nearby->around(*m_case, tool, pose, kNear, strokeSoFar());
 }
 
-std::optional<std::string> WorkstationModel::warnings(const Eigen::Vector3d& burr, double radius)
+std::optional<std::string> WorkstationModel::warnings(const MeasuredTool& tool,
+                                                      const haptics::Pose& pose)
 {
   if (m_case && m_case->labels.empty() && m_case->meshes.empty())
     return std::string();
   if (!measureNearby())
     return std::nullopt;
-  return warningsOf(m_nearby->around(*m_case, burr, radius, 0.0, strokeSoFar()));
+  return warningsOf(m_nearby->around(*m_case, tool, pose, 0.0, strokeSoFar()));
 }
 
 std::string WorkstationModel::unmeasuredNearby() const

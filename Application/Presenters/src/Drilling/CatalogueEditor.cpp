@@ -35,12 +35,7 @@ double rounded(double value)
 
 void checkName(const std::string& name)
 {
-  const bool isSound =
-      !name.empty() && name.size() <= 40 &&
-      std::all_of(name.begin(), name.end(),
-                  [](char c)
-                  { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; });
-  if (!isSound)
+  if (!dissection::isCatalogueName(name))
     throw core::InvalidParameter("'" + name +
                                  "' cannot be a material's name: it has a to z, 0 to 9 and "
                                  "hyphens, at most 40");
@@ -73,6 +68,18 @@ void checkNumbers(const CatalogueEditor::Burr& burr)
   else
     requireWithin(burr.constant > 0.0 && burr.constant <= 1.0, "above 0 and at most at 1",
                   burr.constant);
+}
+
+// Of a row that is copied.
+template <typename Row>
+std::string freeName(const std::vector<Row>& rows, const std::string& base)
+{
+  std::string name = base;
+  for (int n = 2;
+       std::any_of(rows.begin(), rows.end(), [&name](const Row& one) { return one.name == name; });
+       ++n)
+    name = base + "-" + std::to_string(n);
+  return name;
 }
 
 // As the file of a library, or no file where it would be the program's own.
@@ -144,14 +151,12 @@ CatalogueEditor::Tables CatalogueEditor::tablesOf(const dissection::Catalogues& 
     tables.materials.push_back({one.name, one.title, rounded(one.specificEnergy / kPascalOfGiga),
                                 one.friction, rounded(one.hardness / kPascalOfVickers),
                                 one.status});
-  for (const auto kind : {dissection::Burr::Kind::Cutting, dissection::Burr::Kind::Diamond})
-  {
-    const dissection::BurrModel& model = catalogues.burrs.model(kind);
-    tables.burrs.push_back({kind,
-                            kind == dissection::Burr::Kind::Cutting ? rounded(model.rake / kDegree)
-                                                                    : model.wearCoefficient,
+  for (const dissection::BurrModel& model : catalogues.burrs.all())
+    tables.burrs.push_back({model.name, model.kind,
+                            model.kind == dissection::Burr::Kind::Cutting
+                                ? rounded(model.rake / kDegree)
+                                : model.wearCoefficient,
                             model.diameters, model.status});
-  }
   return tables;
 }
 
@@ -179,7 +184,8 @@ std::string CatalogueEditor::burrsJson(const Tables& tables)
 {
   Json burrs = Json::array();
   for (const Burr& one : tables.burrs)
-    burrs.push_back({{"kind", dissection::nameOf(one.kind)},
+    burrs.push_back({{"name", one.name},
+                     {"kind", dissection::nameOf(one.kind)},
                      {one.kind == dissection::Burr::Kind::Cutting ? "rake_deg" : "wear_coefficient",
                       one.constant},
                      {"diameters_mm", one.diameters},
@@ -216,6 +222,11 @@ bool CatalogueEditor::isBuiltIn(std::size_t material) const
                      [&name](const Material& one) { return one.name == name; });
 }
 
+bool CatalogueEditor::isUsualBurr(std::size_t burr) const
+{
+  return dissection::parseBurrKind(m_now.burrs.at(burr).name).has_value();
+}
+
 std::vector<std::string> CatalogueEditor::lostMaterials() const
 {
   std::vector<std::string> names;
@@ -249,14 +260,7 @@ std::size_t CatalogueEditor::addMaterial(std::size_t like)
 {
   Tables next = m_now;
   Material added = next.materials.at(like);
-  const auto isTaken = [&next](const std::string& name)
-  {
-    return std::any_of(next.materials.begin(), next.materials.end(),
-                       [&name](const Material& one) { return one.name == name; });
-  };
-  const std::string base = added.name;
-  for (int n = 2; isTaken(added.name); ++n)
-    added.name = base + "-" + std::to_string(n);
+  added.name = freeName(next.materials, added.name);
   next.materials.push_back(std::move(added));
   take(std::move(next));
   return m_now.materials.size() - 1;
@@ -276,12 +280,35 @@ void CatalogueEditor::setBurr(std::size_t row, const Burr& burr)
 {
   Tables next = m_now;
   const auto kind = next.burrs.at(row).kind;
+  if (burr.name != next.burrs[row].name && isUsualBurr(row))
+    throw core::InvalidParameter("burr '" + next.burrs[row].name +
+                                 "' has its name for good: it is the usual one of its kind");
   next.burrs[row] = burr;
   next.burrs[row].kind = kind;
   checkNumbers(next.burrs[row]);
   auto& diameters = next.burrs[row].diameters;
   std::sort(diameters.begin(), diameters.end());
   diameters.erase(std::unique(diameters.begin(), diameters.end()), diameters.end());
+  take(std::move(next));
+}
+
+std::size_t CatalogueEditor::addBurr(std::size_t like)
+{
+  Tables next = m_now;
+  Burr added = next.burrs.at(like);
+  added.name = freeName(next.burrs, added.name);
+  next.burrs.push_back(std::move(added));
+  take(std::move(next));
+  return m_now.burrs.size() - 1;
+}
+
+void CatalogueEditor::removeBurr(std::size_t row)
+{
+  if (isUsualBurr(row))
+    throw core::InvalidParameter("burr '" + m_now.burrs[row].name +
+                                 "' cannot be removed: it is the usual one of its kind");
+  Tables next = m_now;
+  next.burrs.erase(next.burrs.begin() + static_cast<std::ptrdiff_t>(row));
   take(std::move(next));
 }
 

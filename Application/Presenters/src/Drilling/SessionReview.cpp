@@ -248,7 +248,7 @@ SessionReview reviewRecording(const std::filesystem::path& file, scene::Case val
   const std::size_t before = value.dissection.strokes().size();
   review.whyUnmeasured = state.misfit();
 
-  StructureDistances distances(value, 0.5 * setup.burr.diameter);
+  StructureDistances distances(value, MeasuredTool(0.5 * setup.burr.diameter));
   RecordedCourse course;
   session::RecordingBlock block;
   while (reader.next(block))
@@ -256,7 +256,7 @@ SessionReview reviewRecording(const std::filesystem::path& file, scene::Case val
     progress.check("playing the recording");
     for (const session::TickRecord& record : block.ticks)
       if (course.add(record))
-        distances.add(record.proxy.pose().position);
+        distances.add(record.proxy.pose());
     for (const session::MaskEdit& edit : block.edits)
     {
       if (!loop)

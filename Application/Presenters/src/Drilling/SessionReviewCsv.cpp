@@ -14,7 +14,7 @@ std::string metricsCsv(const SessionReview& review)
     rows.push_back({quantity, structure, core::fixedText(value, decimals), unit});
   };
   const SessionMetrics& metrics = review.metrics;
-  rows.push_back({"burr", "", dissection::nameOf(review.burr.kind), ""});
+  rows.push_back({"burr", "", dissection::nameOf(review.burr), ""});
   add("burr_diameter", "", review.burr.diameter, 2, "mm");
   add("spindle_speed", "", review.burr.rpm, 0, "1/min");
   add("duration", "", metrics.duration, 3, "s");

@@ -77,7 +77,7 @@ std::string cubicMillimetres(double volume)
 std::string toString(const NearbyStructure& structure)
 {
   std::string text = shownName(structure.name);
-  const std::string uncertainty = core::fixedText(structure.uncertainty.millimetres(), 1);
+  const std::string uncertainty = core::fixedText(structure.unsure(), 1);
   if (structure.state == NearbyStructure::State::Touched)
     text += " touched (± " + uncertainty + " mm)";
   else
@@ -213,6 +213,16 @@ std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
                                                       double reach,
                                                       const dissection::RemovedVolume& open)
 {
+  haptics::Pose pose;
+  pose.position = center;
+  return around(value, MeasuredTool(radius), pose, reach, open);
+}
+
+std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
+                                                      const MeasuredTool& tool,
+                                                      const haptics::Pose& pose, double reach,
+                                                      const dissection::RemovedVolume& open)
+{
   std::vector<NearbyStructure> near;
   if (!ready())
     return near;
@@ -233,18 +243,24 @@ std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
     const double most =
         structure.injured > 0.0
             ? StructureSurfaces::kFar
-            : std::max(reach, look->warning > 0.0 ? look->warning + unsure : 0.0) + radius;
-    const double away = surfaces.distance(n, center, most);
-    if (!(away < most))
+            : std::max(reach, look->warning > 0.0 ? look->warning + unsure + tool.sampling() : 0.0);
+    const MeasuredTool::Distance away = tool.distance(
+        pose,
+        [&](const Eigen::Vector3d& patient, double far)
+        { return surfaces.distance(n, patient, far); },
+        most);
+    if (!(away.millimetres < most))
       continue;
-    structure.distance = std::max(0.0, away - radius);
+    structure.distance = std::max(0.0, away.millimetres);
+    structure.sampling = away.sampling;
     structure.color = look->color;
     structure.warning = look->warning;
-    structure.state = lumen(look) && !(look->warning > 0.0) ? NearbyStructure::State::Clear
-                      : away <= radius                      ? NearbyStructure::State::Touched
-                      : look->warning > 0.0 && structure.distance - unsure < look->warning
-                          ? NearbyStructure::State::Warned
-                          : NearbyStructure::State::Clear;
+    structure.state =
+        lumen(look) && !(look->warning > 0.0) ? NearbyStructure::State::Clear
+        : away.millimetres <= 0.0             ? NearbyStructure::State::Touched
+        : look->warning > 0.0 && structure.distance - structure.unsure() < look->warning
+            ? NearbyStructure::State::Warned
+            : NearbyStructure::State::Clear;
     if (!look->shown && structure.state == NearbyStructure::State::Clear &&
         !(structure.injured > 0.0))
       continue;

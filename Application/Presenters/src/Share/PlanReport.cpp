@@ -703,8 +703,7 @@ private:
       const dissection::StrokeInfo& info = m_value.dissection.strokes()[n]->info;
       table.table.rows.push_back(
           {numberCell(static_cast<double>(n + 1), 0, ""),
-           textCell(number(info.burr.diameter, 1) + " mm, " +
-                    say(dissection::nameOf(info.burr.kind))),
+           textCell(number(info.burr.diameter, 1) + " mm, " + say(dissection::nameOf(info.burr))),
            numberCell(info.burr.rpm, 0, "/min"), numberCell(info.duration, 1, "s"),
            numberCell(info.removed, 2, "mm³"), textCell(touchedText(info.structures))});
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -25,13 +27,20 @@ constexpr std::array kKinds{Burr::Kind::Cutting, Burr::Kind::Diamond};
 
 BurrModel modelFrom(const json& entry)
 {
-  const auto name = entry.at("kind").get<std::string>();
-  const auto kind = parseBurrKind(name);
+  const auto kindName = entry.at("kind").get<std::string>();
+  const auto kind = parseBurrKind(kindName);
   if (!kind)
-    throw core::InvalidParameter("there is no kind of burr '" + name +
+    throw core::InvalidParameter("there is no kind of burr '" + kindName +
                                  "'; there are cutting and diamond");
   BurrModel model;
   model.kind = *kind;
+  const std::string& name = model.name = entry.value("name", kindName);
+  if (!isCatalogueName(name))
+    throw core::InvalidParameter("'" + name +
+                                 "' cannot be a burr's name: it has a to z, 0 to 9 and hyphens, at "
+                                 "most 40");
+  if (parseBurrKind(name).value_or(*kind) != *kind)
+    throw core::InvalidParameter("burr '" + name + "' must be of the kind of that name");
   if (*kind == Burr::Kind::Cutting)
     model.rake = kRadians * entry.at("rake_deg").get<double>();
   else
@@ -57,16 +66,24 @@ BurrCatalogue::BurrCatalogue(std::string_view text, const std::string& source)
   try
   {
     const auto catalogue = json::parse(text);
-    std::vector<BurrModel> models;
     for (const auto& entry : catalogue.at("burrs"))
-      models.push_back(modelFrom(entry));
+    {
+      BurrModel model = modelFrom(entry);
+      if (find(model.name))
+        throw core::InvalidParameter("there are two burrs '" + model.name +
+                                     "'; each needs a name of its own");
+      m_models.push_back(std::move(model));
+    }
+    auto next = m_models.begin();
     for (const Burr::Kind kind : kKinds)
     {
-      const auto isIt = [kind](const BurrModel& model) { return model.kind == kind; };
-      if (std::count_if(models.begin(), models.end(), isIt) != 1)
-        throw core::InvalidParameter(std::string("there must be one burr of the kind ") +
-                                     nameOf(kind));
-      m_models.push_back(*std::find_if(models.begin(), models.end(), isIt));
+      const auto usual =
+          std::find_if(next, m_models.end(),
+                       [kind](const BurrModel& model) { return model.name == nameOf(kind); });
+      if (usual == m_models.end())
+        throw core::InvalidParameter(std::string("there must be a burr '") + nameOf(kind) +
+                                     "', the usual one of its kind");
+      std::rotate(next++, usual, std::next(usual));
     }
   }
   catch (const json::exception& error)
@@ -84,6 +101,38 @@ const BurrModel& BurrCatalogue::model(Burr::Kind kind) const noexcept
   return m_models[kind == Burr::Kind::Cutting ? 0 : 1];
 }
 
+const BurrModel* BurrCatalogue::find(const std::string& name) const noexcept
+{
+  const auto found = std::find_if(m_models.begin(), m_models.end(),
+                                  [&name](const BurrModel& model) { return model.name == name; });
+  return found == m_models.end() ? nullptr : &*found;
+}
+
+const BurrModel& BurrCatalogue::model(const std::string& name) const
+{
+  if (const BurrModel* found = find(name))
+    return *found;
+  std::string names;
+  for (const BurrModel& one : m_models)
+    names += (names.empty() ? "" : ", ") + one.name;
+  throw core::InvalidParameter("there is no burr '" + name + "'; there are " + names);
+}
+
+const BurrModel& BurrCatalogue::model(const Burr& burr) const
+{
+  const BurrModel& found = model(nameOf(burr));
+  if (found.kind != burr.kind)
+    throw core::InvalidParameter("the burr '" + found.name + "' is a " + nameOf(found.kind) +
+                                 " one in this catalogue, not a " + nameOf(burr.kind) + " one");
+  return found;
+}
+
+void setModel(Burr& burr, const BurrModel& model)
+{
+  burr.kind = model.kind;
+  setName(burr, model.name);
+}
+
 double resistanceOf(const TissueMaterial& material, const BurrModel& burr)
 {
   try
@@ -96,7 +145,7 @@ double resistanceOf(const TissueMaterial& material, const BurrModel& burr)
   }
   catch (const core::InvalidParameter& error)
   {
-    throw core::InvalidParameter("material '" + material.name + "' with the " + nameOf(burr.kind) +
+    throw core::InvalidParameter("material '" + material.name + "' with the " + burr.name +
                                  " burr: " + error.what());
   }
 }
@@ -104,8 +153,8 @@ double resistanceOf(const TissueMaterial& material, const BurrModel& burr)
 void checkPairs(const MaterialCatalogue& materials, const BurrCatalogue& burrs)
 {
   for (const TissueMaterial& material : materials.all())
-    for (const Burr::Kind kind : kKinds)
-      resistanceOf(material, burrs.model(kind));
+    for (const BurrModel& burr : burrs.all())
+      resistanceOf(material, burr);
 }
 
 } // namespace petrous::dissection

@@ -73,9 +73,9 @@ void eachPassivity(Passivity& p, Field field)
 
 std::string toString(const RecordingSetup& setup)
 {
-  return std::string(dissection::nameOf(setup.burr.kind)) + " burr " +
-         core::generalText(setup.burr.diameter, 10) + " mm, " + std::to_string(setup.degrees) +
-         " degrees of freedom";
+  const std::string burrNamed = dissection::nameOf(setup.burr);
+  return burrNamed + " burr " + core::generalText(setup.burr.diameter, 10) + " mm, " +
+         std::to_string(setup.degrees) + " degrees of freedom";
 }
 
 std::string toJson(const RecordingSetup& setup)
@@ -84,6 +84,8 @@ std::string toJson(const RecordingSetup& setup)
   out["tool"] = setup.tool;
   out["note"] = setup.note;
   out["burr"] = dissection::nameOf(setup.burr.kind);
+  if (!setup.burr.name.empty())
+    out["burr_name"] = setup.burr.name;
   const auto put = [&out](const char* name, const auto& value)
   {
     // JSON has no infinity; it would be read back as null.
@@ -116,6 +118,7 @@ RecordingSetup setupFromJson(const std::string& text)
     if (!kind)
       throw core::InvalidParameter("recording: the set-up names an unknown burr");
     setup.burr.kind = *kind;
+    dissection::setName(setup.burr, in.value("burr_name", std::string()));
     const auto get = [&in](const char* name, auto& value)
     { value = in.at(name).get<std::decay_t<decltype(value)>>(); };
     eachNumber(setup, get);

@@ -27,6 +27,7 @@ public:
 
   struct Burr
   {
+    std::string name; ///< in commands and cases: a to z, 0 to 9 and hyphens
     dissection::Burr::Kind kind = dissection::Burr::Kind::Cutting;
     double constant = 0.0;         ///< rake in degrees of a cutting burr, wear coefficient of a
                                    ///< diamond one
@@ -42,12 +43,15 @@ public:
   static CatalogueEditor repairing(const std::filesystem::path& folder);
 
   const std::vector<Material>& materials() const noexcept { return m_now.materials; }
-  const std::vector<Burr>& burrs() const noexcept { return m_now.burrs; } ///< cutting, diamond
+  const std::vector<Burr>& burrs() const noexcept { return m_now.burrs; }
   const dissection::BoneRamp& bone() const noexcept { return m_now.bone; }
 
   /// Whether presets, or cases by themselves, give that material to structures: it has its name for
   /// good.
   bool isBuiltIn(std::size_t material) const;
+
+  /// Whether it is the usual burr of its kind: it has its name for good.
+  bool isUsualBurr(std::size_t burr) const;
 
   /// Names of materials that cases may refer to and that would no longer exist once saved.
   std::vector<std::string> lostMaterials() const;
@@ -57,7 +61,9 @@ public:
   void setMaterial(std::size_t row, const Material& material);
   std::size_t addMaterial(std::size_t like); ///< a copy under a free name; returns its row
   void removeMaterial(std::size_t row);
-  void setBurr(std::size_t row, const Burr& burr);
+  void setBurr(std::size_t row, const Burr& burr); ///< its kind stays
+  std::size_t addBurr(std::size_t like);           ///< a copy under a free name; returns its row
+  void removeBurr(std::size_t row);
 
   void setBuiltIn(); ///< all as it comes with the program
   bool changed() const;

@@ -9,30 +9,36 @@
 #include <vector>
 
 #include "petrous/Dissection/RemovedVolume.h"
+#include "petrous/Presenters/MeasuredTool.h"
 #include "petrous/Presenters/StructureSurfaces.h"
 #include "petrous/Scene/Case.h"
 
 namespace petrous::presenters
 {
 
-/// A structure near the burr.
+/// A structure near the tool.
 struct NearbyStructure
 {
   enum class State
   {
     Clear,
-    Warned, ///< the burr may be nearer than the structure's warning distance: its distance less
-            ///< the uncertainty is
-    Touched ///< the burr touches it; never for a lumen without a warning distance
+    Warned, ///< the tool may be nearer than the structure's warning distance: its distance less
+            ///< `unsure` is
+    Touched ///< the tool touches it; never for a lumen without a warning distance
   };
 
   std::string name;
   std::array<float, 3> color{}; ///< RGB, 0 to 1
-  double distance = 0.0;        ///< mm from the burr's sphere to its surface; 0: touched
+  double distance = 0.0; ///< mm from the burr's sphere, or the nearest point of an instrument, to
+                         ///< its surface; 0: touched
+  double sampling = 0.0; ///< mm by which an instrument may be nearer between its points
   SurfaceUncertainty uncertainty;
   double warning = 0.0; ///< warning distance, mm; 0: none
   State state = State::Clear;
   double injured = 0.0; ///< volume removed from it, mm^3, including the open stroke as far as known
+
+  /// mm by which it may be nearer: the uncertainty of the surface, and the instrument's sampling.
+  double unsure() const { return uncertainty.millimetres() + sampling; }
 };
 
 /// "facial nerve 1.8 mm ± 0.3", "facial nerve touched", of a structure drawn on an MR with
@@ -65,7 +71,7 @@ std::string cubicMillimetres(double volume);
 std::map<std::string, double> injuredVolumes(const scene::Case& value,
                                              const dissection::RemovedVolume& open = {});
 
-/// Distances of a burr from the structures of a case that are visible or have a warning distance,
+/// Distances of a tool from the structures of a case that are visible or have a warning distance,
 /// fast enough for every frame.
 ///
 /// The structures' distance fields are computed in a separate thread; until then there is no
@@ -86,9 +92,14 @@ public:
   /// Throws where the case's labels cannot be read.
   ///
   /// value   the same case in its current state: appearances, strokes
-  /// center  of the burr, patient LPS mm; `radius` mm
+  /// pose    of the tool, X_PT
   /// reach   mm; structures farther away are omitted unless within their warning distance
   /// open    what the open stroke has removed so far
+  std::vector<NearbyStructure> around(const scene::Case& value, const MeasuredTool& tool,
+                                      const haptics::Pose& pose, double reach,
+                                      const dissection::RemovedVolume& open = {});
+
+  /// The same of a burr of that radius, mm, at `center`, patient LPS mm.
   std::vector<NearbyStructure> around(const scene::Case& value, const Eigen::Vector3d& center,
                                       double radius, double reach,
                                       const dissection::RemovedVolume& open = {});

@@ -4,28 +4,29 @@
 #include <string>
 #include <vector>
 
+#include "petrous/Presenters/MeasuredTool.h"
 #include "petrous/Presenters/StructureSurfaces.h"
 
 namespace petrous::presenters
 {
 
-/// Minimum distances of a burr to each structure along its path: from the sphere to the surface as
-/// defined by StructureSurfaces.
+/// Minimum distances of a tool to each structure along its path: from the burr's sphere, or the
+/// points of an instrument, to the surface as defined by StructureSurfaces.
 ///
-/// Accurate to kTolerance relative to that surface. Positions are stored and evaluated at the end
-/// where the neighbouring positions and the path length between them leave room for a smaller
-/// distance. Not thread-safe.
+/// Accurate to kTolerance relative to that surface. Poses are stored and evaluated at the end where
+/// the neighbouring ones and the path length between them leave room for a smaller distance. Not
+/// thread-safe.
 class StructureDistances
 {
 public:
   static constexpr double kTolerance = 0.02; ///< mm
 
-  /// Loads the labels. `radius` of the burr, mm.
-  StructureDistances(const scene::Case& value, double radius);
+  /// Loads the labels.
+  StructureDistances(const scene::Case& value, const MeasuredTool& tool);
 
-  void add(const Eigen::Vector3d& centre); ///< of the burr, patient LPS mm
+  void add(const haptics::Pose& pose); ///< X_PT
 
-  /// By name, mm; 0 if the sphere reached the structure. Empty before the first position.
+  /// By name, mm; 0 if the tool reached the structure. Empty before the first pose.
   std::map<std::string, double> smallest();
 
   std::map<std::string, std::size_t> resources() const { return m_surfaces.resources(); }
@@ -34,9 +35,10 @@ private:
   double nearest(std::size_t structure);
 
   StructureSurfaces m_surfaces;
-  std::vector<Eigen::Vector3d> m_positions;
-  std::vector<double> m_way; // mm, path length from the first position to this one
-  double m_radius;
+  std::vector<haptics::Pose> m_poses;
+  std::vector<double>
+      m_way; // mm, at least the way of each of the tool's points since the first pose
+  MeasuredTool m_tool;
 };
 
 } // namespace petrous::presenters

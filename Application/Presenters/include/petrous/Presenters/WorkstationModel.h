@@ -314,13 +314,14 @@ public:
   /// Changes with the tissue, also by drilling.
   std::uint64_t tissueChanges() const noexcept { return m_tissueChanges; }
   static constexpr double kNear = 20.0; ///< mm; farther structures are not reported
-  /// Structures within kNear of a burr (patient LPS mm) and injured ones, nearest first. The first
+  /// Structures within kNear of a tool at X_PT, and injured ones, nearest first. The first
   /// call for a case starts computing their distance fields in a separate thread; none until that
   /// is done, and none without a case.
-  std::optional<std::vector<NearbyStructure>> nearby(const Eigen::Vector3d& burr, double radius);
+  std::optional<std::vector<NearbyStructure>> nearby(const MeasuredTool& tool,
+                                                     const haptics::Pose& pose);
   /// What of that the surgeon must see now (warningsOf); measures no more than needed: cheap enough
   /// for every frame. Likewise none until the distance fields are computed.
-  std::optional<std::string> warnings(const Eigen::Vector3d& burr, double radius);
+  std::optional<std::string> warnings(const MeasuredTool& tool, const haptics::Pose& pose);
   /// What the last of both left out, in words (UnmeasuredStructures): to be shown beside them.
   std::string unmeasuredNearby() const;
   /// What the open stroke has removed so far, see RemovedVolumeEstimator; empty while none is open.

@@ -10,9 +10,10 @@
 namespace petrous::dissection
 {
 
-/// A kind of burr: its constants in the removal laws.
+/// A burr in all its diameters: its constants in the removal laws.
 struct BurrModel
 {
+  std::string name; ///< identifies it; see isCatalogueName
   Burr::Kind kind = Burr::Kind::Cutting;
   double rake = 0.0;             ///< alpha, rad; cutting burr only
   double wearCoefficient = 0.0;  ///< k; diamond burr only
@@ -20,22 +21,36 @@ struct BurrModel
   std::string status;            ///< source and reliability of the numbers
 };
 
-/// The burrs (Resources/burrs.json), one model of each kind.
+/// The burrs (Resources/burrs.json): any number of each kind, among them the usual one, which has
+/// the kind's name.
 class BurrCatalogue
 {
 public:
   /// The built-in catalogue.
   static BurrCatalogue builtIn();
 
-  /// From JSON text; `source` names it in errors. Throws InvalidParameter naming the error and what
-  /// would be valid.
+  /// From JSON text; `source` names it in errors. A burr without a name is the usual one of its
+  /// kind. Throws InvalidParameter naming the error and what would be valid.
   BurrCatalogue(std::string_view json, const std::string& source);
 
-  const BurrModel& model(Burr::Kind kind) const noexcept;
+  /// The usual ones, cutting and diamond, then the others in the order of the file.
+  const std::vector<BurrModel>& all() const noexcept { return m_models; }
+
+  const BurrModel& model(Burr::Kind kind) const noexcept; ///< the usual one
+  const BurrModel* find(const std::string& name) const noexcept;
+
+  /// Throws InvalidParameter naming those that there are.
+  const BurrModel& model(const std::string& name) const;
+
+  /// That of a burr's name. Throws as above, also if it is of another kind here.
+  const BurrModel& model(const Burr& burr) const;
 
 private:
-  std::vector<BurrModel> m_models; // by kind
+  std::vector<BurrModel> m_models; // see all()
 };
+
+/// Makes it a burr of that model; diameter and speed stay.
+void setModel(Burr& burr, const BurrModel& model);
 
 /// Energy per unit volume to remove the material with this burr: the law's resistance, N/mm^2 = N
 /// mm / mm^3. Throws InvalidParameter naming both if the pair is outside the law's domain.

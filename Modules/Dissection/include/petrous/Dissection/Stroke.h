@@ -25,6 +25,7 @@ struct Burr
   Kind kind = Kind::Cutting;
   double diameter = 4.0; ///< mm
   double rpm = 60000.0;  ///< spindle speed, revolutions per minute
+  std::string name;      ///< in the catalogue; empty: the usual one of its kind. See nameOf
 };
 
 struct TouchedStructure

@@ -15,7 +15,7 @@ struct CaseRemoval
   CaseRemoval(const scene::Case& value, const volume::TissueField& tissue,
               const dissection::ProtectedTissue& keep, const dissection::Burr& burr,
               const dissection::Catalogues& catalogues)
-    : resistance(scene::tissueResistance(value, catalogues, burr.kind))
+    : resistance(scene::tissueResistance(value, catalogues, burr))
     , search(tissue, resistance, keep, 0.5 * burr.diameter)
     , removalModel(search, burr, tissue.geometry().minSpacing())
   {

@@ -1,4 +1,4 @@
-#include "BurrWarnings.h"
+#include "ToolWarnings.h"
 
 #include <QStringList>
 
@@ -13,20 +13,20 @@ namespace
 constexpr int kAgain = 60; // ms; faster than anyone can read
 }
 
-BurrWarnings::BurrWarnings(presenters::WorkstationModel& model, QObject* parent)
+ToolWarnings::ToolWarnings(presenters::WorkstationModel& model, QObject* parent)
   : QObject(parent)
   , m_model(model)
 {
 }
 
-void BurrWarnings::burrMoved(const Eigen::Vector3d& center, double radius)
+void ToolWarnings::toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose)
 {
   if (m_sinceAsked.isValid() && m_sinceAsked.elapsed() < kAgain)
     return;
   m_sinceAsked.start();
   try
   {
-    const auto warnings = m_model.warnings(center, radius);
+    const auto warnings = m_model.warnings(tool, pose);
     // The user must know that there can be no warnings yet, or not of all.
     if (warnings)
     {
@@ -43,13 +43,13 @@ void BurrWarnings::burrMoved(const Eigen::Vector3d& center, double radius)
   }
 }
 
-void BurrWarnings::burrGone()
+void ToolWarnings::toolGone()
 {
   m_sinceAsked.invalidate();
   warn({});
 }
 
-void BurrWarnings::warn(const QString& lines, bool near)
+void ToolWarnings::warn(const QString& lines, bool near)
 {
   if (near != m_alarmed)
     emit alarmed(m_alarmed = near);

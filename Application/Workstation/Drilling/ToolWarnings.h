@@ -8,17 +8,17 @@
 namespace petrous::workstation
 {
 
-/// What the surgeon must see at once while using a burr, whatever panels are open: structures that
-/// are touched, injured or within their warning distance.
-class BurrWarnings : public QObject
+/// What the surgeon must see at once while using a burr or an instrument, whatever panels are open:
+/// structures that are touched, injured or within their warning distance.
+class ToolWarnings : public QObject
 {
   Q_OBJECT
 public:
-  explicit BurrWarnings(presenters::WorkstationModel& model, QObject* parent = nullptr);
+  explicit ToolWarnings(presenters::WorkstationModel& model, QObject* parent = nullptr);
 
-  /// The burr's centre, patient LPS mm, and radius, mm.
-  void burrMoved(const Eigen::Vector3d& center, double radius);
-  void burrGone(); ///< it was put away
+  /// At X_PT.
+  void toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose);
+  void toolGone(); ///< it was put away
 
 signals:
   /// Lines of text (presenters::warningsOf), or why there are none; empty: nothing. Emitted on

@@ -5664,6 +5664,14 @@ Verletzt: %1, %2</translation>
         <source>The case has no MR; add one with Case &gt; Add MR…</source>
         <translation>Der Fall hat keine MR; fügen Sie eine mit Fall &gt; MR hinzufügen … hinzu</translation>
     </message>
+    <message>
+        <source>Undo %1 (Ctrl+Alt+Z)</source>
+        <translation>%1 rückgängig (Strg+Alt+Z)</translation>
+    </message>
+    <message>
+        <source>Redo %1 (Ctrl+Alt+Y)</source>
+        <translation>%1 wiederholen (Strg+Alt+Y)</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::RegistrationTargetBox</name>

@@ -2312,12 +2312,24 @@
         <translation>die Mitte dessen, was beide Bilder zeigen</translation>
     </message>
     <message>
+        <source>move of %1</source>
+        <translation>Bewegung von %1</translation>
+    </message>
+    <message>
         <source>the case has no ossicle, tympanic cavity or inner ear on the %~1, so that the error is stated at the centre of the images, which may be far from the ear; put the crosshair in the middle ear and choose it here, or choose a structure</source>
         <translation>der Fall hat kein Gehörknöchelchen, keine Paukenhöhle und kein Innenohr auf dem %~1, daher wird der Fehler in der Mitte der Bilder angegeben, die weit vom Ohr entfernt sein kann; setzen Sie das Fadenkreuz ins Mittelohr und wählen Sie es hier, oder wählen Sie eine Struktur</translation>
     </message>
     <message>
+        <source>registration of %1</source>
+        <translation>Registrierung von %1</translation>
+    </message>
+    <message>
         <source>stopped before its end</source>
         <translation>vor dem Ende abgebrochen</translation>
+    </message>
+    <message>
+        <source>removal of the registration of %1</source>
+        <translation>Lösen der Registrierung von %1</translation>
     </message>
     <message>
         <source>Nothing was done: the slices do not show the image that this tool reads.</source>

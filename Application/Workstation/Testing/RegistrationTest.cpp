@@ -437,6 +437,18 @@ TEST_F(RegistrationWindow, LaysTheMrByPairsOfPointsThatWerePickedInTheSlices)
   EXPECT_EQ(mr().registration->verdict, scene::Registration::Verdict::Doubtful);
   EXPECT_EQ(rows.index(2, LandmarkModel::Residual).data().toString(), "0.00 mm");
   EXPECT_TRUE(state().contains("landmarks")) << state().toStdString();
+  EXPECT_TRUE(find<QPushButton>("undoMr").toolTip().contains("registration of T2"));
+  QAction* undo = action("Undo registration of T2");
+  ASSERT_TRUE(undo) << "the last thing done";
+  EXPECT_EQ(undo->shortcut(), QKeySequence(Qt::CTRL + Qt::Key_Z));
+  undo->trigger();
+  EXPECT_FALSE(mr().registered);
+  EXPECT_FALSE(find<QPushButton>("undoMr").isEnabled());
+  EXPECT_TRUE(find<QPushButton>("redoMr").isEnabled()) << "the same step";
+  ASSERT_TRUE(action("Redo registration of T2"));
+  click("redoMr");
+  EXPECT_LT(error(), 1e-6);
+  EXPECT_FALSE(find<QPushButton>("redoMr").isEnabled());
   find<QTableView>("landmarks").selectRow(1);
   click("removeLandmark");
   EXPECT_EQ(rows.rowCount(), 2);

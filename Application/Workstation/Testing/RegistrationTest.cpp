@@ -1,5 +1,7 @@
 #include "GuiTest.h"
 
+#include <algorithm>
+
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
@@ -15,6 +17,7 @@
 
 #include "BackgroundWork.h"
 #include "Banner.h"
+#include "Commands.h"
 #include "LandmarkModel.h"
 #include "MetricCurve.h"
 #include "SliceColumn.h"
@@ -412,6 +415,22 @@ TEST_F(RegistrationWindow, TheHandMovesTheMrByKeyAndButtonAndCanBeUndone)
   EXPECT_FALSE(mr().registered);
   EXPECT_FALSE(find<QPushButton>("undoMr").isEnabled());
   picture();
+}
+
+TEST_F(RegistrationWindow, ASettingThatIsFoldedIsUnfoldedWhenItIsFound)
+{
+  auto& step = find<QComboBox>("nudgeStep");
+  EXPECT_FALSE(step.isVisible());
+  const auto settings = settingsOf(window(), true);
+  const auto found = std::find_if(settings.begin(), settings.end(),
+                                  [&step](const Command& one) { return one.control == &step; });
+  ASSERT_NE(found, settings.end());
+  EXPECT_EQ(found->name, "Step");
+  EXPECT_EQ(found->menu, QString::fromUtf8("Registration › By hand"));
+  EXPECT_TRUE(found->isEnabled);
+  showSetting(step);
+  EXPECT_TRUE(waitFor([&step] { return !step.visibleRegion().isEmpty(); }));
+  EXPECT_EQ(window().focusWidget(), &step);
 }
 
 TEST_F(RegistrationWindow, LaysTheMrByPairsOfPointsThatWerePickedInTheSlices)

@@ -1324,7 +1324,10 @@ void MainWindow::showKeys()
 
 void MainWindow::findCommand()
 {
-  auto* palette = new CommandPalette(commandsOf(*this, m_model.hasCase()), this);
+  std::vector<Command> commands = commandsOf(*this, m_model.hasCase());
+  for (Command& setting : settingsOf(*this, m_model.hasCase()))
+    commands.push_back(std::move(setting));
+  auto* palette = new CommandPalette(std::move(commands), this);
   palette->setAttribute(Qt::WA_DeleteOnClose);
   palette->open();
 }

@@ -1520,24 +1520,20 @@
         <translation>muss %~1 liegen, ist aber %#2</translation>
     </message>
     <message>
-        <source>above 0 GPa</source>
-        <translation>über 0 GPa</translation>
+        <source>above 0 and at most at %#1</source>
+        <translation>über 0 und höchstens bei %#1</translation>
     </message>
     <message>
-        <source>above 0 and at most at 2</source>
-        <translation>über 0 und höchstens bei 2</translation>
+        <source>above 0 GPa</source>
+        <translation>über 0 GPa</translation>
     </message>
     <message>
         <source>above 0 HV</source>
         <translation>über 0 HV</translation>
     </message>
     <message>
-        <source>within -60 to 60 degrees</source>
-        <translation>zwischen -60 und 60 Grad</translation>
-    </message>
-    <message>
-        <source>above 0 and at most at 1</source>
-        <translation>über 0 und höchstens bei 1</translation>
+        <source>within -%1 to %2 degrees</source>
+        <translation>zwischen -%1 und %2 Grad</translation>
     </message>
     <message>
         <source>cannot be removed</source>
@@ -1552,8 +1548,8 @@
         <translation>Material „%1“ kann nicht entfernt werden: Voreinstellungen geben es Strukturen</translation>
     </message>
     <message>
-        <source>'%~1' is not a diameter: numbers above 0, up to 10 mm</source>
-        <translation>„%~1“ ist kein Durchmesser: Zahlen über 0, bis 10 mm</translation>
+        <source>'%~1' is not a diameter: numbers above 0, up to %#2 mm</source>
+        <translation>„%~1“ ist kein Durchmesser: Zahlen über 0, bis %#2 mm</translation>
     </message>
     <message>
         <source>a burr needs at least one diameter</source>

@@ -10,6 +10,8 @@
 namespace petrous::dissection
 {
 
+constexpr double kMaxBurrDiameter = 10.0; ///< mm
+
 /// A kind of burr: its constants in the removal laws.
 struct BurrModel
 {

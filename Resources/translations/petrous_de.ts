@@ -4424,6 +4424,10 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <source>: %1</source>
         <translation>: %1</translation>
     </message>
+    <message>
+        <source>%1: being read…</source>
+        <translation>%1: wird gelesen…</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::NearbyModel</name>
@@ -4754,6 +4758,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Soft tissue is left out while a tool is in the hand</source>
         <translation>Weichgewebe wird weggelassen, solange ein Werkzeug in der Hand ist</translation>
+    </message>
+    <message>
+        <source>Preparing the picture…</source>
+        <translation>Das Bild wird vorbereitet…</translation>
     </message>
 </context>
 <context>

@@ -1,6 +1,7 @@
 #include "GuiTest.h"
 
 #include <algorithm>
+#include <future>
 
 #include <QComboBox>
 #include <QDockWidget>
@@ -20,6 +21,7 @@
 #include "Commands.h"
 #include "LandmarkModel.h"
 #include "MetricCurve.h"
+#include "MrOverlay.h"
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "petrous/Phantom/Phantom.h"
@@ -113,7 +115,11 @@ protected:
   }
   const scene::ImagePart& mr() { return window().model().value().mr.front(); }
   QString state() { return find<QLabel>("registrationState").text(); }
-  QImage axial() { return find<SliceView>("axialView").grab().toImage(); }
+  QImage axial()
+  {
+    awaitMr();
+    return find<SliceView>("axialView").grab().toImage();
+  }
   static bool same(const QImage& a, const QImage& b)
   {
     return differentPixels(a, b, kSmoothing) == 0;
@@ -128,7 +134,22 @@ protected:
         count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
     return static_cast<double>(count) / (a.width() * a.height());
   }
-  void choose(int mode) { find<QComboBox>("overlayMode").setCurrentIndex(mode); }
+  MrOverlay& overlay() { return *window().findChild<MrOverlay*>(); }
+  /// Until the MR is read that is to be seen.
+  void awaitMr()
+  {
+    EXPECT_TRUE(waitFor([this] { return !overlay().reading(); }));
+  }
+  void choose(int mode)
+  {
+    find<QComboBox>("overlayMode").setCurrentIndex(mode);
+    awaitMr();
+  }
+  void flick(QWidget& from)
+  {
+    QTest::keyClick(&from, Qt::Key_V);
+    awaitMr();
+  }
   double error() // at the ear, mm
   {
     return (mr().mrFromCt * Phantom::center() - phantom.mrFromCt() * Phantom::center()).norm();
@@ -182,16 +203,42 @@ TEST_F(RegistrationWindow, LoadsNothingOfTheMrUntilItIsShown)
   EXPECT_TRUE(waitFor([&] { return same(axial(), ct); }));
 }
 
+TEST_F(RegistrationWindow, AnMrThatIsSlowToReadDoesNotHoldTheWindow)
+{
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  std::promise<void> gate;
+  const auto opened = gate.get_future().share();
+  const scene::Case before = model.value();
+  scene::Case with = before;
+  scene::ImagePart slow = scan(Phantom::Modality::Mr, phantom.mrFromCt(), 1.4);
+  slow.name = "slow";
+  slow.volume = core::Lazy<volume::IntensityVolume>(
+      [opened, voxels = slow.volume.get()]
+      {
+        opened.wait_for(std::chrono::seconds(20)); // not for ever, should the window wait for it
+        return voxels;
+      });
+  with.mr.push_back(slow);
+  model.takeParts(before, std::move(with));
+  find<QComboBox>("registrationMr").setCurrentText("slow");
+  find<QComboBox>("overlayMode").setCurrentIndex(2);
+  EXPECT_TRUE(overlay().reading());
+  EXPECT_TRUE(overlay().shown().ct && overlay().shown().mr.empty()) << "what is seen until then";
+  gate.set_value();
+  EXPECT_TRUE(waitFor([this] { return overlay().shown().mr == "slow"; }));
+  EXPECT_FALSE(overlay().reading());
+}
+
 TEST_F(RegistrationWindow, KeysFlickBetweenCtAndMrAndGoThroughTheWays)
 {
   const QImage ct = steady([this] { return axial(); });
-  QTest::keyClick(&view(), Qt::Key_V);
+  flick(view());
   const QImage mrAlone = axial();
   EXPECT_NE(mrAlone, ct);
-  QTest::keyClick(&view(), Qt::Key_V);
+  flick(view());
   const QImage ctAlone = axial();
   EXPECT_NE(ctAlone, mrAlone);
-  QTest::keyClick(&view(), Qt::Key_V);
+  flick(view());
   EXPECT_TRUE(same(axial(), mrAlone));
   picture();
   QTest::keyClick(&view(), Qt::Key_O); // back to the initial mode
@@ -216,9 +263,9 @@ TEST_F(RegistrationWindow, TheValueUnderThePointerIsThatOfTheImageSeen)
   QTest::mouseMove(&slice, QPoint(slice.width() / 3, slice.height() / 2));
   ASSERT_TRUE(waitFor([&] { return place.text().contains("HU"); })) << place.text().toStdString();
   const QString ct = place.text();
-  QTest::keyClick(&view(), Qt::Key_V);
+  flick(view());
   ASSERT_TRUE(waitFor([&] { return place.text() != ct; })) << "the MR";
-  QTest::keyClick(&view(), Qt::Key_V);
+  flick(view());
   EXPECT_TRUE(waitFor([&] { return place.text() == ct; })) << place.text().toStdString();
 }
 
@@ -275,7 +322,7 @@ TEST_F(RegistrationWindow, TheSegmentPanelWorksOnWhatTheSlicesShow)
 
   QTest::keyClick(&window(), Qt::Key_N, Qt::ShiftModifier);
   EXPECT_TRUE(note.isHidden());
-  QTest::keyClick(&view(), Qt::Key_V); // the MR alone
+  flick(view()); // the MR alone
   EXPECT_FALSE(note.isHidden());
   EXPECT_TRUE(note.text().contains("T2")) << note.text().toStdString();
   auto& slice = find<SliceView>("axialView");
@@ -287,7 +334,7 @@ TEST_F(RegistrationWindow, TheSegmentPanelWorksOnWhatTheSlicesShow)
   EXPECT_EQ(source.currentText(), "T2");
   QTest::mouseClick(&slice, Qt::LeftButton, Qt::NoModifier, slice.rect().center());
   EXPECT_EQ(find<QTreeWidget>("nervePoints").topLevelItemCount(), 1);
-  QTest::keyClick(&view(), Qt::Key_V); // the CT alone
+  flick(view()); // the CT alone
   EXPECT_FALSE(note.isHidden());
   click("segmentShowSource");
   EXPECT_TRUE(note.isHidden());
@@ -683,7 +730,7 @@ TEST_F(RegistrationWindow, TheReadoutIsThatOfTheImageThatIsSeen)
   const auto said = [&] { return slices.valuesAt(model.crosshair()); };
   const QString ct = said();
   EXPECT_TRUE(QRegularExpression("^-?\\d+ HU$").match(ct).hasMatch()) << ct.toStdString();
-  QTest::keyClick(&view(), Qt::Key_V);
+  flick(view());
   phantom::ScanSettings settings;
   settings.modality = Phantom::Modality::Mr;
   settings.patientFromScan = phantom.mrFromCt().inverse();
@@ -697,7 +744,7 @@ TEST_F(RegistrationWindow, TheReadoutIsThatOfTheImageThatIsSeen)
   emit slice.pointed(model.crosshair());
   EXPECT_TRUE(find<QLabel>("place").text().contains("T2 " + value))
       << find<QLabel>("place").text().toStdString();
-  QTest::keyClick(&view(), Qt::Key_V);
+  flick(view());
   EXPECT_EQ(said(), ct);
   choose(1); // blend
   EXPECT_TRUE(said().startsWith("CT " + ct + "  T2 " + value)) << said().toStdString();
@@ -718,10 +765,10 @@ TEST_F(RegistrationWindow, ARightDragChangesTheGreyWindowOfTheImageThatIsSeen)
                         slice.rect().center() + QPoint(60, 0));
   };
   const double width = find<SliceColumn>("slices").shown().width;
-  QTest::keyClick(&view(), Qt::Key_V); // the MR alone
+  flick(view()); // the MR alone
   drag();
   EXPECT_EQ(find<SliceColumn>("slices").shown().width, width);
-  QTest::keyClick(&slice, Qt::Key_V); // the CT alone
+  flick(slice); // the CT alone
   drag();
   EXPECT_GT(find<SliceColumn>("slices").shown().width, width);
 }

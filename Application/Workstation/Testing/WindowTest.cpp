@@ -19,6 +19,7 @@
 #include <QScrollBar>
 #include <QSlider>
 #include <QSpinBox>
+#include <QStatusBar>
 #include <QTabBar>
 #include <QTemporaryDir>
 #include <QToolBar>
@@ -234,6 +235,23 @@ TEST_F(Window, OpensTheLatestCaseAndShowsItsBone)
   EXPECT_GT(pixelsUnlikeTheCorner(image), image.width() * image.height() / 20);
   // A ball in the centre: bone there, none in the corners.
   EXPECT_NE(image.pixel(image.rect().center()), image.pixel(0, 0));
+}
+
+TEST_F(Window, TheFirstPictureIsAnnouncedUntilItIsDrawn)
+{
+  openWindow();
+  saveBall("ball");
+  const auto isAnnounced = [this]
+  {
+    const auto labels = window().statusBar()->findChildren<QLabel*>();
+    return std::any_of(labels.begin(), labels.end(),
+                       [](const QLabel* label)
+                       { return label->text().startsWith("Preparing the picture"); });
+  };
+  EXPECT_FALSE(isAnnounced());
+  const_cast<presenters::WorkstationModel&>(window().model()).open("ball");
+  EXPECT_TRUE(isAnnounced());
+  EXPECT_TRUE(waitFor([&] { return !isAnnounced(); }));
 }
 
 TEST_F(Window, ACaseThatIsNotThereIsToldInOneLine)

@@ -988,6 +988,8 @@ void MainWindow::caseChanged()
 {
   const scene::Case& value = m_model.value();
   const bool first = m_pages->currentIndex() == 0;
+  if (first)
+    m_picture->announce();
   // The first page asks for no room behind the case: told before it is hidden, or it is not heard.
   m_start->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
   m_pages->setCurrentIndex(1);

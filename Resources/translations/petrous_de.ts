@@ -2888,6 +2888,10 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <source>%1: felt at %2 points, no place within 10 mm of its tip farther than %3 mm from one, and none at all farther than %4 mm; bone thinner than twice that may pass between them unfelt</source>
         <translation>%1: an %2 Punkten gefühlt, keine Stelle bis 10 mm von der Spitze weiter als %3 mm von einem entfernt und überhaupt keine weiter als %4 mm; Knochen, der dünner als das Doppelte ist, kann ungefühlt zwischen ihnen hindurchgehen</translation>
     </message>
+    <message>
+        <source>distances to structures: being measured…</source>
+        <translation>Abstände zu Strukturen: werden gemessen…</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::DrillSound</name>

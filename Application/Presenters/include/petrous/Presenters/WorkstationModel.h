@@ -318,8 +318,8 @@ public:
 
   std::optional<double> hounsfieldAt(const Eigen::Vector3d& patient) const;
   std::string structureAt(const Eigen::Vector3d& patient) const; ///< empty: none
-  /// As `petrous probe` reports it, plus the nearest structure; requires a case. The first reading
-  /// of a case scans its labels (some tenths of a second).
+  /// As `petrous probe` reports it, plus the nearest structure, whose distance fields the first
+  /// reading of a case has computed in a separate thread; requires a case.
   PlaceReading readPlace(const Eigen::Vector3d& patient);
   /// Changes with the tissue, also by drilling.
   std::uint64_t tissueChanges() const noexcept { return m_tissueChanges; }

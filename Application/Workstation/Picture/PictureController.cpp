@@ -96,6 +96,7 @@ void PictureController::caseChanged()
 {
   m_view.display().setTool(std::nullopt);
   showScene();
+  m_isFirst = std::exchange(m_isAnnounced, false);
 }
 
 void PictureController::appearanceChanged()
@@ -201,9 +202,9 @@ void PictureController::applyStereo()
 
 void PictureController::showSpeed(double milliseconds, double scale, bool moving)
 {
-  if (!m_model.hasCase())
+  if (!m_model.hasCase() || m_isAnnounced)
     return;
-  if (std::exchange(m_isAnnounced, false))
+  if (std::exchange(m_isFirst, false))
     m_speed->clear();
   if (milliseconds <= 0.0)
     return;

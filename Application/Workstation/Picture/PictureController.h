@@ -39,8 +39,8 @@ public:
   PicturePanel* panel() const noexcept { return m_panel; } ///< owned by the window that takes it
   QLabel* speed() const noexcept { return m_speed; }       ///< for the status bar
 
-  /// That the first picture is on its way, before it is: its shaders are compiled in this thread,
-  /// which may take seconds.
+  /// Before caseChanged: that the first picture is on its way. Its shaders are compiled in this
+  /// thread, which may take seconds.
   void announce();
   void caseChanged();
   void appearanceChanged();
@@ -70,7 +70,8 @@ private:
   WindowSettings& m_kept;
   const bool m_quadBuffer;
   bool m_isShowing = false;   ///< a case's settings, which are not the user's
-  bool m_isAnnounced = false; ///< the picture that is drawn next
+  bool m_isAnnounced = false; ///< a picture whose scene is not there yet
+  bool m_isFirst = false;     ///< the picture that is drawn next, after it was announced
   presenters::ViewSettings m_settings;
   PicturePanel* m_panel;
   QLabel* m_speed;

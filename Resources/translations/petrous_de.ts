@@ -2897,6 +2897,10 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <source>Drill &gt; Instrument takes it up when the stroke is done</source>
         <translation>Bohren &gt; Instrument nimmt es auf, wenn der Bohrzug beendet ist</translation>
     </message>
+    <message>
+        <source>distances to structures: being measured…</source>
+        <translation>Abstände zu Strukturen: werden gemessen…</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::DrillSound</name>
@@ -4433,6 +4437,10 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <source>: %1</source>
         <translation>: %1</translation>
     </message>
+    <message>
+        <source>%1: being read…</source>
+        <translation>%1: wird gelesen…</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::NearbyModel</name>
@@ -4773,6 +4781,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Soft tissue is left out while a tool is in the hand</source>
         <translation>Weichgewebe wird weggelassen, solange ein Werkzeug in der Hand ist</translation>
+    </message>
+    <message>
+        <source>Preparing the picture…</source>
+        <translation>Das Bild wird vorbereitet…</translation>
     </message>
 </context>
 <context>
@@ -5682,6 +5694,14 @@ Verletzt: %1, %2</translation>
     <message>
         <source>The case has no MR; add one with Case &gt; Add MR…</source>
         <translation>Der Fall hat keine MR; fügen Sie eine mit Fall &gt; MR hinzufügen … hinzu</translation>
+    </message>
+    <message>
+        <source>Undo %1 (Ctrl+Alt+Z)</source>
+        <translation>%1 rückgängig (Strg+Alt+Z)</translation>
+    </message>
+    <message>
+        <source>Redo %1 (Ctrl+Alt+Y)</source>
+        <translation>%1 wiederholen (Strg+Alt+Y)</translation>
     </message>
 </context>
 <context>

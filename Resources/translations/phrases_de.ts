@@ -1520,24 +1520,20 @@
         <translation>muss %~1 liegen, ist aber %#2</translation>
     </message>
     <message>
-        <source>above 0 GPa</source>
-        <translation>über 0 GPa</translation>
+        <source>above 0 and at most at %#1</source>
+        <translation>über 0 und höchstens bei %#1</translation>
     </message>
     <message>
-        <source>above 0 and at most at 2</source>
-        <translation>über 0 und höchstens bei 2</translation>
+        <source>above 0 GPa</source>
+        <translation>über 0 GPa</translation>
     </message>
     <message>
         <source>above 0 HV</source>
         <translation>über 0 HV</translation>
     </message>
     <message>
-        <source>within -60 to 60 degrees</source>
-        <translation>zwischen -60 und 60 Grad</translation>
-    </message>
-    <message>
-        <source>above 0 and at most at 1</source>
-        <translation>über 0 und höchstens bei 1</translation>
+        <source>within -%1 to %2 degrees</source>
+        <translation>zwischen -%1 und %2 Grad</translation>
     </message>
     <message>
         <source>cannot be removed</source>
@@ -1560,8 +1556,8 @@
         <translation>Fräse „%1“ kann nicht entfernt werden: Sie ist die übliche ihrer Art</translation>
     </message>
     <message>
-        <source>'%~1' is not a diameter: numbers above 0, up to 10 mm</source>
-        <translation>„%~1“ ist kein Durchmesser: Zahlen über 0, bis 10 mm</translation>
+        <source>'%~1' is not a diameter: numbers above 0, up to %#2 mm</source>
+        <translation>„%~1“ ist kein Durchmesser: Zahlen über 0, bis %#2 mm</translation>
     </message>
     <message>
         <source>a burr needs at least one diameter</source>
@@ -2320,12 +2316,24 @@
         <translation>die Mitte dessen, was beide Bilder zeigen</translation>
     </message>
     <message>
+        <source>move of %1</source>
+        <translation>Bewegung von %1</translation>
+    </message>
+    <message>
         <source>the case has no ossicle, tympanic cavity or inner ear on the %~1, so that the error is stated at the centre of the images, which may be far from the ear; put the crosshair in the middle ear and choose it here, or choose a structure</source>
         <translation>der Fall hat kein Gehörknöchelchen, keine Paukenhöhle und kein Innenohr auf dem %~1, daher wird der Fehler in der Mitte der Bilder angegeben, die weit vom Ohr entfernt sein kann; setzen Sie das Fadenkreuz ins Mittelohr und wählen Sie es hier, oder wählen Sie eine Struktur</translation>
     </message>
     <message>
+        <source>registration of %1</source>
+        <translation>Registrierung von %1</translation>
+    </message>
+    <message>
         <source>stopped before its end</source>
         <translation>vor dem Ende abgebrochen</translation>
+    </message>
+    <message>
+        <source>removal of the registration of %1</source>
+        <translation>Lösen der Registrierung von %1</translation>
     </message>
     <message>
         <source>Nothing was done: the slices do not show the image that this tool reads.</source>
@@ -3736,8 +3744,8 @@
         <translation>Fräse „%1“ muss von der Art dieses Namens sein</translation>
     </message>
     <message>
-        <source>burr '%1': 'diameters_mm' must list diameters above 0 to 10 mm</source>
-        <translation>Fräse „%1“: „diameters_mm“ muss Durchmesser über 0 bis 10 mm aufzählen</translation>
+        <source>burr '%1': 'diameters_mm' must list diameters above 0 to %#2 mm</source>
+        <translation>Fräse „%1“: „diameters_mm“ muss Durchmesser über 0 bis %#2 mm nennen</translation>
     </message>
     <message>
         <source>there are two burrs '%1'; each needs a name of its own</source>

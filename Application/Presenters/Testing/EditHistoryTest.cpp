@@ -265,3 +265,45 @@ TEST_F(EditHistoryTest, ForgetsTheEarliestSteps)
   EXPECT_EQ(steps, EditHistory::kMaxSteps);
   EXPECT_EQ(number, 5);
 }
+
+TEST_F(EditHistoryTest, TheLastEditOfAGroupIsTakenFromAmongOthers)
+{
+  const auto grouped = [this](const std::string& what, int& value) {
+    history.did({what, {}, [&value] { --value; }, [&value] { ++value; }, false, "pose"});
+  };
+  int first = 1, second = 1;
+  EXPECT_FALSE(history.undoOf("pose"));
+  grouped("first", first);
+  set(1, "one");
+  grouped("second", second);
+  history.strokeMade();
+  strokes = 1;
+  ASSERT_NE(history.nextOf("pose"), nullptr);
+  EXPECT_EQ(history.nextOf("pose")->what, "second");
+  EXPECT_TRUE(history.undoOf("pose"));
+  EXPECT_EQ(second, 0);
+  EXPECT_EQ(history.next(strokes), nullptr) << "the stroke stays the last step";
+  EXPECT_TRUE(history.undoOf("pose"));
+  EXPECT_EQ(first, 0);
+  EXPECT_EQ(number, 1);
+  EXPECT_FALSE(history.undoOf("pose"));
+  EXPECT_EQ(history.nextRedoOf("pose")->what, "first");
+  EXPECT_TRUE(history.redoOf("pose"));
+  EXPECT_EQ(first, 1);
+  EXPECT_EQ(next(), "first") << "it was the last thing done";
+  EXPECT_TRUE(history.redo(0));
+  EXPECT_EQ(second, 1);
+}
+
+TEST_F(EditHistoryTest, AGroupsEditBeforeAChangeOfPartsIsTakenBackInOrderOnly)
+{
+  history.did({"pose", {}, [] {}, [] {}, false, "pose"});
+  history.did({"name", {}, [] {}, [] {}, true});
+  EXPECT_EQ(history.nextOf("pose"), nullptr);
+  EXPECT_FALSE(history.undoOf("pose"));
+  EXPECT_TRUE(history.undo(0));
+  EXPECT_TRUE(history.undoOf("pose"));
+  EXPECT_EQ(history.nextRedoOf("pose")->what, "pose");
+  EXPECT_TRUE(history.redoOf("pose"));
+  EXPECT_EQ(history.nextRedo(0)->what, "name");
+}

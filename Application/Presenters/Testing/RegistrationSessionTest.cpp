@@ -79,6 +79,9 @@ protected:
     return part;
   }
 
+  /// Of the hand: what comes after it is a step of its own.
+  void rest() { model.edits().close(); }
+
   // Applies the outcome as the window does.
   bool lay(RegistrationSession::Way way)
   {
@@ -100,9 +103,10 @@ TEST_F(RegistrationSessionTest, BeginsWithTheFirstMrAndSaysThatItIsNotRegistered
   EXPECT_FALSE(session.canUndo());
 }
 
-TEST_F(RegistrationSessionTest, HandMovesAreOfTheCaseAtOnceAndEachCanBeUndone)
+TEST_F(RegistrationSessionTest, HandMovesAreOfTheCaseAtOnceAndCanBeUndone)
 {
   session.shift({1, 0, 0});
+  rest();
   session.shift({0, 0.1, 0});
   EXPECT_TRUE(t2().registered);
   EXPECT_TRUE(model.unsaved());
@@ -141,8 +145,10 @@ TEST_F(RegistrationSessionTest, ASignOffIsVoidOnceTheMrMovesAndDoesNotComeBackBy
   EXPECT_NE(session.stateText().find("A. Surgeon"), std::string::npos);
   session.shift({0, 0.1, 0});
   EXPECT_EQ(scene::validSignOff(t2()), nullptr);
+  EXPECT_EQ(model.undoText(), "move of T2");
   EXPECT_EQ(session.stateText().find("A. Surgeon"), std::string::npos);
   session.undo();
+  EXPECT_LT((t2().mrFromCt * Vector3d(1, 0, 0)).norm(), 1e-12) << "as it was signed, no further";
   EXPECT_EQ(scene::validSignOff(t2()), nullptr);
 }
 
@@ -228,12 +234,12 @@ TEST_F(RegistrationSessionTest, OtherPartsOfTheCaseLeaveItAsItIs)
   EXPECT_TRUE(session.partsChanged());
   EXPECT_EQ(session.mr(), "DWI");
   EXPECT_EQ(session.mrNames(), (std::vector<std::string>{"T2", "DWI", "T1"}));
-  EXPECT_TRUE(session.canUndo());
+  EXPECT_FALSE(session.canUndo()) << "only after the addition, in the order of all changes";
   model.removePart("T2");
   EXPECT_TRUE(session.partsChanged());
   EXPECT_EQ(session.mr(), "DWI");
   EXPECT_EQ(session.landmarks().rows().size(), 1U);
-  EXPECT_FALSE(session.canUndo()) << "it would bring back places of an MR that is gone";
+  EXPECT_FALSE(session.canUndo());
   model.renamePart("DWI", "b1000");
   EXPECT_TRUE(session.partsChanged());
   EXPECT_EQ(session.mr(), "b1000");
@@ -404,6 +410,7 @@ TEST_F(RegistrationSessionTest, StructuresFollowUndoAndTheirVoxelsForTouchAreMad
     return all.empty() ? Vector3d(1e9, 0, 0) : all.front().occupancy->geometry().center();
   };
   session.shift({1, 0, 0});
+  rest();
   const Vector3d tumour = middle("tumour");
   const Vector3d ball = solid();
   session.shift({0, -2, 0});
@@ -416,4 +423,97 @@ TEST_F(RegistrationSessionTest, StructuresFollowUndoAndTheirVoxelsForTouchAreMad
   session.undo();
   EXPECT_ANY_THROW(middle("tumour"));
   EXPECT_GT(solid()[0], 1e8) << "nowhere on the CT";
+}
+
+TEST_F(RegistrationSessionTest, EachWayIsOneStepOfTheWindowsUndo)
+{
+  session.take(result(scene::Registration::Verdict::Good));
+  const core::RigidTransform fitted = t2().mrFromCt;
+  EXPECT_EQ(model.undoText(), "registration of T2");
+  {
+    const EditHistory::Hold hold(model.edits()); // as quick as a key that repeats
+    for (int n = 0; n < 5; ++n)
+      session.shift({0.1, 0, 0});
+    session.turn(Vector3d::UnitZ(), 0.1);
+  }
+  EXPECT_EQ(model.undoText(), "move of T2");
+  const core::RigidTransform byHand = t2().mrFromCt;
+  session.keep({Eigen::Quaterniond::Identity(), {3, 0, 0}});
+  EXPECT_EQ(model.undoText(), "registration of T2");
+  session.unregister();
+  EXPECT_EQ(model.undoText(), "removal of the registration of T2");
+
+  model.undo();
+  EXPECT_EQ(t2().mrFromCt.translation(), Vector3d(3, 0, 0));
+  EXPECT_EQ(t2().registration->text, "stopped before its end");
+  model.undo();
+  EXPECT_TRUE(t2().mrFromCt.matrix() == byHand.matrix());
+  model.undo();
+  EXPECT_TRUE(t2().mrFromCt.matrix() == fitted.matrix()) << "all moves at once";
+  ASSERT_TRUE(t2().registration && t2().registration->error);
+  EXPECT_EQ(t2().registration->error->p95, 0.3);
+  EXPECT_EQ(session.movedByHand().shift, 0.0);
+  model.undo();
+  EXPECT_FALSE(t2().registered);
+  EXPECT_EQ(session.movedByHand().shift, 0.0) << "nothing was moved by hand";
+  EXPECT_FALSE(model.canUndo());
+  for (int n = 0; n < 3; ++n)
+    model.redo();
+  EXPECT_EQ(t2().mrFromCt.translation(), Vector3d(3, 0, 0));
+  EXPECT_EQ(model.redoText(), "removal of the registration of T2");
+}
+
+TEST_F(RegistrationSessionTest, AnMrThatWasAddedAndRegisteredGoesInTwoSteps)
+{
+  const scene::Case before = model.value();
+  scene::Case with = before;
+  with.mr.push_back(image("T1"));
+  model.takeParts(before, std::move(with));
+  session.partsChanged();
+  session.choose("T1");
+  session.take(result(scene::Registration::Verdict::Good));
+  model.undo();
+  ASSERT_TRUE(scene::findMr(model.value(), "T1")) << "the registration was the last thing done";
+  EXPECT_FALSE(scene::findMr(model.value(), "T1")->registered);
+  model.undo();
+  EXPECT_FALSE(scene::findMr(model.value(), "T1"));
+  model.redo();
+  model.redo();
+  EXPECT_TRUE(scene::findMr(model.value(), "T1")->registered);
+}
+
+TEST_F(RegistrationSessionTest, ItsUndoTakesTheSameStepFromAmongOthers)
+{
+  session.take(result(scene::Registration::Verdict::Good));
+  model.setSide(scene::Side::Left);
+  session.undo();
+  EXPECT_FALSE(t2().registered);
+  EXPECT_EQ(model.value().description.side, scene::Side::Left) << "others stay";
+  EXPECT_EQ(model.undoText(), "side");
+  EXPECT_EQ(model.redoText(), "registration of T2");
+  EXPECT_EQ(session.redoText(), "registration of T2");
+  model.redo();
+  EXPECT_TRUE(t2().registered);
+  EXPECT_EQ(session.undoText(), "registration of T2");
+  EXPECT_FALSE(session.canRedo());
+  model.undo();
+  EXPECT_FALSE(session.canUndo()) << "there is one history";
+  session.redo();
+  EXPECT_TRUE(t2().registered);
+}
+
+// Places go by the names of MRs.
+TEST_F(RegistrationSessionTest, AnotherMrThatGotTheNameIsNotMovedByUndo)
+{
+  session.take(result(scene::Registration::Verdict::Good));
+  model.renamePart("T2", "T2 old");
+  model.renamePart("DWI", "T2");
+  session.choose("T2");
+  EXPECT_FALSE(session.canUndo());
+  session.undo();
+  EXPECT_TRUE(t2().registered);
+  for (int n = 0; n < 3; ++n)
+    model.undo();
+  EXPECT_EQ(t2().name, "T2");
+  EXPECT_FALSE(t2().registered);
 }

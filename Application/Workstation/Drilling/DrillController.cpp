@@ -56,6 +56,8 @@ QString textOf(const presenters::PlaceReading& reading, const presenters::Intens
   if (reading.near)
     lines += DrillController::tr("%1 mm to %2")
                  .arg(numberText(reading.near->distance, 1), shownName(reading.near->name));
+  else if (!reading.isNearKnown)
+    lines += DrillController::tr("distances to structures: being measured…");
   return lines.join('\n');
 }
 } // namespace

@@ -220,7 +220,7 @@ void MeasureController::connectPanel()
   connect(m_panel, &MeasurePanel::chosenChanged, this,
           [=](int row)
           { m_editor.choose(row < 0 ? std::nullopt : std::optional<std::size_t>(index(row))); });
-  connect(m_panel, &MeasurePanel::strokesChanged, this, &MeasureController::enableExport);
+  connect(m_panel, &MeasurePanel::exportOffered, m_export, &QAction::setEnabled);
   connect(m_panel, &MeasurePanel::exportAsked, this, &MeasureController::exportCsv);
   connect(m_panel, &MeasurePanel::copyAsked, this,
           [=](int row) { copy(row < 0 ? std::nullopt : std::optional<std::size_t>(index(row))); });
@@ -450,16 +450,10 @@ void MeasureController::refresh()
   m_finish->setEnabled(m_editor.canFinish());
   m_showAll->setEnabled(!std::all_of(all.begin(), all.end(), isShown));
   m_hideAll->setEnabled(std::any_of(all.begin(), all.end(), isShown));
-  enableExport();
   m_slices.setMeasuring(active());
   draw();
   m_panel->refresh();
   emit stateChanged();
-}
-
-void MeasureController::enableExport()
-{
-  m_export->setEnabled(m_model.hasCase() && presenters::hasMeasurementRows(m_model.value()));
 }
 
 void MeasureController::draw()

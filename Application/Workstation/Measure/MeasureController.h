@@ -79,7 +79,6 @@ private:
   void hoverInSlice(const Eigen::Vector3d& patient);
   bool attempt(const std::function<void()>& what);
   void refresh();
-  void enableExport();
   void draw();
   void goTo(std::size_t measurement);
   void exportCsv();

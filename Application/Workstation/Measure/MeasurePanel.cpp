@@ -270,12 +270,13 @@ void MeasurePanel::fillStructures()
 void MeasurePanel::stateChanged()
 {
   enableExport(); // what was drilled has a row
-  emit strokesChanged();
 }
 
 void MeasurePanel::enableExport()
 {
-  m_export->setEnabled(m_model.hasCase() && presenters::hasMeasurementRows(m_model.value()));
+  const bool isOffered = m_model.hasCase() && presenters::hasMeasurementRows(m_model.value());
+  m_export->setEnabled(isOffered);
+  emit exportOffered(isOffered);
 }
 
 int MeasurePanel::chosen() const

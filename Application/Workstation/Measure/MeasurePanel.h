@@ -37,7 +37,7 @@ public:
   void edit(std::size_t measurement); ///< its name
 
 signals:
-  void strokesChanged();
+  void exportOffered(bool offered); ///< there is something to export
   void goToAsked(int measurement);
   void renamed(int measurement, const QString& name);
   void shownAsked(int measurement, bool shown);

@@ -1,8 +1,11 @@
 #include "PictureController.h"
 
+#include <utility>
+
 #include <QAction>
 #include <QActionGroup>
 #include <QLabel>
+#include <QLayout>
 #include <QMessageBox>
 #include <QScopedValueRollback>
 
@@ -78,10 +81,22 @@ PictureController::~PictureController()
   delete m_surgeon; // before the view that it follows
 }
 
+void PictureController::announce()
+{
+  m_isAnnounced = true;
+  m_speed->setText(tr("Preparing the picture…"));
+  QWidget* bar = m_speed->parentWidget();
+  if (!bar || !bar->layout())
+    return;
+  bar->layout()->activate();
+  bar->repaint(); // events come with the picture
+}
+
 void PictureController::caseChanged()
 {
   m_view.display().setTool(std::nullopt);
   showScene();
+  m_isFirst = std::exchange(m_isAnnounced, false);
 }
 
 void PictureController::appearanceChanged()
@@ -187,7 +202,11 @@ void PictureController::applyStereo()
 
 void PictureController::showSpeed(double milliseconds, double scale, bool moving)
 {
-  if (milliseconds <= 0.0 || !m_model.hasCase())
+  if (!m_model.hasCase() || m_isAnnounced)
+    return;
+  if (std::exchange(m_isFirst, false))
+    m_speed->clear();
+  if (milliseconds <= 0.0)
     return;
   const QString speed = milliseconds < 1000.0 ? tr("%1 Hz").arg(1000.0 / milliseconds, 0, 'f', 0)
                                               : tr("%1 s").arg(0.001 * milliseconds, 0, 'f', 1);
@@ -196,6 +215,7 @@ void PictureController::showSpeed(double milliseconds, double scale, bool moving
 
 void PictureController::fail(const QString& why)
 {
+  m_speed->clear();
   const bool safe = !flush || flush();
   QMessageBox box(QMessageBox::Warning, tr("The 3D picture failed"), why, QMessageBox::Ok,
                   &m_window);

@@ -39,6 +39,9 @@ public:
   PicturePanel* panel() const noexcept { return m_panel; } ///< owned by the window that takes it
   QLabel* speed() const noexcept { return m_speed; }       ///< for the status bar
 
+  /// Before caseChanged: that the first picture is on its way. Its shaders are compiled in this
+  /// thread, which may take seconds.
+  void announce();
   void caseChanged();
   void appearanceChanged();
   void closeSurgeonWindow();
@@ -66,7 +69,9 @@ private:
   QWidget& m_window;
   WindowSettings& m_kept;
   const bool m_quadBuffer;
-  bool m_isShowing = false; ///< a case's settings, which are not the user's
+  bool m_isShowing = false;   ///< a case's settings, which are not the user's
+  bool m_isAnnounced = false; ///< a picture whose scene is not there yet
+  bool m_isFirst = false;     ///< the picture that is drawn next, after it was announced
   presenters::ViewSettings m_settings;
   PicturePanel* m_panel;
   QLabel* m_speed;

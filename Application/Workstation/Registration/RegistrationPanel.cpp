@@ -128,8 +128,8 @@ RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, Q
 
 void RegistrationPanel::addSteps(QVBoxLayout& layout)
 {
-  m_undo = button(tr("Undo"), "undoMr", tr("Back to how the MR lay before (Ctrl+Alt+Z)"));
-  m_redo = button(tr("Redo"), "redoMr", tr("Forth again (Ctrl+Alt+Y)"));
+  m_undo = button(tr("Undo"), "undoMr", {});
+  m_redo = button(tr("Redo"), "redoMr", {});
   m_remove = button(tr("Unregister"), "unregister", {});
   connect(m_undo, &QPushButton::clicked, this, [this] { m_session.undo(); });
   connect(m_redo, &QPushButton::clicked, this, [this] { m_session.redo(); });
@@ -275,6 +275,25 @@ void RegistrationPanel::partsChanged()
   refresh();
 }
 
+// What can be undone; others' steps come and go too.
+void RegistrationPanel::stateChanged()
+{
+  showSteps();
+}
+
+void RegistrationPanel::showSteps()
+{
+  const bool free = m_session.part() && !m_running;
+  m_undo->setEnabled(free && m_session.canUndo());
+  m_redo->setEnabled(free && m_session.canRedo());
+  m_undo->setToolTip(m_session.canUndo()
+                         ? tr("Undo %1 (Ctrl+Alt+Z)").arg(phrase(m_session.undoText()))
+                         : tr("Back to how the MR lay before (Ctrl+Alt+Z)"));
+  m_redo->setToolTip(m_session.canRedo()
+                         ? tr("Redo %1 (Ctrl+Alt+Y)").arg(phrase(m_session.redoText()))
+                         : tr("Forth again (Ctrl+Alt+Y)"));
+}
+
 void RegistrationPanel::refresh()
 {
   QStringList names;
@@ -331,8 +350,7 @@ void RegistrationPanel::enable()
   m_aim->setEnabled(free);
   m_handles->setEnabled(free);
   m_points->setEnabled(free);
-  m_undo->setEnabled(free && m_session.canUndo());
-  m_redo->setEnabled(free && m_session.canRedo());
+  showSteps();
   m_remove->setEnabled(free && m_session.part()->registered);
   m_sign->setEnabled(free && m_session.part()->registered && !m_name->text().trimmed().isEmpty());
   m_name->setEnabled(free && m_session.part()->registered);

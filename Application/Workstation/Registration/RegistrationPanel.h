@@ -32,6 +32,7 @@ public:
 
   void caseChanged() override;
   void partsChanged() override;
+  void stateChanged() override;
   void refresh(); ///< registration, landmarks, undo state
   void setOverlay(const std::optional<presenters::OverlayMode>& mode, double opacity);
   void setRunning(bool running);
@@ -68,6 +69,7 @@ private:
   void attempt(const std::function<void()>& what); ///< reports exceptions
   void sign();
   void enable();
+  void showSteps();
 
   presenters::RegistrationSession& m_session;
   QComboBox* m_mr;

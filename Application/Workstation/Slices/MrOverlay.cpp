@@ -1,10 +1,9 @@
 #include "MrOverlay.h"
 
+#include <chrono>
+#include <future>
 #include <utility>
 
-#include <QApplication>
-
-#include "Application.h"
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "Theme.h"
@@ -16,17 +15,24 @@ namespace petrous::workstation
 
 using presenters::OverlayMode;
 
+namespace
+{
+// One that is read within this time is shown at once, without a picture that lacks it.
+constexpr std::chrono::milliseconds kSoon{80};
+} // namespace
+
 MrOverlay::MrOverlay(presenters::RegistrationSession& session, SliceColumn& slices, QObject* parent)
   : QObject(parent)
   , m_session(session)
   , m_slices(slices)
 {
   connect(&m_slices, &SliceColumn::overlayWindowAsked, this, &MrOverlay::setWindow);
+  connect(&m_reading, &BackgroundWork::failed, this, &MrOverlay::failed);
 }
 
 void MrOverlay::reset()
 {
-  m_overlay.reset();
+  forget();
   m_best.reset();
   set(std::nullopt, m_opacity);
 }
@@ -77,19 +83,55 @@ bool MrOverlay::load(const scene::ImagePart& part)
 {
   if (m_overlay && m_overlayOf == part.name)
     return true;
-  QApplication::setOverrideCursor(Qt::WaitCursor);
+  if (m_readingOf == part.name)
+    return false;
+  m_overlay.reset();
+  m_readingOf = part.name;
+  std::promise<presenters::SliceOverlay> made;
+  auto soon = made.get_future();
+  m_reading.replace(
+      [this, part,
+       made = std::make_shared<std::promise<presenters::SliceOverlay>>(std::move(made))](
+          const core::Progress&) -> BackgroundWork::Reply
+      {
+        const presenters::SliceOverlay overlay = presenters::overlayOf(part);
+        made->set_value(overlay);
+        return [this, overlay, name = part.name]
+        {
+          m_readingOf.clear();
+          m_overlay = overlay;
+          m_overlayOf = name;
+          refresh();
+        };
+      });
+  if (soon.wait_for(kSoon) != std::future_status::ready)
+    return false;
   try
   {
-    m_overlay = presenters::overlayOf(part);
-    m_overlayOf = part.name;
+    m_overlay = soon.get();
   }
-  catch (const std::exception& error)
+  catch (const std::future_error&) // it could not be read, which is told next
   {
-    m_overlay.reset();
-    emit statusMessage(toString(error));
+    return false;
   }
-  QApplication::restoreOverrideCursor();
-  return m_overlay.has_value();
+  m_reading.wait();
+  m_overlayOf = std::exchange(m_readingOf, {});
+  return true;
+}
+
+void MrOverlay::failed(const QString& why)
+{
+  forget();
+  m_slices.setOverlay(nullptr, {});
+  m_slices.setNotice({});
+  emit statusMessage(why);
+}
+
+void MrOverlay::forget()
+{
+  m_overlay.reset();
+  m_readingOf.clear();
+  m_reading.abandon();
 }
 
 void MrOverlay::refresh()
@@ -124,7 +166,7 @@ void MrOverlay::draw()
   const scene::ImagePart* part = m_session.part();
   const bool ctAlone = m_alone && *m_alone == 0.0;
   if (!seen())
-    m_overlay.reset(); // frees the MR
+    forget(); // frees the MR
   if (!part || ctAlone || !seen())
   {
     m_slices.setOverlay(nullptr, {});
@@ -133,7 +175,11 @@ void MrOverlay::draw()
     return;
   }
   if (!load(*part))
-    return m_slices.setOverlay(nullptr, {});
+  {
+    m_slices.setOverlay(nullptr, {});
+    m_slices.setNotice(tr("%1: being read…").arg(words(part->name)));
+    return;
+  }
   presenters::SliceOverlay overlay = *m_overlay;
   overlay.mrFromCt = m_best.value_or(part->mrFromCt);
   overlay.registered = part->registered;

@@ -5,6 +5,7 @@
 
 #include <QObject>
 
+#include "BackgroundWork.h"
 #include "petrous/Presenters/RegistrationSession.h"
 
 namespace petrous::workstation
@@ -13,7 +14,7 @@ namespace petrous::workstation
 class SliceColumn;
 
 /// The MR overlay in the slices: mode, opacity, and its pose during a registration. The MR is
-/// loaded only when first shown.
+/// loaded only when first shown, in a separate thread; the slices go on without it until then.
 class MrOverlay : public QObject
 {
   Q_OBJECT
@@ -26,6 +27,7 @@ public:
   const Mode& mode() const noexcept { return m_mode; }
   double opacity() const noexcept { return m_opacity; }
   bool seen() const noexcept { return m_mode || m_alone; }
+  bool reading() const noexcept { return !m_readingOf.empty(); } ///< what is to be seen
 
   void reset(); ///< another case
   void refresh();
@@ -43,6 +45,8 @@ signals:
 
 private:
   bool load(const scene::ImagePart& part);
+  void forget();
+  void failed(const QString& why);
   void draw();
   void setWindow(const presenters::GreyWindow& window);
 
@@ -54,6 +58,8 @@ private:
   std::optional<presenters::SliceOverlay> m_overlay; // of m_overlayOf, made on demand
   std::string m_overlayOf;
   std::optional<core::RigidTransform> m_best;
+  std::string m_readingOf;
+  BackgroundWork m_reading;
 };
 
 } // namespace petrous::workstation

@@ -4,19 +4,24 @@
 
 #include <QDockWidget>
 #include <QFile>
+#include <QLineEdit>
 #include <QMimeData>
 #include <QPushButton>
 #include <QStyle>
 #include <QStyleOptionViewItem>
+#include <QTableWidget>
 #include <QTextStream>
 #include <QToolButton>
 #include <QTreeView>
 
 #include "ColorChooser.h"
+#include "ComparisonWindow.h"
+#include "ShareController.h"
 #include "SliceView.h"
 #include "StructuresModel.h"
 #include "petrous/Phantom/Phantom.h"
 #include "petrous/Phantom/SamplePatient.h"
+#include "petrous/Scene/Branches.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -259,4 +264,60 @@ TEST_F(ClickTable, AnMrRegistered)
   key(Qt::Key_R, Qt::ControlModifier);
   ASSERT_TRUE(waitFor([this] { return window().model().value().mr.front().registered; }, 240000));
   expectAsDocumented("An MR registered");
+}
+
+TEST_F(ClickTable, AReportOfThePlan)
+{
+  openBall();
+  ASSERT_TRUE(settled());
+  const QString file = QString::fromStdString((folder() / "plan.pdf").string());
+  QStringList shown;
+  window().findChild<ShareController*>()->openFile = [&shown](const QString& path)
+  {
+    shown.push_back(path);
+    return true;
+  };
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (dialog.objectName() != "planReport")
+          return false;
+        EXPECT_TRUE(dialog.findChild<QPushButton*>("primary")->isEnabled()) << "as it comes";
+        dialog.findChild<QLineEdit*>("planReportFile")->setText(file); // for the test's own folder
+        ++m_events;
+        QTest::keyClick(&dialog, Qt::Key_Return);
+        return true;
+      });
+  key(Qt::Key_P, Qt::ControlModifier);
+  ASSERT_TRUE(waitFor([&] { return !shown.isEmpty(); }));
+  EXPECT_EQ(shown.first(), file);
+  EXPECT_TRUE(QFile::exists(file));
+  expectAsDocumented("The plan's report written");
+}
+
+TEST_F(ClickTable, TwoApproachesCompared)
+{
+  scene::Case value = ballCase("ball");
+  value.dissection = dissection::Dissection(value.ct.geometry);
+  const auto drill = [&value](const Eigen::Vector3d& from)
+  {
+    value.dissection.beginStroke({});
+    const Eigen::Vector3d at = kBallCenter + kBallRadius * from.normalized();
+    value.dissection.cut({at, at, 3.0});
+    value.dissection.endStroke();
+  };
+  drill({0, -1, 0});
+  drill({1, -1, 0});
+  scene::startBranch(value, "above", 1);
+  drill({0, -1, 1});
+  library().save(value);
+  openWindow("ball");
+  ASSERT_TRUE(waitFor([this] { return window().model().ready(); }));
+  const auto comparison = [this] { return window().findChild<ComparisonWindow*>("comparison"); };
+  key(Qt::Key_D, Qt::ControlModifier);
+  ASSERT_TRUE(comparison());
+  ASSERT_TRUE(waitFor([&] { return comparison()->table().rowCount() > 0; }));
+  expectAsDocumented("Two approaches compared");
+  QTest::keyClick(comparison(), Qt::Key_Escape);
+  EXPECT_TRUE(waitFor([&] { return !comparison(); }));
 }

@@ -1,9 +1,18 @@
 #include "GuiTest.h"
 
+#include <algorithm>
+
+#include <QAbstractItemView>
+#include <QAbstractSpinBox>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QDoubleSpinBox>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenuBar>
+#include <QSlider>
 #include <QStatusBar>
 #include <QTreeWidget>
 
@@ -140,6 +149,80 @@ TEST_F(CommandsWindow, WhatCannotBeDoneIsGreyAndSaysWhy)
   ASSERT_TRUE(waitFor([this] { return !window().model().hasCase() && !window().busy(); }));
   EXPECT_TRUE(why("save as").contains("Open a case first"));
   EXPECT_TRUE(why("thicker slab").contains("Open a case first"));
+}
+
+TEST_F(CommandsWindow, ASettingIsFoundByItsNameAndGetsTheFocusInItsPanel)
+{
+  saveBall("ball");
+  openWindow();
+  auto* dock = window().findChild<QDockWidget*>("pictureDock");
+  dock->hide();
+  auto* exposure = dock->findChild<QDoubleSpinBox*>("exposure");
+  ASSERT_TRUE(exposure);
+  inPalette(
+      [&](CommandPalette& palette)
+      {
+        QTest::keyClicks(&searchOf(palette), "exposure");
+        ASSERT_GE(listOf(palette).topLevelItemCount(), 1);
+        const QTreeWidgetItem* first = listOf(palette).topLevelItem(0);
+        EXPECT_EQ(first->text(0), "Exposure");
+        EXPECT_EQ(first->text(1), "Picture");
+        EXPECT_EQ(tipOf(palette), exposure->toolTip());
+        QTest::keyClick(&searchOf(palette), Qt::Key_Return);
+        EXPECT_FALSE(palette.isVisible());
+      });
+  EXPECT_TRUE(waitFor([&] { return window().focusWidget() == exposure; }));
+  EXPECT_TRUE(waitFor([&] { return !exposure->visibleRegion().isEmpty(); }));
+  EXPECT_EQ(exposure->value(), 0.0) << "it is shown, not changed";
+}
+
+TEST_F(CommandsWindow, EachSettingThatAPanelShowsIsFoundUnderAName)
+{
+  saveBall("ball");
+  openWindow();
+  int count = 0;
+  for (auto* dock : window().findChildren<QDockWidget*>())
+  {
+    dock->show();
+    dock->raise();
+    QCoreApplication::processEvents();
+    const auto settings = settingsOf(window(), true);
+    for (const auto* widget : dock->findChildren<QWidget*>())
+    {
+      bool isInList = false;
+      for (const auto* above = widget->parentWidget(); above; above = above->parentWidget())
+        isInList = isInList || qobject_cast<const QAbstractItemView*>(above);
+      const bool isSetting =
+          qobject_cast<const QCheckBox*>(widget) || qobject_cast<const QSlider*>(widget) ||
+          qobject_cast<const QAbstractSpinBox*>(widget) || qobject_cast<const QComboBox*>(widget);
+      if (!isSetting || isInList || !widget->isVisible() || widget->window() != &window())
+        continue;
+      ++count;
+      const auto found =
+          std::find_if(settings.begin(), settings.end(),
+                       [widget](const Command& one) { return one.control == widget; });
+      ASSERT_NE(found, settings.end())
+          << widget->objectName().toStdString() << " in " << dock->objectName().toStdString();
+      EXPECT_FALSE(found->name.isEmpty() || found->name.contains('&'));
+      EXPECT_EQ(found->menu, dock->windowTitle());
+      EXPECT_EQ(found->isEnabled, widget->isEnabled());
+    }
+  }
+  EXPECT_GT(count, 25);
+}
+
+TEST_F(CommandsWindow, SettingsOfACaseAreGreyWithoutOne)
+{
+  openWindow();
+  int count = 0;
+  for (const Command& one : settingsOf(window(), false))
+    if (one.menu == "Slices")
+    {
+      ++count;
+      EXPECT_FALSE(one.isEnabled) << one.name.toStdString();
+      EXPECT_TRUE(one.whyNot.contains("Open a case first")) << one.whyNot.toStdString();
+    }
+  EXPECT_GT(count, 2);
 }
 
 TEST_F(CommandsWindow, TheManualIsOpenedWhereItIsInstalledOrBuilt)

@@ -11,6 +11,7 @@
 #include <QTranslator>
 
 #include "Application.h"
+#include "Commands.h"
 #include "GuiTest.h"
 #include "Language.h"
 #include "Theme.h"
@@ -164,6 +165,20 @@ TEST_F(LanguageTest, WhatPresentersSayIsShownInGerman)
                    "where it came"),
             "ear.nii: ist beschädigt: eine Fläche hat weniger als drei Ecken; exportieren Sie sie "
             "noch einmal vom Ursprung");
+}
+
+TEST_F(LanguageTest, SettingsAreFoundByTheirGermanNames)
+{
+  if (!hasLanguage("de"))
+    GTEST_SKIP() << "built without lrelease";
+  const GermanTexts german;
+  ASSERT_TRUE(german.isThere());
+  openWindow();
+  const auto settings = settingsOf(window(), false);
+  const auto found = presenters::findCommands(entriesOf(settings), bytes(QString("belichtung")));
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(settings[found.front()].name, "Belichtung");
+  EXPECT_EQ(settings[found.front()].control, window().findChild<QDoubleSpinBox*>("exposure"));
 }
 
 TEST_F(LanguageTest, WithoutGermanPhrasesStayEnglish)

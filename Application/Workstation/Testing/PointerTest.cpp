@@ -418,6 +418,18 @@ TEST_F(Pointer, ModelAndCommandAgreeAtAnyPlace)
     }
   }
   EXPECT_EQ(model.readPlace(kBallCenter).structure, "nerve");
+  // A ball as well, measured in another thread.
+  presenters::PlaceReading beside;
+  ASSERT_TRUE(waitFor(
+      [&]
+      {
+        beside = model.readPlace(kBallCenter + Vector3d(6.0, 0.0, 0.0));
+        EXPECT_TRUE(beside.isNearKnown || !beside.near);
+        return beside.isNearKnown;
+      }));
+  ASSERT_TRUE(beside.near);
+  EXPECT_EQ(beside.near->name, "nerve");
+  EXPECT_NEAR(beside.near->distance, 2.0, 0.2);
 }
 
 TEST_F(Pointer, CutsNothingWhateverAsksForTheDrill)

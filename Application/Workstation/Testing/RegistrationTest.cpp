@@ -1,5 +1,8 @@
 #include "GuiTest.h"
 
+#include <algorithm>
+#include <future>
+
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
@@ -15,8 +18,10 @@
 
 #include "BackgroundWork.h"
 #include "Banner.h"
+#include "Commands.h"
 #include "LandmarkModel.h"
 #include "MetricCurve.h"
+#include "MrOverlay.h"
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "petrous/Phantom/Phantom.h"
@@ -110,7 +115,11 @@ protected:
   }
   const scene::ImagePart& mr() { return window().model().value().mr.front(); }
   QString state() { return find<QLabel>("registrationState").text(); }
-  QImage axial() { return find<SliceView>("axialView").grab().toImage(); }
+  QImage axial()
+  {
+    awaitMr();
+    return find<SliceView>("axialView").grab().toImage();
+  }
   static bool same(const QImage& a, const QImage& b)
   {
     return differentPixels(a, b, kSmoothing) == 0;
@@ -125,7 +134,22 @@ protected:
         count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
     return static_cast<double>(count) / (a.width() * a.height());
   }
-  void choose(int mode) { find<QComboBox>("overlayMode").setCurrentIndex(mode); }
+  MrOverlay& overlay() { return *window().findChild<MrOverlay*>(); }
+  /// Until the MR is read that is to be seen.
+  void awaitMr()
+  {
+    EXPECT_TRUE(waitFor([this] { return !overlay().reading(); }));
+  }
+  void choose(int mode)
+  {
+    find<QComboBox>("overlayMode").setCurrentIndex(mode);
+    awaitMr();
+  }
+  void flick(QWidget& from)
+  {
+    QTest::keyClick(&from, Qt::Key_V);
+    awaitMr();
+  }
   double error() // at the ear, mm
   {
     return (mr().mrFromCt * Phantom::center() - phantom.mrFromCt() * Phantom::center()).norm();
@@ -179,16 +203,42 @@ TEST_F(RegistrationWindow, LoadsNothingOfTheMrUntilItIsShown)
   EXPECT_TRUE(waitFor([&] { return same(axial(), ct); }));
 }
 
+TEST_F(RegistrationWindow, AnMrThatIsSlowToReadDoesNotHoldTheWindow)
+{
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  std::promise<void> gate;
+  const auto opened = gate.get_future().share();
+  const scene::Case before = model.value();
+  scene::Case with = before;
+  scene::ImagePart slow = scan(Phantom::Modality::Mr, phantom.mrFromCt(), 1.4);
+  slow.name = "slow";
+  slow.volume = core::Lazy<volume::IntensityVolume>(
+      [opened, voxels = slow.volume.get()]
+      {
+        opened.wait_for(std::chrono::seconds(20)); // not for ever, should the window wait for it
+        return voxels;
+      });
+  with.mr.push_back(slow);
+  model.takeParts(before, std::move(with));
+  find<QComboBox>("registrationMr").setCurrentText("slow");
+  find<QComboBox>("overlayMode").setCurrentIndex(2);
+  EXPECT_TRUE(overlay().reading());
+  EXPECT_TRUE(overlay().shown().ct && overlay().shown().mr.empty()) << "what is seen until then";
+  gate.set_value();
+  EXPECT_TRUE(waitFor([this] { return overlay().shown().mr == "slow"; }));
+  EXPECT_FALSE(overlay().reading());
+}
+
 TEST_F(RegistrationWindow, KeysFlickBetweenCtAndMrAndGoThroughTheWays)
 {
   const QImage ct = steady([this] { return axial(); });
-  QTest::keyClick(&view(), Qt::Key_V);
+  flick(view());
   const QImage mrAlone = axial();
   EXPECT_NE(mrAlone, ct);
-  QTest::keyClick(&view(), Qt::Key_V);
+  flick(view());
   const QImage ctAlone = axial();
   EXPECT_NE(ctAlone, mrAlone);
-  QTest::keyClick(&view(), Qt::Key_V);
+  flick(view());
   EXPECT_TRUE(same(axial(), mrAlone));
   picture();
   QTest::keyClick(&view(), Qt::Key_O); // back to the initial mode
@@ -213,9 +263,9 @@ TEST_F(RegistrationWindow, TheValueUnderThePointerIsThatOfTheImageSeen)
   QTest::mouseMove(&slice, QPoint(slice.width() / 3, slice.height() / 2));
   ASSERT_TRUE(waitFor([&] { return place.text().contains("HU"); })) << place.text().toStdString();
   const QString ct = place.text();
-  QTest::keyClick(&view(), Qt::Key_V);
+  flick(view());
   ASSERT_TRUE(waitFor([&] { return place.text() != ct; })) << "the MR";
-  QTest::keyClick(&view(), Qt::Key_V);
+  flick(view());
   EXPECT_TRUE(waitFor([&] { return place.text() == ct; })) << place.text().toStdString();
 }
 
@@ -272,7 +322,7 @@ TEST_F(RegistrationWindow, TheSegmentPanelWorksOnWhatTheSlicesShow)
 
   QTest::keyClick(&window(), Qt::Key_N, Qt::ShiftModifier);
   EXPECT_TRUE(note.isHidden());
-  QTest::keyClick(&view(), Qt::Key_V); // the MR alone
+  flick(view()); // the MR alone
   EXPECT_FALSE(note.isHidden());
   EXPECT_TRUE(note.text().contains("T2")) << note.text().toStdString();
   auto& slice = find<SliceView>("axialView");
@@ -284,7 +334,7 @@ TEST_F(RegistrationWindow, TheSegmentPanelWorksOnWhatTheSlicesShow)
   EXPECT_EQ(source.currentText(), "T2");
   QTest::mouseClick(&slice, Qt::LeftButton, Qt::NoModifier, slice.rect().center());
   EXPECT_EQ(find<QTreeWidget>("nervePoints").topLevelItemCount(), 1);
-  QTest::keyClick(&view(), Qt::Key_V); // the CT alone
+  flick(view()); // the CT alone
   EXPECT_FALSE(note.isHidden());
   click("segmentShowSource");
   EXPECT_TRUE(note.isHidden());
@@ -414,6 +464,22 @@ TEST_F(RegistrationWindow, TheHandMovesTheMrByKeyAndButtonAndCanBeUndone)
   picture();
 }
 
+TEST_F(RegistrationWindow, ASettingThatIsFoldedIsUnfoldedWhenItIsFound)
+{
+  auto& step = find<QComboBox>("nudgeStep");
+  EXPECT_FALSE(step.isVisible());
+  const auto settings = settingsOf(window(), true);
+  const auto found = std::find_if(settings.begin(), settings.end(),
+                                  [&step](const Command& one) { return one.control == &step; });
+  ASSERT_NE(found, settings.end());
+  EXPECT_EQ(found->name, "Step");
+  EXPECT_EQ(found->menu, QString::fromUtf8("Registration › By hand"));
+  EXPECT_TRUE(found->isEnabled);
+  showSetting(step);
+  EXPECT_TRUE(waitFor([&step] { return !step.visibleRegion().isEmpty(); }));
+  EXPECT_EQ(window().focusWidget(), &step);
+}
+
 TEST_F(RegistrationWindow, LaysTheMrByPairsOfPointsThatWerePickedInTheSlices)
 {
   showPanel();
@@ -437,6 +503,18 @@ TEST_F(RegistrationWindow, LaysTheMrByPairsOfPointsThatWerePickedInTheSlices)
   EXPECT_EQ(mr().registration->verdict, scene::Registration::Verdict::Doubtful);
   EXPECT_EQ(rows.index(2, LandmarkModel::Residual).data().toString(), "0.00 mm");
   EXPECT_TRUE(state().contains("landmarks")) << state().toStdString();
+  EXPECT_TRUE(find<QPushButton>("undoMr").toolTip().contains("registration of T2"));
+  QAction* undo = action("Undo registration of T2");
+  ASSERT_TRUE(undo) << "the last thing done";
+  EXPECT_EQ(undo->shortcut(), QKeySequence(Qt::CTRL + Qt::Key_Z));
+  undo->trigger();
+  EXPECT_FALSE(mr().registered);
+  EXPECT_FALSE(find<QPushButton>("undoMr").isEnabled());
+  EXPECT_TRUE(find<QPushButton>("redoMr").isEnabled()) << "the same step";
+  ASSERT_TRUE(action("Redo registration of T2"));
+  click("redoMr");
+  EXPECT_LT(error(), 1e-6);
+  EXPECT_FALSE(find<QPushButton>("redoMr").isEnabled());
   find<QTableView>("landmarks").selectRow(1);
   click("removeLandmark");
   EXPECT_EQ(rows.rowCount(), 2);
@@ -652,7 +730,7 @@ TEST_F(RegistrationWindow, TheReadoutIsThatOfTheImageThatIsSeen)
   const auto said = [&] { return slices.valuesAt(model.crosshair()); };
   const QString ct = said();
   EXPECT_TRUE(QRegularExpression("^-?\\d+ HU$").match(ct).hasMatch()) << ct.toStdString();
-  QTest::keyClick(&view(), Qt::Key_V);
+  flick(view());
   phantom::ScanSettings settings;
   settings.modality = Phantom::Modality::Mr;
   settings.patientFromScan = phantom.mrFromCt().inverse();
@@ -666,7 +744,7 @@ TEST_F(RegistrationWindow, TheReadoutIsThatOfTheImageThatIsSeen)
   emit slice.pointed(model.crosshair());
   EXPECT_TRUE(find<QLabel>("place").text().contains("T2 " + value))
       << find<QLabel>("place").text().toStdString();
-  QTest::keyClick(&view(), Qt::Key_V);
+  flick(view());
   EXPECT_EQ(said(), ct);
   choose(1); // blend
   EXPECT_TRUE(said().startsWith("CT " + ct + "  T2 " + value)) << said().toStdString();
@@ -687,10 +765,10 @@ TEST_F(RegistrationWindow, ARightDragChangesTheGreyWindowOfTheImageThatIsSeen)
                         slice.rect().center() + QPoint(60, 0));
   };
   const double width = find<SliceColumn>("slices").shown().width;
-  QTest::keyClick(&view(), Qt::Key_V); // the MR alone
+  flick(view()); // the MR alone
   drag();
   EXPECT_EQ(find<SliceColumn>("slices").shown().width, width);
-  QTest::keyClick(&slice, Qt::Key_V); // the CT alone
+  flick(slice); // the CT alone
   drag();
   EXPECT_GT(find<SliceColumn>("slices").shown().width, width);
 }

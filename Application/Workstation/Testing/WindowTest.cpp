@@ -19,6 +19,7 @@
 #include <QScrollBar>
 #include <QSlider>
 #include <QSpinBox>
+#include <QStatusBar>
 #include <QTabBar>
 #include <QTemporaryDir>
 #include <QToolBar>
@@ -234,6 +235,46 @@ TEST_F(Window, OpensTheLatestCaseAndShowsItsBone)
   EXPECT_GT(pixelsUnlikeTheCorner(image), image.width() * image.height() / 20);
   // A ball in the centre: bone there, none in the corners.
   EXPECT_NE(image.pixel(image.rect().center()), image.pixel(0, 0));
+}
+
+namespace
+{
+/// What the labels that it watches have shown.
+class PaintedTexts : public QObject
+{
+public:
+  QStringList texts;
+
+protected:
+  bool eventFilter(QObject* watched, QEvent* event) override
+  {
+    const auto* label = qobject_cast<const QLabel*>(watched);
+    if (label && event->type() == QEvent::Paint)
+      texts += label->text();
+    return false;
+  }
+};
+} // namespace
+
+TEST_F(Window, TheFirstPictureIsAnnouncedUntilItIsDrawn)
+{
+  openWindow();
+  saveBall("ball");
+  PaintedTexts painted;
+  for (QLabel* label : window().statusBar()->findChildren<QLabel*>())
+    label->installEventFilter(&painted);
+  const_cast<presenters::WorkstationModel&>(window().model()).open("ball");
+  const auto isAnnounced = [](const QString& text)
+  { return text.startsWith("Preparing the picture"); };
+  EXPECT_TRUE(std::any_of(painted.texts.begin(), painted.texts.end(), isAnnounced))
+      << "seen before the picture is drawn";
+  EXPECT_TRUE(waitFor(
+      [&]
+      {
+        const auto labels = window().statusBar()->findChildren<QLabel*>();
+        return std::none_of(labels.begin(), labels.end(),
+                            [&](const QLabel* label) { return isAnnounced(label->text()); });
+      }));
 }
 
 TEST_F(Window, ACaseThatIsNotThereIsToldInOneLine)

@@ -122,13 +122,16 @@ void CommandPalette::run()
   if (!command || !command->isEnabled)
     return;
   const QPointer<QAction> action = command->action;
+  const QPointer<QWidget> control = command->control;
   accept();
   QMetaObject::invokeMethod(
       qApp,
-      [action]
+      [action, control]
       {
         if (action)
           action->trigger();
+        else if (control)
+          showSetting(*control);
       },
       Qt::QueuedConnection);
 }

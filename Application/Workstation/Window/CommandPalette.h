@@ -14,8 +14,8 @@ class QTreeWidgetItem;
 namespace petrous::workstation
 {
 
-/// Finds a command by name, menu or what it does, shows its key, and runs it: type, arrow keys,
-/// Enter. One that is not enabled is grey and says why.
+/// Finds a command by name, menu or what it does, shows its key, and runs it, or a setting, and
+/// shows that: type, arrow keys, Enter. One that is not enabled is grey and says why.
 class CommandPalette : public QDialog
 {
   Q_OBJECT

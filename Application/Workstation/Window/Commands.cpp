@@ -2,17 +2,28 @@
 
 #include <set>
 
+#include <QAbstractItemView>
+#include <QAbstractSpinBox>
 #include <QAction>
+#include <QCheckBox>
+#include <QComboBox>
 #include <QDockWidget>
+#include <QHash>
 #include <QKeySequence>
+#include <QLabel>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
 #include <QObject>
 #include <QRegularExpression>
+#include <QScrollArea>
+#include <QSlider>
 #include <QStringList>
+#include <QTimer>
+#include <QToolBar>
 #include <QVariant>
 
+#include "FoldBox.h"
 #include "Theme.h"
 
 namespace petrous::workstation
@@ -28,6 +39,12 @@ QString withoutMnemonics(const QString& text)
 {
   static const QRegularExpression mark("&(.)");
   return QString(text).replace(mark, "\\1");
+}
+
+QString reasonOf(const QAction& action, bool hasCase)
+{
+  const QString why = action.property(kWhyNot).toString();
+  return !why.isEmpty() || hasCase ? why : QObject::tr("Open a case first");
 }
 
 QString keysOf(const QAction& action)
@@ -85,19 +102,13 @@ public:
   // Of a menu: never empty, as nothing in it can be done.
   QString reasonOfMenu(const QAction& action) const
   {
-    const QString why = reasonOf(action);
+    const QString why = reasonOf(action, m_hasCase);
     return why.isEmpty() ? QObject::tr("The menu is not available") : why;
   }
 
   std::vector<Command> commands;
 
 private:
-  QString reasonOf(const QAction& action) const
-  {
-    const QString why = action.property(kWhyNot).toString();
-    return !why.isEmpty() || m_hasCase ? why : QObject::tr("Open a case first");
-  }
-
   /// `whyNot`: of a menu that is disabled.
   void add(QAction& action, const QString& menu, const QString& whyNot)
   {
@@ -113,13 +124,105 @@ private:
       command.tip = action.toolTip();
     command.isEnabled = action.isEnabled() && whyNot.isEmpty();
     if (!command.isEnabled)
-      command.whyNot = whyNot.isEmpty() ? reasonOf(action) : whyNot;
+      command.whyNot = whyNot.isEmpty() ? reasonOf(action, m_hasCase) : whyNot;
     commands.push_back(command);
   }
 
   bool m_hasCase;
   std::set<const QAction*> m_taken;
 };
+
+bool isSetting(const QWidget& widget)
+{
+  return qobject_cast<const QCheckBox*>(&widget) || qobject_cast<const QSlider*>(&widget) ||
+         qobject_cast<const QAbstractSpinBox*>(&widget) || qobject_cast<const QComboBox*>(&widget);
+}
+
+/// The settings of one panel or tool bar.
+class SettingCollector
+{
+public:
+  SettingCollector(const QWidget& place, const QString& title, const QString& whyNot)
+    : m_place(place)
+    , m_title(title)
+    , m_whyNot(whyNot)
+  {
+    for (const QLabel* label : place.findChildren<QLabel*>())
+      if (const QWidget* buddy = label->buddy())
+        m_labels[buddy] = label->text();
+  }
+
+  void addTo(std::vector<Command>& commands) const
+  {
+    for (QWidget* control : m_place.findChildren<QWidget*>())
+      if (isSetting(*control) && control->window() == m_place.window())
+        add(*control, commands);
+  }
+
+private:
+  void add(QWidget& control, std::vector<Command>& commands) const
+  {
+    Command command;
+    command.name = nameOf(control);
+    command.menu = m_title;
+    if (command.name.isEmpty() || !find(control, command.menu))
+      return;
+    command.control = &control;
+    command.tip = control.toolTip();
+    command.isEnabled = m_whyNot.isEmpty() && control.isEnabled();
+    command.whyNot = m_whyNot;
+    commands.push_back(command);
+  }
+
+  QString nameOf(const QWidget& control) const
+  {
+    QString name;
+    if (const auto* box = qobject_cast<const QCheckBox*>(&control))
+      name = box->text();
+    if (name.isEmpty())
+      name = m_labels.value(&control);
+    name = withoutMnemonics(name);
+    if (name.isEmpty())
+      name = control.accessibleName();
+    static const QRegularExpression beyond("[:;,.(\n].*$",
+                                           QRegularExpression::DotMatchesEverythingOption);
+    if (name.isEmpty())
+      name = control.toolTip().remove(beyond);
+    return name.endsWith(':') ? name.chopped(1) : name;
+  }
+
+  /// Whether its panel would show it, perhaps once a section is unfolded, which then is in `path`.
+  bool find(const QWidget& control, QString& path) const
+  {
+    QStringList sections;
+    for (const QWidget* widget = &control; widget != &m_place; widget = widget->parentWidget())
+    {
+      const QWidget* above = widget->parentWidget();
+      const auto* section = qobject_cast<const FoldBox*>(above);
+      if ((widget->isHidden() && !section) || qobject_cast<const QAbstractItemView*>(above))
+        return false;
+      if (section)
+        sections.prepend(withoutMnemonics(section->title()));
+    }
+    sections.prepend(path);
+    path = sections.join(QString::fromUtf8(" › "));
+    return true;
+  }
+
+  const QWidget& m_place;
+  QString m_title;
+  QString m_whyNot; ///< of all; empty: they are available
+  QHash<const QWidget*, QString> m_labels;
+};
+
+template <class Above>
+Above* findAbove(QWidget& widget)
+{
+  for (QWidget* above = widget.parentWidget(); above; above = above->parentWidget())
+    if (auto* found = qobject_cast<Above*>(above))
+      return found;
+  return nullptr;
+}
 
 } // namespace
 
@@ -139,6 +242,40 @@ std::vector<Command> commandsOf(const QMainWindow& window, bool hasCase)
                           top->isEnabled() ? QString() : collector.reasonOfMenu(*top));
   collector.addRest(window);
   return collector.commands;
+}
+
+std::vector<Command> settingsOf(const QMainWindow& window, bool hasCase)
+{
+  std::vector<Command> settings;
+  for (const QToolBar* bar : window.findChildren<QToolBar*>(QString(), Qt::FindDirectChildrenOnly))
+    SettingCollector(*bar, bar->windowTitle(), {}).addTo(settings);
+  for (const QDockWidget* dock : window.findChildren<QDockWidget*>())
+  {
+    const QAction& toggle = *dock->toggleViewAction();
+    SettingCollector(*dock, dock->windowTitle(),
+                     toggle.isEnabled() ? QString() : reasonOf(toggle, hasCase))
+        .addTo(settings);
+  }
+  return settings;
+}
+
+void showSetting(QWidget& control)
+{
+  if (auto* dock = findAbove<QDockWidget>(control))
+  {
+    dock->show();
+    dock->raise();
+  }
+  for (auto* section = findAbove<FoldBox>(control); section; section = findAbove<FoldBox>(*section))
+    section->setOpen(true);
+  control.setFocus(Qt::ShortcutFocusReason);
+  // Once the panel is laid out.
+  QTimer::singleShot(0, &control,
+                     [&control]
+                     {
+                       if (auto* area = findAbove<QScrollArea>(control))
+                         area->ensureWidgetVisible(&control);
+                     });
 }
 
 std::vector<presenters::CommandEntry> entriesOf(const std::vector<Command>& commands)

@@ -36,6 +36,11 @@ FoldBox::FoldBox(const QString& title, const char* name, QWidget* inside, QWidge
   m_inside->hide();
 }
 
+QString FoldBox::title() const
+{
+  return m_heading->text();
+}
+
 bool FoldBox::isOpen() const
 {
   return m_heading->isChecked();

@@ -16,6 +16,7 @@ public:
   /// tests and style.
   FoldBox(const QString& title, const char* name, QWidget* inside, QWidget* parent = nullptr);
 
+  QString title() const;
   bool isOpen() const;
   void setOpen(bool open);
   void setOther(FoldBox* other) { m_other = other; } ///< collapses when this one expands

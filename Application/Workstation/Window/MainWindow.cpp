@@ -988,6 +988,8 @@ void MainWindow::caseChanged()
 {
   const scene::Case& value = m_model.value();
   const bool first = m_pages->currentIndex() == 0;
+  if (first)
+    m_picture->announce();
   // The first page asks for no room behind the case: told before it is hidden, or it is not heard.
   m_start->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
   m_pages->setCurrentIndex(1);
@@ -1324,7 +1326,10 @@ void MainWindow::showKeys()
 
 void MainWindow::findCommand()
 {
-  auto* palette = new CommandPalette(commandsOf(*this, m_model.hasCase()), this);
+  std::vector<Command> commands = commandsOf(*this, m_model.hasCase());
+  for (Command& setting : settingsOf(*this, m_model.hasCase()))
+    commands.push_back(std::move(setting));
+  auto* palette = new CommandPalette(std::move(commands), this);
   palette->setAttribute(Qt::WA_DeleteOnClose);
   palette->open();
 }

@@ -158,15 +158,12 @@ bool WorkstationModel::redoChangesParts() const noexcept
          m_edits.nextRedo(m_case->dissection.history().ahead())->changesParts;
 }
 
-void WorkstationModel::undo()
+// A change that cannot be taken back is no step any more either.
+void WorkstationModel::stepEdit(const std::function<void()>& step)
 {
-  if (undoesStroke())
-    return step(true);
-  if (!canUndo())
-    return;
   try
   {
-    m_edits.undo(m_case->applied());
+    step();
   }
   catch (...)
   {
@@ -176,22 +173,20 @@ void WorkstationModel::undo()
   notify(events.stateChanged);
 }
 
+void WorkstationModel::undo()
+{
+  if (undoesStroke())
+    return step(true);
+  if (canUndo())
+    stepEdit([this] { m_edits.undo(m_case->applied()); });
+}
+
 void WorkstationModel::redo()
 {
   if (redoesStroke())
     return step(false);
-  if (!canRedo())
-    return;
-  try
-  {
-    m_edits.redo(m_case->dissection.history().ahead());
-  }
-  catch (...)
-  {
-    notify(events.stateChanged);
-    throw;
-  }
-  notify(events.stateChanged);
+  if (canRedo())
+    stepEdit([this] { m_edits.redo(m_case->dissection.history().ahead()); });
 }
 
 void WorkstationModel::takeBack(std::uint64_t step)

@@ -449,6 +449,9 @@ PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
     return reading;
   if (!m_nearby) // after the reader, which voxelizes the meshes
     m_nearby = std::make_unique<NearbyStructures>(*m_case);
+  reading.isNearKnown = m_nearby->ready();
+  if (!reading.isNearKnown)
+    return reading;
   reading.near =
       m_nearby->surfaces().nearest(patient, PointProbe::kReach,
                                    [this](const std::string& name)

@@ -9,9 +9,15 @@
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Scene/ReferenceFrames.h"
 
 namespace petrous::presenters
 {
+
+namespace
+{
+constexpr const char* kMrEdits = "mr"; // EditHistory::Edit::group
+} // namespace
 
 bool WorkstationModel::measureNearby()
 {
@@ -208,11 +214,13 @@ bool WorkstationModel::showThickness(const MeasuredThickness& measured)
   return true;
 }
 
-void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)
+void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change,
+                                const std::string& what, const std::string& continues)
 {
   if (!m_case || drilling())
     return;
   const auto before = drawnOnMrs(*m_case);
+  const auto places = scene::mrPlaces(*m_case);
   bool tissueMoved = false;
   const auto follow = [&]
   {
@@ -236,10 +244,49 @@ void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)
     throw;
   }
   follow();
+  const auto lay = [this](const std::vector<scene::MrPlace>& to)
+  { changeMr([&to](scene::Case& value) { scene::layAs(value, to); }); };
+  if (!what.empty()) // before it is told: listeners ask what can be undone
+    m_edits.did({what, continues, [lay, places] { lay(places); },
+                 [lay, after = scene::mrPlaces(*m_case)] { lay(after); }, false, kMrEdits});
+  else
+    m_edits.close();
   notify(events.mrMoved);
   setUnsaved(true);
   if (tissueMoved) // whoever asks earlier waits for it
     notify(events.preparationWanted);
+}
+
+bool WorkstationModel::canUndoMr() const noexcept
+{
+  return m_case && !drilling() && m_edits.nextOf(kMrEdits);
+}
+
+bool WorkstationModel::canRedoMr() const noexcept
+{
+  return m_case && !drilling() && m_edits.nextRedoOf(kMrEdits);
+}
+
+std::string WorkstationModel::undoMrText() const
+{
+  return canUndoMr() ? m_edits.nextOf(kMrEdits)->what : std::string();
+}
+
+std::string WorkstationModel::redoMrText() const
+{
+  return canRedoMr() ? m_edits.nextRedoOf(kMrEdits)->what : std::string();
+}
+
+void WorkstationModel::undoMr()
+{
+  if (canUndoMr())
+    stepEdit([this] { m_edits.undoOf(kMrEdits); });
+}
+
+void WorkstationModel::redoMr()
+{
+  if (canRedoMr())
+    stepEdit([this] { m_edits.redoOf(kMrEdits); });
 }
 
 } // namespace petrous::presenters

@@ -6,6 +6,7 @@
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Scene/Placement.h"
 
 // WorkstationModel: loading from and saving to the library.
 namespace petrous::presenters
@@ -77,6 +78,13 @@ ReadCase ReadCase::from(const library::Library& library, const std::string& name
     if (!own.standInForCt(*result.value, progress))
       throw;
   }
+  // Of an older case the grid tells on which image labels were drawn: whoever asks in the window's
+  // thread must not wait for it.
+  std::vector<const scene::LabelPart*> unplaced;
+  for (const scene::LabelPart& part : result.value->labels)
+    if (!part.drawnOn && !result.value->mr.empty() && part.labels)
+      unplaced.push_back(&part);
+  scene::readLabels(unplaced);
   progress.check("opening " + name);
   return result;
 }

@@ -11,6 +11,7 @@
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Dissection/BurrName.h"
+#include "petrous/Dissection/RemovalLaw.h"
 
 namespace petrous::presenters
 {
@@ -19,11 +20,12 @@ namespace
 {
 
 using Json = nlohmann::ordered_json;
+using dissection::AbrasiveWear;
+using dissection::kPascalOfGiga;
+using dissection::kPascalOfVickers;
+using dissection::OrthogonalCutting;
 
-constexpr double kPascalOfGiga = 1e9;
-constexpr double kPascalOfVickers = 9.807e6; // of 1 HV = 1 kgf/mm^2
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr double kSteepest = 60.0; // degrees; the rake that OrthogonalCutting takes
 constexpr const char* kMaterialsFile = "materials.json";
 constexpr const char* kBurrsFile = "burrs.json";
 
@@ -46,28 +48,32 @@ bool isPositive(double value)
   return value > 0.0 && std::isfinite(value);
 }
 
-void requireWithin(bool holds, const char* range, double value)
+void requireWithin(bool holds, const std::string& range, double value)
 {
   if (!holds)
-    throw core::InvalidParameter(std::string("must lie ") + range + ", it is " +
-                                 core::generalText(value));
+    throw core::InvalidParameter("must lie " + range + ", it is " + core::generalText(value));
+}
+
+void requireAtMost(double limit, double value)
+{
+  requireWithin(value > 0.0 && value <= limit, "above 0 and at most at " + core::generalText(limit),
+                value);
 }
 
 void checkNumbers(const CatalogueEditor::Material& material)
 {
   requireWithin(isPositive(material.specificEnergy), "above 0 GPa", material.specificEnergy);
-  requireWithin(material.friction > 0.0 && material.friction <= 2.0, "above 0 and at most at 2",
-                material.friction);
+  requireAtMost(OrthogonalCutting::kMaxFriction, material.friction);
   requireWithin(isPositive(material.hardness), "above 0 HV", material.hardness);
 }
 
 void checkNumbers(const CatalogueEditor::Burr& burr)
 {
-  if (burr.kind == dissection::Burr::Kind::Cutting)
-    requireWithin(std::abs(burr.constant) <= kSteepest, "within -60 to 60 degrees", burr.constant);
-  else
-    requireWithin(burr.constant > 0.0 && burr.constant <= 1.0, "above 0 and at most at 1",
-                  burr.constant);
+  if (burr.kind == dissection::Burr::Kind::Diamond)
+    return requireAtMost(AbrasiveWear::kMaxWearCoefficient, burr.constant);
+  const std::string steepest = core::generalText(rounded(OrthogonalCutting::kMaxRake / kDegree));
+  requireWithin(std::abs(kDegree * burr.constant) <= OrthogonalCutting::kMaxRake,
+                "within -" + steepest + " to " + steepest + " degrees", burr.constant);
 }
 
 // Of a row that is copied.
@@ -361,9 +367,9 @@ std::vector<double> diametersFrom(const std::string& text)
       std::string number = word;
       std::replace(number.begin(), number.end(), ',', '.');
       const auto diameter = core::parseDouble(number);
-      if (!diameter || !(*diameter > 0.0 && *diameter <= 10.0))
-        throw core::InvalidParameter("'" + word +
-                                     "' is not a diameter: numbers above 0, up to 10 mm");
+      if (!diameter || !(*diameter > 0.0 && *diameter <= dissection::kMaxBurrDiameter))
+        throw core::InvalidParameter("'" + word + "' is not a diameter: numbers above 0, up to " +
+                                     core::generalText(dissection::kMaxBurrDiameter) + " mm");
       diameters.push_back(*diameter);
       word.clear();
     }

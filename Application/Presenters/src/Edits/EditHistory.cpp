@@ -129,28 +129,50 @@ void EditHistory::redone(std::uint64_t step)
 
 // Strokes that another branch has, or that were taken away, are passed over.
 template <class AllSteps>
-auto* EditHistory::nextOf(AllSteps& steps, std::size_t strokes) noexcept
+auto* EditHistory::nextIn(AllSteps& steps, std::size_t strokes) noexcept
 {
   const auto found = std::find_if(steps.rbegin(), steps.rend(),
                                   [strokes](const Step& step) { return step.edit || strokes > 0; });
   return found == steps.rend() ? nullptr : &*found;
 }
 
+// Not beyond a change of the parts, whose names the edits hold.
+template <class AllSteps>
+auto* EditHistory::nextIn(AllSteps& steps, const std::string& group) noexcept
+{
+  const auto found =
+      std::find_if(steps.rbegin(), steps.rend(),
+                   [&group](const Step& step)
+                   { return step.edit && (step.edit->group == group || step.edit->changesParts); });
+  return found == steps.rend() || found->edit->group != group ? nullptr : &*found;
+}
+
 const EditHistory::Edit* EditHistory::next(std::size_t strokes) const noexcept
 {
-  const Step* step = nextOf(m_done, strokes);
+  const Step* step = nextIn(m_done, strokes);
   return step && step->edit ? &*step->edit : nullptr;
 }
 
 const EditHistory::Edit* EditHistory::nextRedo(std::size_t strokes) const noexcept
 {
-  const Step* step = nextOf(m_undone, strokes);
+  const Step* step = nextIn(m_undone, strokes);
   return step && step->edit ? &*step->edit : nullptr;
 }
 
-bool EditHistory::step(Steps& from, Steps& to, std::size_t strokes, bool back)
+const EditHistory::Edit* EditHistory::nextOf(const std::string& group) const noexcept
 {
-  Step* found = nextOf(from, strokes);
+  const Step* step = nextIn(m_done, group);
+  return step ? &*step->edit : nullptr;
+}
+
+const EditHistory::Edit* EditHistory::nextRedoOf(const std::string& group) const noexcept
+{
+  const Step* step = nextIn(m_undone, group);
+  return step ? &*step->edit : nullptr;
+}
+
+bool EditHistory::step(Steps& from, Steps& to, Step* found, bool back)
+{
   if (!found || !found->edit)
     return false;
   Step step = std::move(*found);
@@ -163,13 +185,25 @@ bool EditHistory::step(Steps& from, Steps& to, std::size_t strokes, bool back)
 bool EditHistory::undo(std::size_t strokes)
 {
   m_open = false;
-  return step(m_done, m_undone, strokes, true);
+  return step(m_done, m_undone, nextIn(m_done, strokes), true);
 }
 
 bool EditHistory::redo(std::size_t strokes)
 {
   m_open = false;
-  return step(m_undone, m_done, strokes, false);
+  return step(m_undone, m_done, nextIn(m_undone, strokes), false);
+}
+
+bool EditHistory::undoOf(const std::string& group)
+{
+  m_open = false;
+  return step(m_done, m_undone, nextIn(m_done, group), true);
+}
+
+bool EditHistory::redoOf(const std::string& group)
+{
+  m_open = false;
+  return step(m_undone, m_done, nextIn(m_undone, group), false);
 }
 
 void EditHistory::takeBack(std::uint64_t step)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Scene/ApplyRegistration.h"
 
 namespace petrous::presenters
@@ -11,8 +12,6 @@ namespace petrous::presenters
 namespace
 {
 using scene::Registration;
-
-constexpr std::size_t kMaxSteps = 1000;
 
 Registration manualRegistration()
 {
@@ -29,8 +28,6 @@ RegistrationSession::RegistrationSession(WorkstationModel& model)
 
 void RegistrationSession::caseChanged()
 {
-  m_undo.clear();
-  m_redo.clear();
   m_name.clear();
   m_aim = {};
   m_mrs = mrNames();
@@ -54,12 +51,6 @@ bool RegistrationSession::partsChanged()
   {
     caseChanged();
     return false;
-  }
-  if (!std::all_of(before.begin(), before.end(),
-                   [&](const std::string& name) { return has(m_mrs, name); }))
-  {
-    m_undo.clear(); // its places name an MR that is gone
-    m_redo.clear();
   }
   checkAim(); // a structure may be gone
   return true;
@@ -98,31 +89,12 @@ std::string RegistrationSession::stateText() const
   return part() ? scene::registrationToString(*part()) : std::string();
 }
 
-void RegistrationSession::lay(const core::RigidTransform& mrFromCt, const Registration& how)
-{
-  if (!part() || m_model.drilling())
-    return;
-  change([&](scene::Case& value) { scene::applyRegistration(value, m_name, mrFromCt, how); });
-}
-
-// The undo entry is pushed before listeners are notified.
-void RegistrationSession::change(const std::function<void(scene::Case&)>& what)
-{
-  const Places before = scene::mrPlaces(m_model.value());
-  m_model.changeMr(
-      [&](scene::Case& value)
-      {
-        what(value);
-        m_undo.push_back(before);
-        m_redo.clear();
-      });
-  if (m_undo.size() > kMaxSteps)
-    m_undo.erase(m_undo.begin());
-}
-
 void RegistrationSession::moveByHand(const core::RigidTransform& mrFromCt)
 {
-  lay(mrFromCt, manualRegistration());
+  const std::string what = "move of " + shownName(m_name);
+  m_model.changeMr([&](scene::Case& value)
+                   { scene::applyRegistration(value, m_name, mrFromCt, manualRegistration()); },
+                   what, what + '\n' + m_name);
 }
 
 void RegistrationSession::shift(const Eigen::Vector3d& millimetres)
@@ -145,7 +117,9 @@ void RegistrationSession::bringMiddleHere()
 
 MrDifference RegistrationSession::movedByHand() const
 {
-  return part() ? difference(m_fitted, part()->mrFromCt, m_model.crosshair()) : MrDifference{};
+  const bool isByHand = part() && part()->registration &&
+                        part()->registration->method == Registration::Method::ByHand;
+  return isByHand ? difference(m_fitted, part()->mrFromCt, m_model.crosshair()) : MrDifference{};
 }
 
 void RegistrationSession::addLandmark()
@@ -235,16 +209,20 @@ bool RegistrationSession::take(const RegistrationOutcome& outcome)
   if (!part() || m_model.drilling() || outcome.failed)
     return false;
   m_fitted = outcome.mrFromCt;
-  change([&](scene::Case& value) { accept(value, m_name, outcome); });
+  m_model.changeMr([&](scene::Case& value) { accept(value, m_name, outcome); },
+                   "registration of " + shownName(m_name));
   return true;
 }
 
 void RegistrationSession::keep(const core::RigidTransform& best)
 {
+  if (!part() || m_model.drilling())
+    return;
   Registration how;
   how.text = "stopped before its end";
   m_fitted = best;
-  lay(best, how);
+  m_model.changeMr([&](scene::Case& value) { scene::applyRegistration(value, m_name, best, how); },
+                   "registration of " + shownName(m_name));
 }
 
 bool RegistrationSession::lies(const core::RigidTransform& mrFromCt) const
@@ -254,39 +232,14 @@ bool RegistrationSession::lies(const core::RigidTransform& mrFromCt) const
 
 void RegistrationSession::unregister()
 {
-  if (!part() || !part()->registered || m_model.drilling())
-    return;
-  change([this](scene::Case& value) { scene::removeRegistration(value, m_name); });
+  if (part() && part()->registered)
+    m_model.changeMr([this](scene::Case& value) { scene::removeRegistration(value, m_name); },
+                     "removal of the registration of " + shownName(m_name));
 }
 
 void RegistrationSession::signOff(const std::string& who, const std::string& when)
 {
   m_model.changeMr([&](scene::Case& value) { scene::signOff(value, m_name, who, when); });
-}
-
-void RegistrationSession::restore(const Places& places)
-{
-  m_model.changeMr([&places](scene::Case& value) { scene::layAs(value, places); });
-}
-
-void RegistrationSession::undo()
-{
-  if (m_undo.empty() || m_model.drilling())
-    return;
-  m_redo.push_back(scene::mrPlaces(m_model.value()));
-  const Places back = std::move(m_undo.back());
-  m_undo.pop_back();
-  restore(back);
-}
-
-void RegistrationSession::redo()
-{
-  if (m_redo.empty() || m_model.drilling())
-    return;
-  m_undo.push_back(scene::mrPlaces(m_model.value()));
-  const Places forth = std::move(m_redo.back());
-  m_redo.pop_back();
-  restore(forth);
 }
 
 } // namespace petrous::presenters

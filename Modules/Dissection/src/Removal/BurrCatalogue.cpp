@@ -10,6 +10,7 @@
 #include "Burrs.h"
 #include "JsonFault.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Dissection/RemovalLaw.h"
 
@@ -46,10 +47,12 @@ BurrModel modelFrom(const json& entry)
   else
     model.wearCoefficient = entry.at("wear_coefficient").get<double>();
   model.diameters = entry.at("diameters_mm").get<std::vector<double>>();
-  if (model.diameters.empty() || !std::all_of(model.diameters.begin(), model.diameters.end(),
-                                              [](double d) { return d > 0.0 && d <= 10.0; }))
+  if (model.diameters.empty() ||
+      !std::all_of(model.diameters.begin(), model.diameters.end(),
+                   [](double d) { return d > 0.0 && d <= kMaxBurrDiameter; }))
     throw core::InvalidParameter("burr '" + name +
-                                 "': 'diameters_mm' must list diameters above 0 to 10 mm");
+                                 "': 'diameters_mm' must list diameters above 0 to " +
+                                 core::generalText(kMaxBurrDiameter) + " mm");
   model.status = entry.value("status", std::string());
   return model;
 }

@@ -17,9 +17,6 @@ namespace
 
 using nlohmann::json;
 
-constexpr double kPascalOfGiga = 1e9;
-constexpr double kPascalOfVickers = 9.807e6; // of 1 HV = 1 kgf/mm^2
-
 TissueMaterial materialFrom(const json& entry)
 {
   TissueMaterial material;

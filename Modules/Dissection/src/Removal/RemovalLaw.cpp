@@ -12,8 +12,6 @@ namespace petrous::dissection
 namespace
 {
 
-constexpr double kSteepest = 1.0471975511965976; // pi / 3
-
 std::string text(double value)
 {
   std::string result = core::fixedText(value, 6);
@@ -35,9 +33,9 @@ OrthogonalCutting::OrthogonalCutting(double specificEnergy, double friction, dou
 {
   require(specificEnergy > 0.0 && std::isfinite(specificEnergy),
           "the specific cutting energy must be above 0, it is " + text(specificEnergy) + " Pa");
-  require(friction >= 0.0 && friction <= 2.0,
-          "the friction must lie within 0 to 2, it is " + text(friction));
-  require(std::abs(rake) <= kSteepest, "the rake angle must lie within 60 degrees");
+  require(friction >= 0.0 && friction <= kMaxFriction,
+          "the friction must lie within 0 to " + text(kMaxFriction) + ", it is " + text(friction));
+  require(std::abs(rake) <= kMaxRake, "the rake angle must lie within 60 degrees");
   const double slope = std::tan(rake);
   require(friction - slope >= kMinDifference,
           "friction less the rake's tangent must be at least " + text(kMinDifference) + ", it is " +
@@ -54,8 +52,9 @@ AbrasiveWear::AbrasiveWear(double hardness, double wearCoefficient)
 {
   require(hardness > 0.0 && std::isfinite(hardness),
           "the hardness must be above 0, it is " + text(hardness) + " Pa");
-  require(wearCoefficient > 0.0 && wearCoefficient <= 1.0,
-          "the wear coefficient must lie above 0 and at most at 1, it is " + text(wearCoefficient));
+  require(wearCoefficient > 0.0 && wearCoefficient <= kMaxWearCoefficient,
+          "the wear coefficient must lie above 0 and at most at " + text(kMaxWearCoefficient) +
+              ", it is " + text(wearCoefficient));
   m_resistance = 3.0 * hardness / wearCoefficient;
 }
 

@@ -93,7 +93,7 @@ private:
 std::string diametersText(const std::vector<double>& diameters);
 /// And back; blanks and semicolons separate. A comma separates where a blank or the end follows and
 /// there is no semicolon; otherwise it is decimal. Throws InvalidParameter unless all are diameters
-/// above 0, up to 10 mm.
+/// above 0, up to kMaxBurrDiameter.
 std::vector<double> diametersFrom(const std::string& text);
 
 } // namespace petrous::presenters

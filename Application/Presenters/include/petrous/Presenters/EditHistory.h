@@ -26,6 +26,7 @@ public:
     std::string continues = {};
     std::function<void()> undo, redo; ///< throw core::Error without effect
     bool changesParts = false;        ///< parts come, go or get another name
+    std::string group = {}; ///< its edits can also be taken back apart from others; empty: none
   };
 
   /// An edit continues one that is at most this old.
@@ -72,6 +73,13 @@ public:
   /// (core::Error propagates) is dropped: it must not bar the way to those before it.
   bool undo(std::size_t strokes);
   bool redo(std::size_t strokes);
+  /// The last edit of a group, though others or strokes came after it; nullptr: there is none, or
+  /// parts came, went or got another name since, so that only all of it can be taken back in order.
+  const Edit* nextOf(const std::string& group) const noexcept;
+  const Edit* nextRedoOf(const std::string& group) const noexcept; ///< likewise
+  /// Takes that one back, as `undo` does; false: there is none.
+  bool undoOf(const std::string& group);
+  bool redoOf(const std::string& group);
   /// Takes back the last step, if it has this number and nothing came after it, and drops it: it
   /// was only tried. What could be redone before it can be again, if the Hold is still there in
   /// which it was tried.
@@ -90,8 +98,10 @@ private:
   using Steps = std::vector<Step>;
   static Steps::iterator find(Steps& steps, std::uint64_t id);
   template <class AllSteps>
-  static auto* nextOf(AllSteps& steps, std::size_t strokes) noexcept;
-  static bool step(Steps& from, Steps& to, std::size_t strokes, bool back);
+  static auto* nextIn(AllSteps& steps, std::size_t strokes) noexcept;
+  template <class AllSteps>
+  static auto* nextIn(AllSteps& steps, const std::string& group) noexcept;
+  static bool step(Steps& from, Steps& to, Step* found, bool back);
   void push(Step step);
   void trim();
   void letGo(); // of a Hold

@@ -22,6 +22,7 @@ struct PlaceReading
   std::optional<double> surface;     ///< mm to the nearest surface of the tissue as drilled,
                                      ///< negative inside tissue; none beyond kReach
   std::optional<NearStructure> near; ///< the nearest visible one unless in one; none beyond kReach
+  bool isNearKnown = true;           ///< false: the distances are still being measured
 };
 
 /// A wall of tissue at a point of its surface.

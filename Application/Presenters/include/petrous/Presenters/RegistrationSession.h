@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +10,6 @@
 #include "petrous/Presenters/MrMotion.h"
 #include "petrous/Presenters/SliceOverlay.h"
 #include "petrous/Presenters/WorkstationModel.h"
-#include "petrous/Scene/ReferenceFrames.h"
 
 namespace petrous::presenters
 {
@@ -36,8 +36,9 @@ struct RegistrationAim
   std::string onto; ///< another MR; empty: the CT
 };
 
-/// Registers one MR of the open case to its CT in every available way, with undo. Changes take
-/// effect in the case at once and are saved with it. Without Qt; not thread-safe.
+/// Registers one MR of the open case to its CT in every available way. Changes take effect in the
+/// case at once, are saved with it, and are steps of WorkstationModel::undo, manual motions that
+/// come quickly after one another a single one. Without Qt; not thread-safe.
 class RegistrationSession
 {
 public:
@@ -46,11 +47,10 @@ public:
 
   void caseChanged(); ///< resets everything; selects the first MR
   /// Other parts of the same case. True if the MR that was chosen is still there, also under
-  /// another name: it stays chosen, with its landmarks; the undo history goes if an MR went. Else
-  /// as caseChanged.
+  /// another name: it stays chosen, with its landmarks. Else as caseChanged.
   bool partsChanged();
 
-  void choose(const std::string& mr); ///< clears the landmarks; keeps the undo history
+  void choose(const std::string& mr); ///< clears the landmarks
   const std::string& mr() const noexcept { return m_name; }
   std::vector<std::string> mrNames() const; ///< of the case
   const scene::ImagePart* part() const;     ///< nullptr if the case has no MR
@@ -97,18 +97,16 @@ public:
   /// Throws InvalidParameter for an empty name or an MR that is not registered.
   void signOff(const std::string& who, const std::string& when);
 
-  bool canUndo() const noexcept { return !m_undo.empty(); }
-  bool canRedo() const noexcept { return !m_redo.empty(); }
-  void undo(); ///< one registration change; a sign-off is not restored
-  void redo();
+  /// WorkstationModel::undoMr; a sign-off is not restored.
+  bool canUndo() const noexcept { return m_model.canUndoMr(); }
+  bool canRedo() const noexcept { return m_model.canRedoMr(); }
+  void undo() { m_model.undoMr(); }
+  void redo() { m_model.redoMr(); }
+  std::string undoText() const { return m_model.undoMrText(); } ///< empty: nothing
+  std::string redoText() const { return m_model.redoMrText(); }
 
 private:
-  using Places = std::vector<scene::MrPlace>;
-
   void checkAim();
-  void restore(const Places& places);
-  void change(const std::function<void(scene::Case&)>& what);
-  void lay(const core::RigidTransform& mrFromCt, const scene::Registration& how);
   void moveByHand(const core::RigidTransform& mrFromCt);
 
   WorkstationModel& m_model;
@@ -117,8 +115,6 @@ private:
   LandmarkList m_landmarks;
   core::RigidTransform m_fitted; // the last one not set by hand
   RegistrationAim m_aim;
-  std::vector<Places> m_undo;
-  std::vector<Places> m_redo;
 };
 
 } // namespace petrous::presenters

@@ -286,9 +286,19 @@ public:
   /// nullptr: there is no such part. "ct" is bone, scene::kSoftTissue soft tissue.
   const appearance::StructureAppearance* lookOf(const std::string& part) const;
 
-  /// Changes the registration of MRs (Scene/ApplyRegistration.h). Puts the tool away if that moves
+  /// Changes the registration of MRs (Scene/ApplyRegistration.h); can be undone as `what`, unless
+  /// that is empty, but for sign-offs, which do not come back. Puts the tool away if that moves
   /// structures drawn on them. No effect while drilling; exceptions of `change` propagate.
-  void changeMr(const std::function<void(scene::Case&)>& change);
+  void changeMr(const std::function<void(scene::Case&)>& change, const std::string& what = {},
+                const std::string& continues = {});
+  /// The last of these changes, though others or strokes came after it: what `undo` would come to.
+  /// Not beyond a change of the parts (EditHistory::nextOf), and not while drilling.
+  bool canUndoMr() const noexcept;
+  bool canRedoMr() const noexcept;
+  std::string undoMrText() const; ///< empty: none
+  std::string redoMrText() const;
+  void undoMr();
+  void redoMr();
 
   /// The scene contents of the case; requires a case; see SceneAssembly.
   rendering::SceneContents sceneContents();
@@ -308,8 +318,8 @@ public:
 
   std::optional<double> hounsfieldAt(const Eigen::Vector3d& patient) const;
   std::string structureAt(const Eigen::Vector3d& patient) const; ///< empty: none
-  /// As `petrous probe` reports it, plus the nearest structure; requires a case. The first reading
-  /// of a case scans its labels (some tenths of a second).
+  /// As `petrous probe` reports it, plus the nearest structure, whose distance fields the first
+  /// reading of a case has computed in a separate thread; requires a case.
   PlaceReading readPlace(const Eigen::Vector3d& patient);
   /// Changes with the tissue, also by drilling.
   std::uint64_t tissueChanges() const noexcept { return m_tissueChanges; }
@@ -422,6 +432,7 @@ private:
   void notifyMask(const std::vector<std::size_t>& bricks);
   session::TouchSession::News hear(session::TouchSession::News news);
   void step(bool back);
+  void stepEdit(const std::function<void()>& step);
   void recordEdit(EditHistory::Edit edit);
   void recordAddition(const std::vector<std::string>& names);
   void applyIso(double hounsfield);

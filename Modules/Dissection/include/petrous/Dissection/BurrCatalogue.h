@@ -10,6 +10,8 @@
 namespace petrous::dissection
 {
 
+constexpr double kMaxBurrDiameter = 10.0; ///< mm
+
 /// A burr in all its diameters: its constants in the removal laws.
 struct BurrModel
 {

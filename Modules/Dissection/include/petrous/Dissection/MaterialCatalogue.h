@@ -7,6 +7,10 @@
 namespace petrous::dissection
 {
 
+// Units of materials.json.
+constexpr double kPascalOfGiga = 1e9;
+constexpr double kPascalOfVickers = 9.807e6; ///< of 1 HV = 1 kgf/mm^2
+
 /// A drillable material: the constants of the removal laws, SI.
 struct TissueMaterial
 {

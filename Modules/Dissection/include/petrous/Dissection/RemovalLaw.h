@@ -23,10 +23,12 @@ class OrthogonalCutting
 {
 public:
   static constexpr double kMinDifference = 0.1; ///< of mu - tan alpha
+  static constexpr double kMaxFriction = 2.0;
+  static constexpr double kMaxRake = 1.0471975511965976; ///< pi/3, rad; to either side
 
   /// specificEnergy  W_c, Pa, > 0
-  /// friction        mu of the chip on the tool face, 0 to 2
-  /// rake            alpha, rad, within +-pi/3
+  /// friction        mu of the chip on the tool face, 0 to kMaxFriction
+  /// rake            alpha, rad, within +-kMaxRake
   /// Throws InvalidParameter naming the value, or the pair, outside the domain.
   OrthogonalCutting(double specificEnergy, double friction, double rake);
 
@@ -42,8 +44,10 @@ private:
 class AbrasiveWear
 {
 public:
+  static constexpr double kMaxWearCoefficient = 1.0;
+
   /// hardness         H, Pa, > 0
-  /// wearCoefficient  k, above 0 to 1
+  /// wearCoefficient  k, above 0 to kMaxWearCoefficient
   /// Throws InvalidParameter naming the value outside the domain.
   AbrasiveWear(double hardness, double wearCoefficient);
 

@@ -59,6 +59,24 @@ bool readsMr(const scene::Case& value, const StructureAppearance& look)
   return !look.sourceImage.empty() || value.ct.modality == scene::Modality::Mr;
 }
 
+// Values of an MR mean nothing in a CT, nor those of a CT in an MR.
+void checkValues(const scene::Case& value, const std::string& part, const StructureAppearance& look,
+                 const StructureAppearance& preset)
+{
+  const bool ofMr = preset.sourceImage == appearance::OwnPresets::kOfMr;
+  if (!ofMr && preset.sourceImage != appearance::OwnPresets::kOfCt)
+    return;
+  const std::string read =
+      look.solid && !look.sourceImage.empty() ? look.sourceImage : std::string();
+  const bool isMr = !read.empty() || value.ct.modality == scene::Modality::Mr;
+  if (ofMr == isMr)
+    return;
+  throw core::InvalidParameter(
+      "preset '" + preset.preset + "' has values of " + (ofMr ? "an MR" : "a CT") +
+      ", which mean nothing in the " + (read.empty() ? primaryName(value) : "MR '" + read + "'") +
+      " that '" + part + "' reads; have it read " + (ofMr ? "an MR" : "the CT") + " first");
+}
+
 StructureAppearance withFunctionOfMr(StructureAppearance look,
                                      const volume::IntensityHistogram& histogram)
 {
@@ -403,7 +421,8 @@ void AppearanceEditor::applyPreset(const std::string& name)
 void AppearanceEditor::savePreset(const std::string& name)
 {
   if (selected())
-    appearance::OwnPresets(m_model.library().folder()).save(selected()->look, name);
+    appearance::OwnPresets(m_model.library().folder())
+        .save(selected()->look, name, m_model.value().ct.modality == scene::Modality::Mr);
 }
 
 void AppearanceEditor::deletePreset(const std::string& name)
@@ -471,15 +490,10 @@ void AppearanceEditor::setSource(const std::string& image)
       (!image.empty() && !scene::findMr(m_model.value(), image)))
     return;
   StructureAppearance look = selected()->look;
-  look.sourceImage = image;
   if (selected()->name == kSoftTissue)
-    try
-    {
-      look = softTissueReading(m_model.value(), image, m_histograms.image(image));
-    }
-    catch (const core::Error&) // said where the case was opened; without a function it is not drawn
-    {
-    }
+    look = softTissueReading(m_model.value(), image, m_histograms.image(image));
+  else
+    look.sourceImage = image;
   m_point.reset();
   set(look);
 }
@@ -614,6 +628,7 @@ StructureAppearance withPreset(const scene::Case& value, const std::string& part
       if (mesh.name == part)
         look = mesh.look;
   (isSoftTissue ? appearance::applySoftTissuePreset : appearance::applyPreset)(look, preset);
+  checkValues(value, part, look, preset);
   if (preset.preset != appearance::StructurePresets::builtIn().lookFor(kOpenColor).preset)
     return look;
   std::vector<std::array<float, 3>> taken;

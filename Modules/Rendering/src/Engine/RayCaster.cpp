@@ -281,12 +281,16 @@ void RayCaster::setContents(const SceneContents& contents)
   const OccupancyGrid::Rules before =
       m_contents.materials.empty() ? OccupancyGrid::Rules{} : rules();
   m_newMaterials |= !sameMaterials(contents, m_contents);
-  m_newOpacities |= !sameOpacities(contents.materials, m_contents.materials);
-  m_newRules |= mask != m_contents.mask || !sameCt || m_newLabels;
+  bool newTissue = mask != m_contents.mask || !sameCt || m_newLabels;
   if (mask != m_contents.mask || !sameCt)
     m_mask.reset(mask, m_quality.maskBits, m_quality.largestTexture);
   else
-    m_newRules |= m_mask.compare();
+    newTissue |= m_mask.compare();
+  m_newRules |= newTissue;
+  // What stops the light depends on the bricks' tissue, not on what a ray sees in it.
+  m_newOpacities |= newTissue || contents.iso != m_contents.iso ||
+                    contents.boneShown != m_contents.boneShown ||
+                    !sameOpacities(contents.materials, m_contents.materials);
   m_contents = contents;
   m_contents.mask = std::move(mask);
   if (m_contents.materials.empty())
@@ -311,7 +315,7 @@ void RayCaster::setQuality(const RenderQuality& quality)
   if (quality.brick != m_quality.brick)
   {
     m_occupancy.reset();
-    m_newRules = true;
+    m_newRules = m_newOpacities = true;
   }
   m_newMaterials |= quality.tableSize != m_quality.tableSize;
   m_quality = quality;
@@ -335,6 +339,8 @@ void RayCaster::maskChanged(std::shared_ptr<const volume::CutMask> mask, const c
       m_dirtyOpacities =
           m_dirtyOpacities.united(m_opacities->maskChanged(lightStoppers(), *m_occupancy, box));
   }
+  else
+    m_newOpacities = true; // they are measured where the bricks say, which are not known yet
 }
 
 void RayCaster::expectCut(bool expected)
@@ -417,11 +423,12 @@ void RayCaster::uploadOpacities()
     return;
   }
   core::IndexBox dirty = m_dirtyOpacities;
-  if (!m_opacities || m_newOpacities || m_newRules || m_newLabels || m_newCt)
+  if (!m_opacities || m_newOpacities)
   {
     if (!m_opacities)
       m_opacities = std::make_unique<OpacityPyramid>(m_contents.ct->geometry());
     m_opacities->rebuild(lightStoppers(), *m_occupancy);
+    ++m_statistics.opacityRebuilds;
     dirty = {{0, 0, 0}, m_opacities->levels().front().dims};
   }
   const std::vector<OpacityPyramid::Level>& levels = m_opacities->levels();

@@ -528,6 +528,7 @@ void run(const Context& context, const Options& options)
     fit(context, value, part);
   if (value.softTissue.shown)
     warnOfSoftTissue(context, value);
+  warnOfMrs(context, value);
   for (const std::string& assignment : options.savedPresets)
     appearance::OwnPresets::checkName(split(value, assignment, "--save-preset PART=NAME").second);
   std::vector<std::string> files;

@@ -75,6 +75,14 @@ SceneContents softSecond()
   return contents;
 }
 
+SceneContents softThird()
+{
+  SceneContents contents = fullSceneOfThree();
+  contents.softTissue = softSecond().softTissue;
+  contents.softTissue->source = appearance::IntensitySource::Third;
+  return contents;
+}
+
 SceneContents clipped()
 {
   SceneContents contents = cutBall(0.35F);
@@ -107,7 +115,8 @@ std::vector<Named> scenes()
           {"clipped", withShells(clipped())},
           {"shadows", withShells(shadowed())},
           {"noBone", withShells(withoutBone())},
-          {"secondImage", softSecond()}};
+          {"secondImage", softSecond()},
+          {"thirdImage", softThird()}};
 }
 
 } // namespace

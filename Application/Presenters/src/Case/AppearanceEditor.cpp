@@ -60,21 +60,19 @@ bool readsMr(const scene::Case& value, const StructureAppearance& look)
 }
 
 // Values of an MR mean nothing in a CT, nor those of a CT in an MR.
-void checkValues(const scene::Case& value, const std::string& part, const StructureAppearance& look,
+void checkValues(const scene::Case& value, const StructureAppearance& look,
                  const StructureAppearance& preset)
 {
   const bool ofMr = preset.sourceImage == appearance::OwnPresets::kOfMr;
   if (!ofMr && preset.sourceImage != appearance::OwnPresets::kOfCt)
     return;
-  const std::string read =
-      look.solid && !look.sourceImage.empty() ? look.sourceImage : std::string();
-  const bool isMr = !read.empty() || value.ct.modality == scene::Modality::Mr;
-  if (ofMr == isMr)
+  const std::string mr = look.solid ? look.sourceImage : std::string(); // as lumenMaterial reads
+  if (ofMr == (!mr.empty() || value.ct.modality == scene::Modality::Mr))
     return;
-  throw core::InvalidParameter(
-      "preset '" + preset.preset + "' has values of " + (ofMr ? "an MR" : "a CT") +
-      ", which mean nothing in the " + (read.empty() ? primaryName(value) : "MR '" + read + "'") +
-      " that '" + part + "' reads; have it read " + (ofMr ? "an MR" : "the CT") + " first");
+  throw core::InvalidParameter("preset '" + preset.preset + "' has values of " +
+                               (ofMr ? "an MR" : "a CT") + ", which mean nothing in the " +
+                               (mr.empty() ? primaryName(value) : "MR '" + mr + "'") +
+                               "; choose another image to be read first");
 }
 
 StructureAppearance withFunctionOfMr(StructureAppearance look,
@@ -514,7 +512,7 @@ std::string AppearanceEditor::notice() const
   if (!look.transfer || look.relative)
     return "Presets are made for CT: drawn in one colour until it has points in values of '" +
            look.sourceImage + "'";
-  return {};
+  return mrMissing(m_model.value(), look.sourceImage);
 }
 
 AppearanceHistograms::Histogram AppearanceEditor::imageHistogram() const
@@ -628,7 +626,7 @@ StructureAppearance withPreset(const scene::Case& value, const std::string& part
       if (mesh.name == part)
         look = mesh.look;
   (isSoftTissue ? appearance::applySoftTissuePreset : appearance::applyPreset)(look, preset);
-  checkValues(value, part, look, preset);
+  checkValues(value, look, preset);
   if (preset.preset != appearance::StructurePresets::builtIn().lookFor(kOpenColor).preset)
     return look;
   std::vector<std::array<float, 3>> taken;

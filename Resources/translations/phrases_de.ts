@@ -9245,8 +9245,8 @@
         <translation>Implantat (Titan)</translation>
     </message>
     <message>
-        <source>hardness of titanium alloys 330 to 380 HV in handbooks; energy unsure</source>
-        <translation>Härte von Titanlegierungen 330 bis 380 HV in Handbüchern; Energie unsicher</translation>
+        <source>hardness of titanium alloys 330 to 380 HV in handbooks; energy and friction unsure</source>
+        <translation>Härte von Titanlegierungen 330 bis 380 HV in Handbüchern; Energie und Reibung unsicher</translation>
     </message>
     <message>
         <source>rake 0 to -30 degrees tested, 0 to -10 best (Krause 1987, abstract)</source>

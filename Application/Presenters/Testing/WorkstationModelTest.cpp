@@ -1409,6 +1409,16 @@ TEST_F(WorkstationModelTest, AnMrThatComesBackLeavesWhatWasEditedSince)
   EXPECT_TRUE(lookOf(scene::kSoftTissue).transfer == ofMr);
   EXPECT_EQ(lookOf(scene::kSoftTissue).opacity, 0.5F);
   EXPECT_TRUE(lookOf(scene::kSoftTissue).shown);
+  EXPECT_EQ(lookOf("a1").sourceImage, "T2");
+  // Back to what was at first.
+  for (int n = 0; n < 3; ++n)
+    model.undo();
+  EXPECT_FALSE(model.canUndo());
+  for (const char* part : {scene::kSoftTissue, "a1", "a2"})
+  {
+    EXPECT_EQ(lookOf(part).sourceImage, "T2") << part;
+    EXPECT_TRUE(lookOf(part).transfer == ofMr) << part;
+  }
 }
 
 TEST_F(WorkstationModelTest, WhatWasDrilledKeepsItsName)

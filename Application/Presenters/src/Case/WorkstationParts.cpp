@@ -303,10 +303,21 @@ void WorkstationModel::restorePart()
     return;
   const std::string name = m_removed.back().name;
   const std::uint64_t removal = m_removed.back().id;
+  const std::vector<PartLook> readers = m_removed.back().readers;
   bringBack(removal);
   recordEdit({"return of " + shownName(name),
               {},
-              [this, name, removal] { takeOut(name, removal); },
+              [this, name, removal, readers]
+              {
+                takeOut(name, removal);
+                // Those that were edited, and are undone next, read it again with the removal.
+                std::vector<PartLook>& present = m_removed.back().readers;
+                for (const PartLook& reader : readers)
+                  if (std::none_of(present.begin(), present.end(),
+                                   [&reader](const PartLook& one)
+                                   { return one.part == reader.part; }))
+                    present.push_back(reader);
+              },
               [this, removal] { bringBack(removal); },
               true});
 }

@@ -277,6 +277,7 @@ TEST_F(RenderCommand, SoftTissueOfOnePictureLeavesTheCase)
   json("appearance ball --flags soft-tissue=shown --tf soft-tissue=none");
   EXPECT_NE(run(render("")).err.find("soft tissue is not drawn"), std::string::npos);
   EXPECT_EQ(run(render("--no-soft-tissue")).err.find("soft tissue"), std::string::npos);
+  EXPECT_EQ(json(render("--soft-tissue"))["mr"], nlohmann::json::array()) << "it reads the CT";
   expectRefused(render("--soft-tissue=zebra"), 3, "zebra");
   for (const char* value : {"skin", "true", "false", "zebra"})
     expectRefused(render(std::string("--no-soft-tissue=") + value), 2, "takes no value");

@@ -340,6 +340,37 @@ TEST_F(AppearanceCommand, SoftTissueOfAnMrHasAFunctionOfItsValues)
   EXPECT_EQ(part("soft-tissue")["transfer"]["relative"], true);
 }
 
+TEST_F(AppearanceCommand, APresetOfMrValuesIsNotPutOnTheCt)
+{
+  json("appearance ear --source cochlea=t2 --source soft-tissue=t2 --tf cochlea=" +
+       file("f.json", kTransfer));
+  json("appearance ear --save-preset cochlea=of-mr --save-preset soft-tissue=soft-mr");
+  json("appearance ear --source cochlea=ct --source soft-tissue=ct");
+  json("appearance ear --save-preset cochlea=of-ct");
+  std::map<std::string, nlohmann::json> valuesOf;
+  for (const auto& preset : json("appearance --presets")["presets"])
+    valuesOf[preset["name"]] = preset["values_of"];
+  EXPECT_EQ(valuesOf.at("of-mr"), "mr");
+  EXPECT_EQ(valuesOf.at("of-ct"), "ct");
+  EXPECT_TRUE(valuesOf.at("skin").is_null());
+  const auto before = libraryContent();
+  expectRefused("appearance ear --set cochlea=of-mr", 3, "values of an MR");
+  expectRefused("appearance ear --set ct=of-mr", 3, "values of an MR");
+  expectRefused("appearance ear --set soft-tissue=soft-mr", 3, "values of an MR");
+  expectRefused("appearance ear --set cochlea=of-ct --source cochlea=t2", 3, "values of a CT");
+  EXPECT_EQ(libraryContent(), before);
+  // What it reads may be said in the same command.
+  json("appearance ear --set cochlea=of-mr --source cochlea=t2 --set soft-tissue=soft-mr "
+       "--source soft-tissue=t2");
+  EXPECT_EQ(part("cochlea")["preset"], "of-mr");
+  EXPECT_EQ(part("cochlea")["source"], "t2");
+  EXPECT_EQ(part("soft-tissue")["preset"], "soft-mr");
+  EXPECT_EQ(part("soft-tissue")["source"], "t2");
+  // Soft tissue goes back to the CT with a preset for it.
+  json("appearance ear --set soft-tissue=of-ct");
+  EXPECT_EQ(part("soft-tissue")["source"], "ct");
+}
+
 TEST_F(AppearanceCommand, AStructureMayBeCalledSoftTissue)
 {
   json("new other --ct " + quoted(m_folder / "head.nrrd") +

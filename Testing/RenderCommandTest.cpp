@@ -242,6 +242,11 @@ TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
   expectRefused(render("--exposure 5"), 2, "EV");
   expectRefused(render("--exposure nan"), 2, "--exposure");
   expectRefused(render("--wetness 1.5"), 2, "--wetness");
+  EXPECT_EQ(drawn("--shadows=false"), plain);
+  expectRefused(render("--shadows=some"), 2, "--shadows");
+  for (const char* flag : {"--no-shadows", "--no-tone-curve"})
+    for (const char* value : {"false", "true", "3", "some"})
+      expectRefused(render(std::string(flag) + "=" + value), 2, "takes no value");
   expectRefused(render("--light-falloff -1"), 2, "mm");
   expectRefused(render("--light-falloff nan"), 2, "--light-falloff");
 }
@@ -272,7 +277,10 @@ TEST_F(RenderCommand, SoftTissueOfOnePictureLeavesTheCase)
   json("appearance ball --flags soft-tissue=shown --tf soft-tissue=none");
   EXPECT_NE(run(render("")).err.find("soft tissue is not drawn"), std::string::npos);
   EXPECT_EQ(run(render("--no-soft-tissue")).err.find("soft tissue"), std::string::npos);
+  EXPECT_EQ(json(render("--soft-tissue"))["mr"], nlohmann::json::array()) << "it reads the CT";
   expectRefused(render("--soft-tissue=zebra"), 3, "zebra");
+  for (const char* value : {"skin", "true", "false", "zebra"})
+    expectRefused(render(std::string("--no-soft-tissue=") + value), 2, "takes no value");
   expectRefused(render("--soft-tissue=air-cells"), 3, "lumen");
 }
 

@@ -136,6 +136,8 @@ void listPresets(const Context& context)
       j.erase("source");
       j["name"] = look.preset;
       j["own"] = isOwn;
+      j["values_of"] =
+          look.sourceImage.empty() ? nlohmann::json() : nlohmann::json(look.sourceImage);
       presets.push_back(std::move(j));
       context.print("  " + look.preset + ": " + hex(look.color) + describe(look, {}) +
                     (isOwn ? " (of this library)" : ""));
@@ -261,10 +263,17 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
   value.iso = iso;
 }
 
-void setPreset(const library::Library& library, scene::Case& value, const std::string& assignment)
+// `sources`: of --source. The image that the part is given besides is the one that counts.
+void setPreset(const library::Library& library, scene::Case& value, const std::string& assignment,
+               const std::vector<std::string>& sources)
 {
   const auto [part, name] = split(value, assignment, "--set PART=PRESET");
   const auto preset = appearance::OwnPresets(library.folder()).preset(name);
+  if (!preset.sourceImage.empty() && !part.meshOnly)
+    for (const std::string& source : sources)
+      if (const auto [reader, image] = split(value, source, "--source PART=MR|ct");
+          reader.looks == part.looks && (image == "ct" || scene::findMr(value, image)))
+        part.looks.front()->sourceImage = image == "ct" ? std::string() : image;
   const StructureAppearance set = presenters::withPreset(value, part.name, preset);
   if (part.softTissue)
   {
@@ -291,7 +300,8 @@ void fit(const Context& context, scene::Case& value, const std::string& name)
 void savePreset(const library::Library& library, scene::Case& value, const std::string& assignment)
 {
   const auto [part, name] = split(value, assignment, "--save-preset PART=NAME");
-  appearance::OwnPresets(library.folder()).save(*part.looks.front(), name);
+  appearance::OwnPresets(library.folder())
+      .save(*part.looks.front(), name, value.ct.modality == scene::Modality::Mr);
 }
 
 void saveFunction(scene::Case& value, const std::string& assignment)
@@ -501,7 +511,7 @@ void run(const Context& context, const Options& options)
     setIso(context, value, options.iso);
   // A preset first, then deviations from it.
   for (const std::string& assignment : options.set)
-    setPreset(library, value, assignment);
+    setPreset(library, value, assignment, options.values.at("--source"));
   for (const std::string& assignment : options.flags)
     setPartFlags(context, value, assignment);
   // Soft tissue gets a function with another image: one that is given replaces it.
@@ -518,6 +528,7 @@ void run(const Context& context, const Options& options)
     fit(context, value, part);
   if (value.softTissue.shown)
     warnOfSoftTissue(context, value);
+  warnOfMrs(context, value);
   for (const std::string& assignment : options.savedPresets)
     appearance::OwnPresets::checkName(split(value, assignment, "--save-preset PART=NAME").second);
   std::vector<std::string> files;

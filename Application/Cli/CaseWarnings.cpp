@@ -67,6 +67,13 @@ void warnOfSoftTissue(const Context& context, const scene::Case& value)
     context.warn("soft tissue is not drawn: " + why);
 }
 
+void warnOfMrs(const Context& context, const scene::Case& value)
+{
+  for (const scene::ImagePart& mr : value.mr)
+    if (const std::string why = presenters::mrMissing(value, mr.name); !why.empty())
+      context.warn(why);
+}
+
 nlohmann::json missingPlacesJson(const scene::Case& value)
 {
   nlohmann::json all = nlohmann::json::array();

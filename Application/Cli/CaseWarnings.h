@@ -19,6 +19,9 @@ void warnMissingPlaces(const Context& context, const scene::Case& value);
 /// If soft tissue would not be drawn, why.
 void warnOfSoftTissue(const Context& context, const scene::Case& value);
 
+/// Warns of MRs that bone or structures read and that are not drawn, since others are.
+void warnOfMrs(const Context& context, const scene::Case& value);
+
 /// Warns of an ear that the case does not have by its side or by the place of its images;
 /// Unknown: none is meant.
 void warnOfEar(const Context& context, const scene::Case& value, scene::Side ear);

@@ -150,6 +150,24 @@ std::string optionWithoutValue(const std::vector<std::string>& words)
   return {};
 }
 
+// A flag that switches something off has no value: the parser would negate it, or take it for that
+// of the flag that switches on.
+std::string negationWithValue(const CLI::App& command, const std::vector<std::string>& words)
+{
+  for (const std::string& word : words)
+  {
+    if (word == "--")
+      break;
+    const std::size_t end = word.find('=');
+    if (word.compare(0, 5, "--no-") != 0 || end == std::string::npos)
+      continue;
+    const CLI::Option* option = command.get_option_no_throw(word.substr(0, end));
+    if (option && option->get_items_expected_max() == 0)
+      return word.substr(0, end);
+  }
+  return {};
+}
+
 // Empty list items are dropped by the parser before they can be checked.
 std::string listWithGap(CLI::App& command, const std::vector<std::string>& words)
 {
@@ -186,8 +204,13 @@ int parsed(const Program& program, std::vector<std::string> words, Context& cont
   if (const std::string option = optionWithoutValue(words); !option.empty())
     throw UsageError(option + ": the value is empty; give one, or leave it out");
   if (!name.empty())
-    if (const std::string option = listWithGap(*app.get_subcommand(name), words); !option.empty())
+  {
+    CLI::App& command = *app.get_subcommand(name);
+    if (const std::string option = listWithGap(command, words); !option.empty())
       throw UsageError(option + ": a value of its list is empty; give one, or leave it out");
+    if (const std::string option = negationWithValue(command, words); !option.empty())
+      throw UsageError(option + " takes no value" + help);
+  }
   refuseEmptyValues(app);
   // CLI11 takes no more words of a list after "--" that has some already.
   if (const auto mark = std::find(words.begin(), words.end(), "--");

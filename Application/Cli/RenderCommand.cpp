@@ -597,6 +597,7 @@ void render(const Context& context, RenderOptions options)
   warnMissingPlaces(context, value);
   if (value.softTissue.shown)
     warnOfSoftTissue(context, value);
+  warnOfMrs(context, value);
   if (options.maskFace)
   {
     scene::ImageMask mask;
@@ -639,6 +640,7 @@ void render(const Context& context, RenderOptions options)
                         {"thickness", thicknessJson(options)},
                         {"out", options.out},
                         {"left_out", leftOutJson(value, leftOut)},
+                        {"mr", presenters::drawnMrs(value)},
                         {"resources", result.resources}});
   if (!options.thickness.empty())
     context.print("bone is coloured by its thickness over '" + options.thickness +

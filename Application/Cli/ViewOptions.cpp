@@ -151,15 +151,36 @@ scene::ViewState::Light LightOptions::over(scene::ViewState::Light light) const
   return light;
 }
 
+namespace
+{
+
+// What a switch may be given after '='. The parser by itself lets an exception of the library's
+// number parser through.
+CLI::Validator truth()
+{
+  return {[](std::string& text)
+          {
+            for (const char* known : {"true", "false", "on", "off", "yes", "no", "1", "0"})
+              if (text == known)
+                return std::string();
+            return "true or false, not '" + text + "'";
+          },
+          ""};
+}
+
+} // namespace
+
 void addLightOptions(CLI::App& command, LightOptions& options, const std::string& defaultText)
 {
   constexpr double kMaxExposure = scene::ViewState::Light::kMaxExposure;
   const auto addFlag =
       [&](const std::string& name, std::optional<bool>& value, const std::string& help)
   {
-    command.add_flag_function(
-        "--" + name + ",!--no-" + name, [&value](std::int64_t times) { value = times > 0; },
-        help + defaultText);
+    command
+        .add_flag_function(
+            "--" + name + ",!--no-" + name, [&value](std::int64_t times) { value = times > 0; },
+            help + defaultText)
+        ->check(truth());
   };
   command
       .add_option("--light-falloff", options.falloff,

@@ -4,6 +4,22 @@
 <context>
     <name>Presenters</name>
     <message>
+        <source>preset '%1' has values of an MR, which mean nothing in the %~2; choose another image to be read first</source>
+        <translation>die Vorgabe „%1“ hat Werte eines MR, die im %~2 nichts bedeuten; wählen Sie zuerst ein anderes Bild, das gelesen wird</translation>
+    </message>
+    <message>
+        <source>preset '%1' has values of an MR, which mean nothing in the MR '%2'; choose another image to be read first</source>
+        <translation>die Vorgabe „%1“ hat Werte eines MR, die im MR „%2“ nichts bedeuten; wählen Sie zuerst ein anderes Bild, das gelesen wird</translation>
+    </message>
+    <message>
+        <source>preset '%1' has values of a CT, which mean nothing in the %~2; choose another image to be read first</source>
+        <translation>die Vorgabe „%1“ hat Werte eines CT, die im %~2 nichts bedeuten; wählen Sie zuerst ein anderes Bild, das gelesen wird</translation>
+    </message>
+    <message>
+        <source>preset '%1' has values of a CT, which mean nothing in the MR '%2'; choose another image to be read first</source>
+        <translation>die Vorgabe „%1“ hat Werte eines CT, die im MR „%2“ nichts bedeuten; wählen Sie zuerst ein anderes Bild, das gelesen wird</translation>
+    </message>
+    <message>
         <source>A lumen tints the bone around it and reads the %~1</source>
         <translation>Ein Hohlraum tönt den Knochen um ihn und liest das %~1</translation>
     </message>
@@ -1280,8 +1296,12 @@
         <translation>es ist bei jeder Intensität durchsichtig</translation>
     </message>
     <message>
-        <source>it reads '%1', but bone or a structure reads '%2', and a picture shows one MR</source>
-        <translation>es liest „%1“, aber Knochen oder eine Struktur liest „%2“, und ein Bild zeigt ein MR</translation>
+        <source>it reads '%1', but bone or structures read '%2' and '%3', and a picture shows two MRs</source>
+        <translation>es liest „%1“, aber Knochen oder Strukturen lesen „%2“ und „%3“, und ein Bild zeigt zwei MR</translation>
+    </message>
+    <message>
+        <source>'%1' is not drawn, and what reads it has one colour: a picture shows two MRs, '%2' and '%3'</source>
+        <translation>„%1“ wird nicht dargestellt, und was es liest, ist einfarbig: ein Bild zeigt zwei MR, „%2“ und „%3“</translation>
     </message>
     <message>
         <source>says no modality</source>
@@ -9281,8 +9301,8 @@
         <translation>Implantat (Titan)</translation>
     </message>
     <message>
-        <source>hardness of titanium alloys 330 to 380 HV in handbooks; energy unsure</source>
-        <translation>Härte von Titanlegierungen 330 bis 380 HV in Handbüchern; Energie unsicher</translation>
+        <source>hardness of titanium alloys 330 to 380 HV in handbooks; energy and friction unsure</source>
+        <translation>Härte von Titanlegierungen 330 bis 380 HV in Handbüchern; Energie und Reibung unsicher</translation>
     </message>
     <message>
         <source>rake 0 to -30 degrees tested, 0 to -10 best (Krause 1987, abstract)</source>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -13,6 +14,7 @@
 #include "RendererBenchmarkScenes.h"
 #include "TimedView.h"
 #include "petrous/Dissection/SweptSphereCut.h"
+#include "petrous/Rendering/ReferenceRayCaster.h"
 #include "petrous/Rendering/ScenePicture.h"
 
 namespace petrous::cli
@@ -29,6 +31,8 @@ using rendering::TimedView;
 // Time limits for further frames: of a peer, excluding its first one; of both eyes.
 constexpr double kPeerSeconds = 5.0;
 constexpr double kStereoSeconds = 40.0;
+constexpr double kMovingSeconds = 20.0;
+constexpr double kMovingRate = 30.0; // Hz, that is wanted of what moves
 
 // Amount of measurement.
 struct Extent
@@ -92,6 +96,26 @@ void enterCounts(TimedView& view, OwnPicture& own, double pixels, core::Benchmar
   own.setCounting(false);
 }
 
+// The camera at a step of a swing about its focal point, which ends where it began.
+core::CameraPose swung(const core::CameraPose& middle, int step, int steps)
+{
+  constexpr double swing = 0.5; // rad to either side
+  const double angle = swing * std::sin(2.0 * std::acos(-1.0) * step / steps);
+  core::CameraPose pose = middle;
+  pose.position = middle.focalPoint + Eigen::AngleAxisd(angle, middle.viewUp.normalized()) *
+                                          (middle.position - middle.focalPoint).eval();
+  return pose;
+}
+
+// RMS of all pixels' colour against a reference of the same size, 1/255.
+double rmsOf(const rendering::Picture& picture, const std::vector<float>& truth)
+{
+  double squares = 0.0;
+  for (std::size_t n = 0; n < truth.size(); ++n)
+    squares += std::pow(picture.rgb.at(n) - 255.0 * static_cast<double>(truth[n]), 2);
+  return std::sqrt(squares / static_cast<double>(truth.size()));
+}
+
 class Run
 {
 public:
@@ -110,6 +134,7 @@ public:
   void stereo(const BenchmarkPatient& patient);
   void edits(const BenchmarkPatient& patient);
   void interaction(const BenchmarkPatient& patient, const core::Progress& progress);
+  void softTissue(const BenchmarkPatient& patient, const core::Progress& progress);
 
 private:
   void scene(const BenchmarkPatient& patient, BenchmarkView view, BenchmarkLook look,
@@ -309,7 +334,6 @@ void Run::edits(const BenchmarkPatient& patient)
 // estimated.
 void Run::interaction(const BenchmarkPatient& patient, const core::Progress& progress)
 {
-  constexpr double swing = 0.5; // rad to either side
   double done = 0.0;
   for (const BenchmarkView view : {BenchmarkView::Head, BenchmarkView::Near})
     for (const BenchmarkLook look : {BenchmarkLook::Translucent, BenchmarkLook::Opaque})
@@ -330,11 +354,7 @@ void Run::interaction(const BenchmarkPatient& patient, const core::Progress& pro
       double scale = 1.0;
       for (int n = 0; n < timing.frames; ++n)
       {
-        const double angle = swing * std::sin(2.0 * std::acos(-1.0) * (n + 1) / timing.frames);
-        core::CameraPose pose = middle;
-        pose.position = middle.focalPoint + Eigen::AngleAxisd(angle, middle.viewUp.normalized()) *
-                                                (middle.position - middle.focalPoint).eval();
-        scene.setCamera(pose);
+        scene.setCamera(swung(middle, n + 1, timing.frames));
         seconds.push_back(m_view.frame(false));
         scale = std::min(scale, 1.0 * scene.depth().width / m_extent.picture.width);
       }
@@ -348,6 +368,91 @@ void Run::interaction(const BenchmarkPatient& patient, const core::Progress& pro
       point.extra["smallest_scale"] = scale;
       m_report.points.push_back(std::move(point));
     }
+}
+
+// Soft tissue alone, in optics that all programs have: at rest, and while the camera swings as in a
+// window, each program with its own adjustment. The error while it moves is that of a further frame
+// where the swing ends.
+void Run::softTissue(const BenchmarkPatient& patient, const core::Progress& progress)
+{
+  const rendering::SceneContents contents = softTissueOf(patient);
+  const core::CameraPose middle = cameraOf(patient, BenchmarkView::Head);
+  const PictureSize& size = m_extent.picture;
+  const std::string name = patient.name + ", head, soft tissue alone";
+  progress.report(0.0, name);
+  const std::vector<float> truth =
+      rendering::ReferenceRayCaster(contents)
+          .render(middle, size.width, size.height, progress.part(0.0, 0.5))
+          .rgb;
+  TimedView view(size.width, size.height); // of its own: peers change its rate
+  const auto enter =
+      [&](const std::string& scene, const TimedView::Timing& timing, const std::string& peer)
+  {
+    auto point = pointOf(scene, size, timing);
+    point.peer = peer;
+    point.isDefault = peer.empty();
+    point.error = rmsOf(view.picture(), truth);
+    point.errorUnit = "1/255, RMS of colour of all pixels";
+    m_report.points.push_back(std::move(point));
+    return &m_report.points.back();
+  };
+  const auto moving = [&](auto& picture)
+  {
+    TimedView::Timing timing;
+    timing.first = view.frame(false); // from which its speed is estimated
+    std::vector<double> seconds;
+    double sum = 0.0;
+    for (int n = 0; n < m_extent.turns && (n == 0 || sum < kMovingSeconds); ++n)
+    {
+      picture.setCamera(swung(middle, n + 1, m_extent.turns));
+      seconds.push_back(view.frame(false));
+      sum += seconds.back();
+    }
+    std::sort(seconds.begin(), seconds.end());
+    timing.median = seconds[seconds.size() / 2];
+    timing.frames = static_cast<int>(seconds.size());
+    picture.setCamera(middle);
+    view.frame(); // read back
+    return std::pair{timing, 1.0 / seconds.back()};
+  };
+  const auto enterMoving =
+      [&](const std::pair<TimedView::Timing, double>& moved, const std::string& peer)
+  {
+    core::BenchmarkPoint* point = enter(name + ", moving", moved.first, peer);
+    point->extra["hertz"] = 1.0 / moved.first.median;
+    point->extra["slowest_hertz"] = moved.second;
+    return point;
+  };
+  {
+    OwnPicture own(contents, middle);
+    view.show(own);
+    core::BenchmarkPoint* point = enter(name, view.time(m_extent.frames, kMovingSeconds), {});
+    enterCounts(view, own, 1.0 * size.width * size.height, *point);
+  }
+  {
+    rendering::ScenePicture scene;
+    scene.setContents(contents);
+    scene.setCamera(middle);
+    view.show(scene);
+    view.frame(false); // at full quality, with the uploads
+    scene.setInteractionRate(kMovingRate);
+    scene.setInteractive(true);
+    const auto moved = moving(scene);
+    enterMoving(moved, {})->extra["scale"] = 1.0 * scene.depth().width / size.width;
+  }
+  double done = 0.5;
+  for (const Peer peer : {Peer::SmartGpu, Peer::SmartCpu})
+  {
+    progress.report(done, name + ": " + nameOf(peer));
+    done += 0.25;
+    rendering::PeerPicture picture(peer, contents, middle);
+    view.show(picture);
+    enter(name, view.time(m_extent.peerFrames, kPeerSeconds), nameOf(peer));
+    picture.setUpdateRate(kMovingRate);
+    enterMoving(moving(picture), nameOf(peer));
+    constexpr double kAtRest = 0.0001; // Hz, of a new window
+    picture.setUpdateRate(kAtRest);
+  }
 }
 
 } // namespace
@@ -374,6 +479,7 @@ core::BenchmarkReport runRendererBenchmark(const RendererBenchmarkOptions& optio
     {
       run.stereo(patient);
       run.edits(patient);
+      run.softTissue(patient, part.part(0.9, 1.0));
     }
   }
   const auto part = progress.part(1.0 - 1.0 / parts, 1.0);

@@ -23,6 +23,10 @@ struct RendererBenchmarkOptions
 ///
 /// error: RMS of the colour, 1/255, over pixels whose first hits agree within half a voxel; the
 /// others are in extra["mismatch_percent"]. NaN for peers, whose optical models differ.
+///
+/// Soft tissue alone, at the largest size, is emission and absorption in all programs: there the
+/// error is over all pixels of the same 640 x 480, of peers too, at rest and of a frame as it is
+/// drawn while the camera moves.
 core::BenchmarkReport runRendererBenchmark(const RendererBenchmarkOptions& options,
                                            const core::Progress& progress);
 

@@ -47,6 +47,25 @@ rendering::SceneContents contentsOf(const BenchmarkPatient& patient, BenchmarkLo
   return contents;
 }
 
+rendering::SceneContents softTissueOf(const BenchmarkPatient& patient)
+{
+  rendering::SceneContents contents;
+  contents.ct = patient.ct;
+  contents.boneShown = false;
+  contents.iso = 1e5; // beyond all of it: what is bone is no soft tissue
+  contents.softTissue =
+      appearance::Material{appearance::TransferFunction({{-700.0, {0.90F, 0.72F, 0.60F}, 0.0F},
+                                                         {-400.0, {0.90F, 0.72F, 0.60F}, 0.10F},
+                                                         {-150.0, {0.95F, 0.85F, 0.55F}, 0.012F},
+                                                         {-50.0, {0.95F, 0.85F, 0.55F}, 0.012F},
+                                                         {20.0, {0.62F, 0.24F, 0.20F}, 0.03F},
+                                                         {100.0, {0.62F, 0.24F, 0.20F}, 0.05F},
+                                                         {300.0, {0.90F, 0.85F, 0.75F}, 0.15F},
+                                                         {1200.0, {0.97F, 0.95F, 0.88F}, 0.6F}})};
+  contents.light.ambient = 1.0;
+  return contents;
+}
+
 core::CameraPose cameraOf(const BenchmarkPatient& patient, BenchmarkView view)
 {
   if (view == BenchmarkView::Head)

@@ -473,6 +473,66 @@ TEST_F(AppearanceEditorTest, PresetsOfTheLibraryAreAppliedLikeThoseBuiltIn)
   EXPECT_THROW(m_editor->applyPreset("ear-canal"), core::InvalidParameter);
 }
 
+TEST_F(AppearanceEditorTest, APresetOfMrValuesIsNotPutOnTheCt)
+{
+  m_editor->select("nerve");
+  m_editor->setSource("t2");
+  setPoints(R"({"value": 7, "color": [1, 0, 0], "opacity": 0.5})");
+  m_editor->savePreset("of mr");
+  m_editor->setSource("");
+  setPoints(R"({"value": 40, "color": [1, 0, 0], "opacity": 0.2})");
+  m_editor->savePreset("of ct");
+  const auto before = look("nerve");
+  EXPECT_THROW(m_editor->applyPreset("of mr"), core::InvalidParameter);
+  EXPECT_TRUE(look("nerve") == before);
+  m_editor->applyPreset("of ct");
+  m_editor->select("ct");
+  EXPECT_THROW(m_editor->applyPreset("of mr"), core::InvalidParameter) << "bone reads the CT";
+  m_editor->select("nerve");
+  m_editor->setSource("t2");
+  EXPECT_THROW(m_editor->applyPreset("of ct"), core::InvalidParameter);
+  m_editor->applyPreset("of mr");
+  EXPECT_EQ(look("nerve").preset, "of mr");
+  EXPECT_EQ(look("nerve").sourceImage, "t2");
+  EXPECT_EQ(points()[0].value, 7.0);
+}
+
+TEST_F(AppearanceEditorTest, SoftTissueReadsTheCtWithAPresetOfItsValues)
+{
+  m_editor->select(AppearanceEditor::kSoftTissue);
+  setPoints(R"({"value": -100, "color": [1, 1, 0], "opacity": 0},
+               {"value": 40, "color": [1, 0, 0], "opacity": 0.2})");
+  m_editor->savePreset("of ct");
+  m_editor->setSource("t2");
+  m_editor->savePreset("of mr");
+  const auto ofMr = points();
+  m_editor->applyPreset("of ct");
+  EXPECT_EQ(m_model->value().softTissue.sourceImage, "");
+  EXPECT_EQ(points()[0].value, -100.0);
+  EXPECT_THROW(m_editor->applyPreset("of mr"), core::InvalidParameter);
+  EXPECT_EQ(m_model->value().softTissue.preset, "of ct");
+  m_editor->setSource("t2");
+  m_editor->applyPreset("of mr");
+  EXPECT_EQ(m_model->value().softTissue.sourceImage, "t2");
+  EXPECT_TRUE(points() == ofMr);
+}
+
+// The voxels of the MR are in a file that is damaged: there is no function of its values.
+TEST_F(AppearanceEditorTest, AnMrThatCannotBeReadIsNoSourceOfSoftTissue)
+{
+  scene::Case value = lineCase();
+  value.mr[0].volume =
+      core::Lazy<volume::IntensityVolume>([]() -> std::shared_ptr<const volume::IntensityVolume>
+                                          { throw core::Error(core::Fault::Internal, "damaged"); });
+  m_model->adopt(std::move(value));
+  m_editor->refresh();
+  m_editor->select(AppearanceEditor::kSoftTissue);
+  const auto before = m_model->value().softTissue;
+  EXPECT_THROW(m_editor->setSource("t2"), core::Error);
+  EXPECT_TRUE(m_model->value().softTissue == before);
+  EXPECT_FALSE(m_model->canUndo());
+}
+
 TEST_F(AppearanceEditorTest, WhatAPresetChangesOfTheVoxelsIsPreparedInTheBackground)
 {
   m_editor->select("nerve");

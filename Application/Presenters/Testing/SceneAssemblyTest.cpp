@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <map>
+#include <string>
+#include <vector>
+
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/SceneAssembly.h"
 
@@ -247,34 +251,86 @@ TEST(SceneAssembly, SaysWhySoftTissueIsNotDrawn)
   expectMissing("not registered");
 }
 
-TEST(SceneAssembly, DrawsTheMrOfSoftTissueUnlessAnotherIsDrawn)
+TEST(SceneAssembly, DrawsTheMrOfSoftTissueUnlessTwoOthersAreDrawn)
 {
   scene::Case value = slabs();
   bool t1 = false;
   bool t2 = false;
-  value.mr = {mr("t1", true, t1), mr("t2", true, t2)};
+  bool t3 = false;
+  value.mr = {mr("t1", true, t1), mr("t2", true, t2), mr("t3", true, t3)};
   value.softTissue.sourceImage = "t2";
   value.softTissue.relative = false;
   EXPECT_EQ(sceneContents(value).second.volume, nullptr) << "not shown";
   value.softTissue.shown = true;
   auto contents = sceneContents(value);
   EXPECT_TRUE(t2);
-  EXPECT_FALSE(t1);
+  EXPECT_FALSE(t1 || t3);
   EXPECT_NE(contents.second.volume, nullptr);
+  EXPECT_EQ(contents.third.volume, nullptr);
   ASSERT_TRUE(contents.softTissue);
   EXPECT_EQ(contents.softTissue->source, appearance::IntensitySource::Second);
 
-  look(value, "low").transfer = appearance::TransferFunction::constant({1, 1, 1}, 0.1F);
+  for (const char* name : {"low", "high"})
+    look(value, name).transfer = appearance::TransferFunction::constant({1, 1, 1}, 0.1F);
   look(value, "low").sourceImage = "t2"; // the same
-  EXPECT_TRUE(sceneContents(value).softTissue);
+  contents = sceneContents(value);
+  ASSERT_TRUE(contents.softTissue);
+  EXPECT_EQ(contents.softTissue->source, appearance::IntensitySource::Second);
+  EXPECT_EQ(contents.third.volume, nullptr);
+  look(value, "low").sourceImage = "t1"; // before it
+  contents = sceneContents(value);
+  ASSERT_TRUE(contents.softTissue);
+  EXPECT_EQ(contents.softTissue->source, appearance::IntensitySource::Third);
+  EXPECT_EQ(contents.second.volume, value.mr[0].volume.peek());
+  EXPECT_EQ(contents.third.volume, value.mr[1].volume.peek());
   EXPECT_EQ(softTissueMissing(value), "");
-  look(value, "low").sourceImage = "t1";
+  EXPECT_EQ(drawnMrs(value), (std::vector<std::string>{"t1", "t2"}));
+  EXPECT_FALSE(t3);
+
+  look(value, "high").sourceImage = "t3";
   EXPECT_FALSE(sceneContents(value).softTissue);
-  EXPECT_NE(softTissueMissing(value).find("reads 't1'"), std::string::npos);
-  EXPECT_TRUE(t1);
+  EXPECT_NE(softTissueMissing(value).find("read 't1' and 't3'"), std::string::npos);
+  EXPECT_EQ(drawnMrs(value), (std::vector<std::string>{"t1", "t3"}));
   look(value, "low").shown = false;
   EXPECT_TRUE(sceneContents(value).softTissue);
   EXPECT_EQ(softTissueMissing(value), "");
+}
+
+TEST(SceneAssembly, DrawsTwoMrsAndSaysWhichItDoesNot)
+{
+  scene::Case value = slabs();
+  bool t1 = false;
+  bool t2 = false;
+  bool t3 = false;
+  bool t4 = false;
+  value.mr = {mr("t1", true, t1), mr("t2", true, t2), mr("t3", true, t3), mr("t4", true, t4)};
+  value.mr[2].mrFromCt = {Eigen::Quaterniond::Identity(), {4.0, 5.0, 6.0}};
+  const std::map<const char*, const char*> images{{"low", "t3"}, {"high", "t1"}, {"far", "t4"}};
+  for (const auto& [name, image] : images)
+  {
+    look(value, name).transfer = appearance::TransferFunction::constant({1, 1, 1}, 0.1F);
+    look(value, name).sourceImage = image;
+  }
+  const auto contents = sceneContents(value);
+  EXPECT_EQ(contents.second.volume, value.mr[0].volume.peek());
+  EXPECT_EQ(contents.third.volume, value.mr[2].volume.peek());
+  EXPECT_EQ(contents.second.secondFromCt.translation(), Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(contents.third.secondFromCt.translation(), Vector3d(4.0, 5.0, 6.0));
+  EXPECT_EQ(contents.materials.at(1).source, appearance::IntensitySource::Third) << "low";
+  EXPECT_EQ(contents.materials.at(2).source, appearance::IntensitySource::Second) << "high";
+  EXPECT_EQ(contents.materials.at(3).source, appearance::IntensitySource::Ct) << "far";
+  EXPECT_FALSE(contents.materials.at(3).transfer == *look(value, "far").transfer);
+  EXPECT_TRUE(t1 && t3);
+  EXPECT_FALSE(t2) << "nothing reads it";
+  EXPECT_FALSE(t4) << "nothing shows it";
+  EXPECT_EQ(drawnMrs(value), (std::vector<std::string>{"t1", "t3"}));
+  EXPECT_NE(mrMissing(value, "t4").find("'t1' and 't3'"), std::string::npos);
+  for (const char* drawn : {"t1", "t2", "t3", "none"})
+    EXPECT_EQ(mrMissing(value, drawn), "") << drawn;
+  // The user chooses by what is shown.
+  look(value, "high").shown = false;
+  EXPECT_EQ(mrMissing(value, "t4"), "");
+  EXPECT_EQ(drawnMrs(value), (std::vector<std::string>{"t3", "t4"}));
 }
 
 TEST(SceneAssembly, ALumenTintsBone)

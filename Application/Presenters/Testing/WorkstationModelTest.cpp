@@ -1343,6 +1343,84 @@ TEST_F(WorkstationModelTest, AnMrThatComesBackColorsWhatItColored)
   EXPECT_EQ(model.value().labels[0].structures[0].look.sourceImage, "");
 }
 
+// Its values are not those of what was edited since.
+TEST_F(WorkstationModelTest, AnMrThatComesBackLeavesWhatWasEditedSince)
+{
+  const appearance::TransferFunction ofMr(
+      {{100.0, {0.2F, 0.2F, 0.2F}, 0.0F}, {900.0, {0.9F, 0.9F, 0.9F}, 0.1F}});
+  const appearance::TransferFunction ofCt(
+      {{-150.0, {0.9F, 0.8F, 0.5F}, 0.0F}, {60.0, {0.6F, 0.2F, 0.2F}, 0.2F}});
+  library::Library library(folder);
+  scene::Case value = block("block");
+  value.labels.push_back(threeStructures(value.ct.geometry, "a", 30));
+  for (auto* look : {&value.softTissue, &value.labels[0].structures[0].look,
+                     &value.labels[0].structures[1].look})
+  {
+    look->sourceImage = "T2";
+    look->relative = false;
+    look->transfer = ofMr;
+  }
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  value.mr = {mr};
+  WorkstationModel model{library};
+  model.adopt(std::move(value));
+  model.prepareNow();
+  const auto lookOf = [&model](const std::string& part) { return *model.lookOf(part); };
+  const auto edit = [&](const std::string& part, const auto& change)
+  {
+    auto look = lookOf(part);
+    change(look);
+    model.setLook(part, look);
+  };
+  const auto drawsCt = [&ofCt](appearance::StructureAppearance& look)
+  {
+    look.transfer = ofCt;
+    look.relative = false;
+  };
+  model.removePart("T2");
+  edit(scene::kSoftTissue, drawsCt);
+  edit("a1", drawsCt);
+  edit("a2", [](auto& look) { appearance::setColor(look, {0.1F, 0.9F, 0.1F}); });
+  const auto softTissue = lookOf(scene::kSoftTissue);
+  model.restorePart();
+  ASSERT_TRUE(scene::findMr(model.value(), "T2"));
+  EXPECT_TRUE(lookOf(scene::kSoftTissue) == softTissue);
+  EXPECT_EQ(lookOf("a1").sourceImage, "");
+  EXPECT_TRUE(lookOf("a1").transfer == ofCt);
+  EXPECT_EQ(lookOf("a2").sourceImage, "T2") << "a colour has no values";
+  EXPECT_EQ(lookOf("a2").color[1], 0.9F);
+  model.undo();
+  EXPECT_FALSE(scene::findMr(model.value(), "T2"));
+  EXPECT_TRUE(lookOf(scene::kSoftTissue) == softTissue);
+  EXPECT_EQ(lookOf("a2").sourceImage, "");
+
+  // What is no function of values stays as edited, and the function comes back.
+  for (int n = 0; n < 3; ++n)
+    model.undo();
+  edit(scene::kSoftTissue,
+       [](auto& look)
+       {
+         look.shown = true;
+         look.opacity = 0.5F;
+       });
+  model.restorePart();
+  EXPECT_EQ(lookOf(scene::kSoftTissue).sourceImage, "T2");
+  EXPECT_TRUE(lookOf(scene::kSoftTissue).transfer == ofMr);
+  EXPECT_EQ(lookOf(scene::kSoftTissue).opacity, 0.5F);
+  EXPECT_TRUE(lookOf(scene::kSoftTissue).shown);
+  EXPECT_EQ(lookOf("a1").sourceImage, "T2");
+  // Back to what was at first.
+  for (int n = 0; n < 3; ++n)
+    model.undo();
+  EXPECT_FALSE(model.canUndo());
+  for (const char* part : {scene::kSoftTissue, "a1", "a2"})
+  {
+    EXPECT_EQ(lookOf(part).sourceImage, "T2") << part;
+    EXPECT_TRUE(lookOf(part).transfer == ofMr) << part;
+  }
+}
+
 TEST_F(WorkstationModelTest, WhatWasDrilledKeepsItsName)
 {
   library::Library library(folder);

@@ -82,13 +82,42 @@ TEST_F(OwnPresetsTest, GiveBackWhatWasSavedWithoutFlagsAndImage)
   EXPECT_FALSE(saved.relative);
   EXPECT_EQ(saved.shininess, 40.0F);
   EXPECT_EQ(saved.priority, 12);
-  EXPECT_TRUE(saved.sourceImage.empty());
+  EXPECT_EQ(saved.sourceImage, OwnPresets::kOfMr) << "which one is not said";
   const auto entry =
       nlohmann::json::parse(std::ifstream(m_folder / "presets.json")).at("presets").at(0);
   EXPECT_EQ(entry.at("name"), "our sinus");
   EXPECT_EQ(entry.at("transfer").at("points").at(1).at("value"), 250.0);
   EXPECT_FALSE(entry.contains("flags"));
   EXPECT_FALSE(entry.contains("source_image"));
+}
+
+TEST_F(OwnPresetsTest, SayWhoseValuesTheyHave)
+{
+  const OwnPresets presets(m_folder);
+  const auto valuesOf = [&](const StructureAppearance& look, bool isPrimaryMr)
+  {
+    presets.save(look, "one", isPrimaryMr);
+    return OwnPresets(m_folder).preset("one").sourceImage;
+  };
+  StructureAppearance look = sinus();
+  EXPECT_EQ(valuesOf(look, false), "mr");
+  look.solid = false;
+  EXPECT_EQ(valuesOf(look, false), "ct") << "a lumen reads the bone around it";
+  look.solid = true;
+  look.sourceImage.clear();
+  EXPECT_EQ(valuesOf(look, false), "ct");
+  EXPECT_EQ(valuesOf(look, true), "mr");
+  look.relative = true;
+  EXPECT_EQ(valuesOf(look, true), "") << "mapped to where bone lies";
+  look.transfer.reset();
+  EXPECT_EQ(valuesOf(look, true), "");
+  // One that an earlier version saved.
+  writeFile(R"({"presets": [{"name": "old", "color": [1, 0, 0], "opacity": 1, "solid": true}]})");
+  EXPECT_EQ(OwnPresets(m_folder).preset("old").sourceImage, "") << refusal();
+  writeFile(
+      R"({"presets": [{"name": "x", "color": [1, 0, 0], "opacity": 1, "solid": true,
+      "values_of": "pet"}]})");
+  EXPECT_NE(refusal().find("values_of"), std::string::npos) << refusal();
 }
 
 TEST_F(OwnPresetsTest, AreListedByNameReplacedAndRemoved)

@@ -100,7 +100,8 @@ StructureAppearance OwnPresets::preset(const std::string& name) const
   }
 }
 
-StructureAppearance OwnPresets::save(const StructureAppearance& look, const std::string& name) const
+StructureAppearance OwnPresets::save(const StructureAppearance& look, const std::string& name,
+                                     bool isPrimaryMr) const
 {
   checkName(name);
   std::error_code none;
@@ -109,6 +110,10 @@ StructureAppearance OwnPresets::save(const StructureAppearance& look, const std:
   std::vector<StructureAppearance> presets = all();
   StructureAppearance preset = look;
   preset.preset = name;
+  const bool readsOther = look.solid && !look.sourceImage.empty(); // a lumen reads the bone around
+  preset.sourceImage = !look.transfer || look.relative ? ""
+                       : readsOther || isPrimaryMr     ? kOfMr
+                                                       : kOfCt;
   preset = presetFrom(presetJson(preset)); // as it will be read
   const auto before = std::find_if(presets.begin(), presets.end(),
                                    [&name](const auto& one) { return one.preset == name; });

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "petrous/Appearance/OwnPresets.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Core/Error.h"
 
@@ -103,7 +104,7 @@ void applySoftTissuePreset(StructureAppearance& look, const StructureAppearance&
 {
   applyPreset(look, preset);
   makeUntouchable(look);
-  if (look.relative)
+  if (look.relative || preset.sourceImage == OwnPresets::kOfCt)
     look.sourceImage.clear();
 }
 

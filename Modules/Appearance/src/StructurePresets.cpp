@@ -7,6 +7,7 @@
 
 #include "PresetEntry.h"
 #include "Structures.h"
+#include "petrous/Appearance/OwnPresets.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Core/AsciiCase.h"
 #include "petrous/Core/Error.h"
@@ -117,7 +118,15 @@ StructureAppearance presetFrom(json entry)
   entry.erase("source_image");
   try
   {
-    return appearanceFrom(entry, {});
+    StructureAppearance preset = appearanceFrom(entry, {});
+    if (entry.contains("values_of"))
+    {
+      const json& of = entry["values_of"];
+      if (of != OwnPresets::kOfCt && of != OwnPresets::kOfMr)
+        throw core::InvalidParameter("values_of is neither \"ct\" nor \"mr\"");
+      preset.sourceImage = of.get<std::string>();
+    }
+    return preset;
   }
   catch (const core::InvalidParameter& error)
   {
@@ -132,6 +141,8 @@ json presetJson(const StructureAppearance& preset)
   entry["name"] = preset.preset;
   for (const char* key : {"preset", "flags", "source_image"})
     entry.erase(key);
+  if (!preset.sourceImage.empty())
+    entry["values_of"] = preset.sourceImage;
   return entry;
 }
 

@@ -125,6 +125,19 @@ inline SecondImage movedWaves()
   return second;
 }
 
+/// Other waves, in a frame of their own.
+inline SecondImage movedRipples()
+{
+  SecondImage third;
+  third.secondFromCt = core::RigidTransform(
+      Eigen::Quaterniond(Eigen::AngleAxisd(-0.4, Vector(2.0, 1.0, -1.0).normalized())),
+      Vector(-4.0, 6.0, 2.0));
+  third.volume = image(
+      cube(40, 0.8, Eigen::Matrix3d::Identity(), Vector(-4.0, 6.0, 2.0)), [](const Vector& p)
+      { return 500.0 + 350.0 * std::cos(0.7 * p.z()) * std::sin(0.4 * p.y()) - 15.0 * p.x(); });
+  return third;
+}
+
 inline appearance::Material waveMaterial(float surfaceOpacity)
 {
   return {appearance::TransferFunction({{100.0, {0.1F, 0.1F, 0.9F}, 0.05F, 0.2F},
@@ -140,6 +153,16 @@ inline SceneContents fullScene()
   contents.mask = cut(contents.ct->geometry(), cavity);
   contents.second = movedWaves();
   contents.materials[1] = waveMaterial(0.6F);
+  return contents;
+}
+
+/// The same with a third image, for the red ball.
+inline SceneContents fullSceneOfThree()
+{
+  SceneContents contents = fullScene();
+  contents.third = movedRipples();
+  contents.materials[2] = waveMaterial(0.4F);
+  contents.materials[2].source = appearance::IntensitySource::Third;
   return contents;
 }
 

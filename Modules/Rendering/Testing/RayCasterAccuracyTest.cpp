@@ -144,7 +144,17 @@ std::vector<Case> cases()
          view.contents.materials = {waveMaterial(0.3F)};
          return view;
        }},
+      {"ThirdImage",
+       []
+       {
+         View view{translucentBall()};
+         view.contents.third = movedRipples();
+         view.contents.materials = {waveMaterial(0.3F)};
+         view.contents.materials.front().source = appearance::IntensitySource::Third;
+         return view;
+       }},
       {"Everything", [] { return View{fullScene()}; }},
+      {"EverythingOfThreeImages", [] { return View{fullSceneOfThree()}; }},
       {"ClippingPlanes",
        []
        {

@@ -1,5 +1,6 @@
 #include "PictureComparison.h"
 #include "PictureScenes.h"
+#include "petrous/Rendering/RenderingError.h"
 #include "petrous/Rendering/ScenePicture.h"
 
 using namespace petrous;
@@ -68,6 +69,8 @@ TEST(RendererVariant, TakesWhatTheSceneUsesAndNothingElse)
   EXPECT_EQ(variantOf(contents), (Names{"ct", "bone", "clipping"}));
   EXPECT_EQ(variantOf(fullScene()),
             (Names{"ct", "bone", "labels", "borders", "nested", "mask", "second", "interior"}));
+  EXPECT_EQ(variantOf(fullSceneOfThree()), (Names{"ct", "bone", "labels", "borders", "nested",
+                                                  "mask", "second", "third", "interior"}));
   contents = labelledBall(cube(48, 0.5), 1.0F);
   contents.boneShown = false;
   for (appearance::Material& material : contents.materials)
@@ -98,6 +101,41 @@ TEST(RendererVariant, LetsGoOfWhatTheSceneNoLongerUses)
   view.render(scene);
   EXPECT_EQ(scene.statistics().variant, (Names{"ct", "bone"}));
   EXPECT_EQ(namesOf(scene.resources()), (Names{"ct.bricks", "ct.texture"}));
+}
+
+TEST(RendererVariant, KeepsOnlyTheImagesThatAreRead)
+{
+  const auto bytesOf = [](const SecondImage& image)
+  { return image.volume->geometry().voxelCount() * sizeof(float); };
+  const SceneContents three = fullSceneOfThree();
+  ScenePicture scene;
+  scene.setCamera(slanting());
+  OffscreenView view(kWidth, kHeight);
+  const auto bytes = [&](const SceneContents& contents)
+  {
+    scene.setContents(contents);
+    EXPECT_EQ(countDifferentPixels(view.render(scene), draw(contents, slanting())), 0U);
+    const auto resources = scene.resources();
+    const auto found = resources.find("mr.texture");
+    return found == resources.end() ? std::size_t{0} : found->second;
+  };
+  const std::size_t second = bytesOf(three.second);
+  const std::size_t third = bytesOf(three.third);
+  ASSERT_NE(second, third);
+  EXPECT_EQ(bytes(three), second + third);
+  SceneContents one = three;
+  one.materials[1] = blue(); // nobody reads the second
+  EXPECT_EQ(bytes(one), third);
+  EXPECT_EQ(bytes(three), second + third);
+  one = three;
+  one.materials[2] = red();
+  EXPECT_EQ(bytes(one), second);
+  one.third = {};
+  EXPECT_EQ(bytes(one), second);
+  one.materials[1] = blue();
+  EXPECT_EQ(bytes(one), 0U);
+  one.materials[2].source = appearance::IntensitySource::Third;
+  EXPECT_THROW(scene.setContents(one), RenderingError) << "there is none";
 }
 
 TEST(RendererVariant, DrawsAnotherSecondImageThatCameWhileNobodyReadIt)

@@ -75,6 +75,14 @@ SceneContents softSecond()
   return contents;
 }
 
+SceneContents softThird()
+{
+  SceneContents contents = fullSceneOfThree();
+  contents.softTissue = softSecond().softTissue;
+  contents.softTissue->source = appearance::IntensitySource::Third;
+  return contents;
+}
+
 SceneContents clipped()
 {
   SceneContents contents = cutBall(0.35F);
@@ -107,7 +115,8 @@ std::vector<Named> scenes()
           {"clipped", withShells(clipped())},
           {"shadows", withShells(shadowed())},
           {"noBone", withShells(withoutBone())},
-          {"secondImage", softSecond()}};
+          {"secondImage", softSecond()},
+          {"thirdImage", softThird()}};
 }
 
 } // namespace
@@ -248,4 +257,61 @@ TEST(SoftTissueVariant, IsLeaptOverWhereItIsTransparent)
                                                              {-500.0, {1.0F, 1.0F, 1.0F}, 0.02F},
                                                              {0.0, {1.0F, 1.0F, 1.0F}, 0.0F}})});
   EXPECT_LT(skin, 0.5 * everywhere);
+}
+
+// It stops no light of the lamp: what does is measured anew only where bone is another.
+TEST(SoftTissueVariant, LeavesWhatStopsTheLightAsItWasMeasured)
+{
+  SceneContents contents = shadowed();
+  ScenePicture scene;
+  scene.setCamera(slanting());
+  OffscreenView view(kWidth, kHeight);
+  const auto shown = [&]
+  {
+    const Picture picture = view.render(scene);
+    EXPECT_EQ(countDifferentPixels(picture, draw(contents, slanting())), 0U);
+    return scene.statistics().opacityRebuilds;
+  };
+  const auto set = [&]
+  {
+    scene.setContents(contents);
+    return shown();
+  };
+  EXPECT_EQ(set(), 1U);
+  EXPECT_EQ(set(), 1U);
+  contents.softTissue = shells();
+  EXPECT_EQ(set(), 1U);
+  contents.softTissue->transfer = appearance::TransferFunction(
+      {{0.0, {0.6F, 0.2F, 0.15F}, 0.0F}, {200.0, {0.5F, 0.15F, 0.1F}, 0.25F}});
+  EXPECT_EQ(set(), 1U) << "other bricks of it have opacity";
+  contents.materials.front().transfer =
+      appearance::TransferFunction::constant({0.9F, 0.8F, 0.7F}, 0.5F);
+  EXPECT_EQ(set(), 1U) << "a colour of bone";
+  contents.iso += 200.0;
+  EXPECT_EQ(set(), 2U);
+  contents.materials.front().surfaceOpacity = 0.5F;
+  EXPECT_EQ(set(), 3U);
+  contents.boneShown = false;
+  EXPECT_EQ(set(), 4U);
+  contents.boneShown = true;
+  EXPECT_EQ(set(), 5U);
+  contents.mask = nullptr;
+  EXPECT_EQ(set(), 6U);
+  contents.softTissue.reset();
+  EXPECT_EQ(set(), 6U);
+  // A cut is measured where it is; with bricks that are not known yet, everywhere.
+  const core::IndexBox all = contents.ct->geometry().fullBox();
+  contents.mask = cut(contents.ct->geometry(), cavity);
+  scene.maskChanged(contents.mask, all);
+  EXPECT_EQ(shown(), 6U);
+  contents.softTissue = shells();
+  scene.setContents(contents);
+  contents.mask = cut(contents.ct->geometry(),
+                      [](const Vector& p) { return (p - Vector(0.0, -8.0, 0.0)).norm() - 4.0; });
+  scene.maskChanged(contents.mask, all);
+  EXPECT_EQ(shown(), 7U);
+  contents.light.setShadows(false);
+  EXPECT_EQ(set(), 7U);
+  contents.light.setShadows(true);
+  EXPECT_EQ(set(), 8U);
 }

@@ -192,11 +192,11 @@ TEST(GraphicsReport, EveryVariantCompilesHere)
   const GraphicsReport report = reportGraphics();
   EXPECT_FALSE(report.renderer.empty());
   EXPECT_GE(report.largestTexture3d, 256); // minimum required by OpenGL 3.2
-  ASSERT_EQ(report.variants.size(), 10u);
+  ASSERT_EQ(report.variants.size(), 11u);
   for (const auto& variant : report.variants)
     EXPECT_TRUE(variant.compiles) << variant.error;
   EXPECT_EQ(report.variants.front().features, (std::vector<std::string>{"ct", "bone"}));
   EXPECT_EQ(report.variants.back().features,
             (std::vector<std::string>{"ct", "bone", "labels", "borders", "nested", "mask", "second",
-                                      "interior", "clipping", "thickness"}));
+                                      "third", "interior", "clipping", "thickness"}));
 }

@@ -16,10 +16,13 @@
 #include <vtkMultiVolume.h>
 #include <vtkNew.h>
 #include <vtkPiecewiseFunction.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+#include <vtkSmartVolumeMapper.h>
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
+#include <vtkWeakPointer.h>
 
 #include "OpticalModel.h"
 #include "petrous/Rendering/RenderingError.h"
@@ -56,6 +59,19 @@ struct Tables
     for (const auto& point : transfer.points())
       if (point.value > below)
         add(point.value, transfer.at(point.value));
+  }
+
+  // The whole function, as finely as the mappers tabulate it over 12 bits.
+  explicit Tables(const appearance::TransferFunction& transfer)
+  {
+    constexpr double step = 4.0; // HU
+    const double last = transfer.points().back().value;
+    for (double value = transfer.points().front().value; value < last + step; value += step)
+    {
+      const auto optics = transfer.at(value);
+      color->AddRGBPoint(value, optics.color[0], optics.color[1], optics.color[2]);
+      opacity->AddPoint(value, -std::expm1(-optics.extinction)); // per 1 mm
+    }
   }
 };
 
@@ -129,6 +145,10 @@ std::string nameOf(Peer peer)
     return "VTK GPU mapper, label map";
   case Peer::GpuMulti:
     return "VTK multi-volume, 2 volumes";
+  case Peer::SmartGpu:
+    return "VTK smart mapper, GPU";
+  case Peer::SmartCpu:
+    return "VTK smart mapper, CPU";
   case Peer::CpuFixedPoint:
     break;
   }
@@ -139,6 +159,8 @@ class PeerPicture::Implementation
 {
 public:
   Implementation(Peer peer, const SceneContents& scene, const core::CameraPose& pose);
+  void drawSoftTissue(bool isOnGpu, vtkImageData* image);
+  void applyCamera();
   void setProperty(vtkVolumeProperty* property, const appearance::Material& material, double below);
   void addLabels();
   void addUnion();
@@ -147,8 +169,10 @@ public:
   core::CameraPose camera;
   vtkNew<vtkVolume> bone;
   vtkSmartPointer<vtkGPUVolumeRayCastMapper> gpu;
+  vtkSmartPointer<vtkSmartVolumeMapper> smart;
   vtkSmartPointer<vtkMultiVolume> multi;
   vtkNew<vtkLight> lamp;
+  vtkWeakPointer<vtkRenderer> renderer;
 };
 
 PeerPicture::Implementation::Implementation(Peer peer, const SceneContents& scene,
@@ -158,7 +182,8 @@ PeerPicture::Implementation::Implementation(Peer peer, const SceneContents& scen
 {
   if (!contents.ct)
     refuse("no CT");
-  if (contents.materials.empty())
+  const bool isSmart = peer == Peer::SmartGpu || peer == Peer::SmartCpu;
+  if (contents.materials.empty() && !isSmart)
     refuse("no material of bone");
   if ((peer == Peer::GpuLabelMap || peer == Peer::GpuMulti) && !contents.labels)
     refuse("no labels");
@@ -166,6 +191,11 @@ PeerPicture::Implementation::Implementation(Peer peer, const SceneContents& scen
   const auto step = static_cast<float>(kStep * grid.minSpacing());
   const auto image = upright(wrap(*contents.ct));
   bone->SetUserMatrix(poseOf(grid));
+  if (isSmart)
+  {
+    drawSoftTissue(peer == Peer::SmartGpu, image);
+    return;
+  }
   setProperty(bone->GetProperty(), contents.materials.front(), contents.iso);
   lamp->SetLightTypeToHeadlight();
   if (peer == Peer::CpuFixedPoint)
@@ -198,6 +228,27 @@ PeerPicture::Implementation::Implementation(Peer peer, const SceneContents& scen
     addUnion();
   else
     bone->SetMapper(gpu);
+}
+
+void PeerPicture::Implementation::drawSoftTissue(bool isOnGpu, vtkImageData* image)
+{
+  if (!contents.softTissue)
+    refuse("no soft tissue");
+  const Tables tables(contents.softTissue->transfer);
+  vtkVolumeProperty* property = bone->GetProperty();
+  property->SetColor(tables.color);
+  property->SetScalarOpacity(tables.opacity);
+  property->SetScalarOpacityUnitDistance(1.0);
+  property->SetInterpolationTypeToLinear();
+  property->ShadeOff();
+  smart = vtkSmartPointer<vtkSmartVolumeMapper>::New();
+  smart->SetInputData(image);
+  smart->SetBlendModeToComposite();
+  if (isOnGpu)
+    smart->SetRequestedRenderModeToGPU();
+  else
+    smart->SetRequestedRenderModeToRayCast();
+  bone->SetMapper(smart);
 }
 
 void PeerPicture::Implementation::setProperty(vtkVolumeProperty* property,
@@ -250,6 +301,16 @@ void PeerPicture::Implementation::addUnion()
   multi->SetMapper(gpu);
 }
 
+void PeerPicture::Implementation::applyCamera()
+{
+  vtkCamera* view = renderer->GetActiveCamera();
+  view->SetFocalPoint(camera.focalPoint.data());
+  view->SetPosition(camera.position.data());
+  view->SetViewUp(camera.viewUp.data());
+  view->SetViewAngle(camera.viewAngle);
+  renderer->ResetCameraClippingRange();
+}
+
 PeerPicture::PeerPicture(Peer peer, const SceneContents& contents, const core::CameraPose& camera)
   : m_implementation(std::make_unique<Implementation>(peer, contents, camera))
 {
@@ -267,12 +328,21 @@ void PeerPicture::attach(vtkRenderer* renderer)
   if (my.multi)
     prop = my.multi;
   renderer->AddViewProp(prop);
-  vtkCamera* view = renderer->GetActiveCamera();
-  view->SetFocalPoint(my.camera.focalPoint.data());
-  view->SetPosition(my.camera.position.data());
-  view->SetViewUp(my.camera.viewUp.data());
-  view->SetViewAngle(my.camera.viewAngle);
-  renderer->ResetCameraClippingRange();
+  my.renderer = renderer;
+  my.applyCamera();
+}
+
+void PeerPicture::setCamera(const core::CameraPose& camera)
+{
+  m_implementation->camera = camera;
+  if (m_implementation->renderer)
+    m_implementation->applyCamera();
+}
+
+void PeerPicture::setUpdateRate(double hertz)
+{
+  if (vtkRenderer* renderer = m_implementation->renderer)
+    renderer->GetRenderWindow()->SetDesiredUpdateRate(hertz);
 }
 
 } // namespace petrous::rendering

@@ -59,6 +59,22 @@ bool readsMr(const scene::Case& value, const StructureAppearance& look)
   return !look.sourceImage.empty() || value.ct.modality == scene::Modality::Mr;
 }
 
+// Values of an MR mean nothing in a CT, nor those of a CT in an MR.
+void checkValues(const scene::Case& value, const StructureAppearance& look,
+                 const StructureAppearance& preset)
+{
+  const bool ofMr = preset.sourceImage == appearance::OwnPresets::kOfMr;
+  if (!ofMr && preset.sourceImage != appearance::OwnPresets::kOfCt)
+    return;
+  const std::string mr = look.solid ? look.sourceImage : std::string(); // as lumenMaterial reads
+  if (ofMr == (!mr.empty() || value.ct.modality == scene::Modality::Mr))
+    return;
+  throw core::InvalidParameter("preset '" + preset.preset + "' has values of " +
+                               (ofMr ? "an MR" : "a CT") + ", which mean nothing in the " +
+                               (mr.empty() ? primaryName(value) : "MR '" + mr + "'") +
+                               "; choose another image to be read first");
+}
+
 StructureAppearance withFunctionOfMr(StructureAppearance look,
                                      const volume::IntensityHistogram& histogram)
 {
@@ -403,7 +419,8 @@ void AppearanceEditor::applyPreset(const std::string& name)
 void AppearanceEditor::savePreset(const std::string& name)
 {
   if (selected())
-    appearance::OwnPresets(m_model.library().folder()).save(selected()->look, name);
+    appearance::OwnPresets(m_model.library().folder())
+        .save(selected()->look, name, m_model.value().ct.modality == scene::Modality::Mr);
 }
 
 void AppearanceEditor::deletePreset(const std::string& name)
@@ -471,15 +488,10 @@ void AppearanceEditor::setSource(const std::string& image)
       (!image.empty() && !scene::findMr(m_model.value(), image)))
     return;
   StructureAppearance look = selected()->look;
-  look.sourceImage = image;
   if (selected()->name == kSoftTissue)
-    try
-    {
-      look = softTissueReading(m_model.value(), image, m_histograms.image(image));
-    }
-    catch (const core::Error&) // said where the case was opened; without a function it is not drawn
-    {
-    }
+    look = softTissueReading(m_model.value(), image, m_histograms.image(image));
+  else
+    look.sourceImage = image;
   m_point.reset();
   set(look);
 }
@@ -500,7 +512,7 @@ std::string AppearanceEditor::notice() const
   if (!look.transfer || look.relative)
     return "Presets are made for CT: drawn in one colour until it has points in values of '" +
            look.sourceImage + "'";
-  return {};
+  return mrMissing(m_model.value(), look.sourceImage);
 }
 
 AppearanceHistograms::Histogram AppearanceEditor::imageHistogram() const
@@ -614,6 +626,7 @@ StructureAppearance withPreset(const scene::Case& value, const std::string& part
       if (mesh.name == part)
         look = mesh.look;
   (isSoftTissue ? appearance::applySoftTissuePreset : appearance::applyPreset)(look, preset);
+  checkValues(value, look, preset);
   if (preset.preset != appearance::StructurePresets::builtIn().lookFor(kOpenColor).preset)
     return look;
   std::vector<std::array<float, 3>> taken;

@@ -1,6 +1,7 @@
 #include "petrous/Presenters/SceneAssembly.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -33,9 +34,14 @@ bool sameVoxels(const std::vector<volume::LabelSource>& a,
                     });
 }
 
-bool readsSecond(const StructureAppearance& look)
+constexpr IntensitySource kOthers[] = {IntensitySource::Second, IntensitySource::Third};
+static_assert(std::size(kOthers) == kMrsOfPicture);
+
+using Images = std::vector<const scene::ImagePart*>;
+
+bool readsMr(const StructureAppearance& look)
 {
-  return appearance::materialOf(look).source == IntensitySource::Second;
+  return appearance::materialOf(look).source != IntensitySource::Ct;
 }
 
 // Were it shown. `why`: it cannot be drawn.
@@ -65,59 +71,94 @@ SoftTissue softTissueOf(const scene::Case& value)
   return {std::move(material), std::move(why)};
 }
 
-const scene::ImagePart* secondImage(const scene::Case& value, const Structures& structures)
+// Whether bone or a structure draws values of an MR.
+bool isRead(const scene::Case& value, const Structures& structures, const scene::ImagePart& mr)
 {
+  const auto asks = [&mr](const StructureAppearance& look)
+  { return look.sourceImage == mr.name && readsMr(look); };
+  return mr.registered && ((value.boneLook.shown && asks(value.boneLook)) ||
+                           std::any_of(structures.begin(), structures.end(),
+                                       [&asks](const auto* structure)
+                                       { return structure->look.solid && asks(structure->look); }));
+}
+
+// The MRs that a picture shows, at most as many as a ray samples.
+Images drawnImages(const scene::Case& value, const Structures& structures)
+{
+  Images images;
   for (const scene::ImagePart& mr : value.mr)
-  {
-    const auto asks = [&mr](const StructureAppearance& look)
-    { return look.sourceImage == mr.name && readsSecond(look); };
-    const auto asksToo = [&asks](const auto* structure)
-    { return structure->look.solid && asks(structure->look); };
-    if (mr.registered && ((value.boneLook.shown && asks(value.boneLook)) ||
-                          std::any_of(structures.begin(), structures.end(), asksToo)))
-      return &mr;
-  }
+    if (images.size() < kMrsOfPicture && isRead(value, structures, mr))
+      images.push_back(&mr);
   const SoftTissue soft = softTissueOf(value);
-  return value.softTissue.shown && soft.material && soft.material->source == IntensitySource::Second
-             ? scene::findMr(value, value.softTissue.sourceImage)
-             : nullptr;
+  const scene::ImagePart* own = scene::findMr(value, value.softTissue.sourceImage);
+  if (value.softTissue.shown && soft.material && soft.material->source != IntensitySource::Ct &&
+      images.size() < kMrsOfPicture && std::find(images.begin(), images.end(), own) == images.end())
+    images.push_back(own);
+  return images;
+}
+
+// nullopt: that MR is not drawn.
+std::optional<IntensitySource> sourceOf(const StructureAppearance& look, const Images& images)
+{
+  for (std::size_t n = 0; n < images.size(); ++n)
+    if (images[n]->name == look.sourceImage)
+      return kOthers[n];
+  return std::nullopt;
 }
 
 // The values of an MR that is not drawn must not be read from the CT, nor from another MR.
-SoftTissue drawnSoftTissue(const scene::Case& value, const scene::ImagePart* second)
+SoftTissue drawnSoftTissue(const scene::Case& value, const Images& images)
 {
   SoftTissue soft = softTissueOf(value);
-  if (soft.material && soft.material->source == IntensitySource::Second && second &&
-      second->name != value.softTissue.sourceImage)
+  if (!soft.material || soft.material->source == IntensitySource::Ct)
+    return soft;
+  if (const auto source = sourceOf(value.softTissue, images))
+    soft.material->source = *source;
+  else if (images.size() == kMrsOfPicture)
     return {{},
-            "it reads '" + value.softTissue.sourceImage + "', but bone or a structure reads '" +
-                second->name + "', and a picture shows one MR"};
+            "it reads '" + value.softTissue.sourceImage + "', but bone or structures read '" +
+                images[0]->name + "' and '" + images[1]->name + "', and a picture shows two MRs"};
   return soft;
 }
 
 // Values for an image that is not drawn must not be read from the CT.
-StructureAppearance drawn(StructureAppearance look, const scene::ImagePart* second)
+Material drawn(StructureAppearance look, const volume::IntensityScale& scale, const Images& images)
 {
-  if (readsSecond(look) && !(second && look.sourceImage == second->name))
+  const std::optional<IntensitySource> source =
+      readsMr(look) ? sourceOf(look, images) : IntensitySource::Ct;
+  if (!source)
   {
     look.sourceImage.clear();
     look.transfer.reset();
   }
-  return look;
+  Material material = materialOf(look, scale);
+  material.source = source.value_or(IntensitySource::Ct);
+  return material;
 }
 
 std::vector<Material> materialsOf(const scene::Case& value, const Structures& structures,
-                                  const scene::ImagePart* second)
+                                  const Images& images)
 {
   const volume::IntensityScale scale = value.intensityScale();
-  std::vector<Material> materials{materialOf(drawn(value.boneLook, second), scale)};
+  std::vector<Material> materials{drawn(value.boneLook, scale, images)};
   for (const auto* structure : structures)
   {
     const StructureAppearance& look = structure->look;
-    materials.push_back(look.solid ? materialOf(drawn(look, second), scale)
+    materials.push_back(look.solid ? drawn(look, scale, images)
                                    : lumenMaterial(look, materials.front(), scale));
   }
   return materials;
+}
+
+// Those that are seen, without reading their voxels.
+Structures shownStructures(const scene::Case& value)
+{
+  Structures structures;
+  for (const scene::LabelPart& part : value.labels)
+    for (const scene::StructurePart& structure : part.structures)
+      if (structure.look.shown && scene::placementOf(value, part).missing.empty())
+        structures.push_back(&structure);
+  return structures;
 }
 
 } // namespace
@@ -154,13 +195,15 @@ rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
     m_sources = std::move(shown.sources);
   }
   contents.labels = m_labels;
-  const scene::ImagePart* second = secondImage(value, shown.structures);
-  if (second)
-    contents.second = {second->volume.get(), second->mrFromCt};
+  const Images images = drawnImages(value, shown.structures);
+  if (!images.empty())
+    contents.second = {images[0]->volume.get(), images[0]->mrFromCt};
+  if (images.size() > 1)
+    contents.third = {images[1]->volume.get(), images[1]->mrFromCt};
   contents.boneShown = value.boneLook.shown;
-  contents.materials = materialsOf(value, shown.structures, second);
+  contents.materials = materialsOf(value, shown.structures, images);
   if (value.softTissue.shown)
-    contents.softTissue = drawnSoftTissue(value, second).material;
+    contents.softTissue = drawnSoftTissue(value, images).material;
 
   if (!m_thicknessOver.empty() && !m_thickness)
     m_thickness = boneThickness(value, m_thicknessOver, progress);
@@ -179,12 +222,27 @@ rendering::SceneContents SceneAssembly::contents(const scene::Case& value,
 
 std::string softTissueMissing(const scene::Case& value)
 {
-  Structures structures;
-  for (const scene::LabelPart& part : value.labels)
-    for (const scene::StructurePart& structure : part.structures)
-      if (structure.look.shown && scene::placementOf(value, part).missing.empty())
-        structures.push_back(&structure);
-  return drawnSoftTissue(value, secondImage(value, structures)).why;
+  return drawnSoftTissue(value, drawnImages(value, shownStructures(value))).why;
+}
+
+std::vector<std::string> drawnMrs(const scene::Case& value)
+{
+  std::vector<std::string> names;
+  for (const scene::ImagePart* image : drawnImages(value, shownStructures(value)))
+    names.push_back(image->name);
+  return names;
+}
+
+std::string mrMissing(const scene::Case& value, const std::string& mr)
+{
+  const Structures structures = shownStructures(value);
+  const Images images = drawnImages(value, structures);
+  const scene::ImagePart* part = scene::findMr(value, mr);
+  if (!part || images.size() < kMrsOfPicture || !isRead(value, structures, *part) ||
+      std::find(images.begin(), images.end(), part) != images.end())
+    return {};
+  return "'" + mr + "' is not drawn, and what reads it has one colour: a picture shows two MRs, '" +
+         images[0]->name + "' and '" + images[1]->name + "'";
 }
 
 } // namespace petrous::presenters

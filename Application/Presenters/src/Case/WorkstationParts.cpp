@@ -18,15 +18,39 @@ namespace petrous::presenters
 namespace
 {
 
-// The appearances of a case, with the names of their parts.
+// The appearances of a case, with the names of their parts; no other can be called as the first
+// two.
 template <class Case, class Act>
 void forEachLook(Case& value, const Act& act)
 {
+  act("ct", value.boneLook);
+  act(scene::kSoftTissue, value.softTissue);
   for (auto& part : value.labels)
     for (auto& structure : part.structures)
       act(structure.name, structure.look);
   for (auto& mesh : value.meshes)
     act(mesh.name, mesh.look);
+}
+
+// Whether what a look draws of an image's values is as the removal of the MR that it read left it.
+// Of structures and bone, which keep their points, colours may have changed.
+bool isAsLeft(const std::string& part, const appearance::StructureAppearance& look,
+              appearance::StructureAppearance read)
+{
+  const bool isSoftTissue = part == scene::kSoftTissue;
+  if (isSoftTissue)
+    appearance::readPrimaryImage(read);
+  else
+    read.sourceImage.clear();
+  if (look.sourceImage != read.sourceImage || look.relative != read.relative ||
+      look.transfer.has_value() != read.transfer.has_value())
+    return false;
+  if (!look.transfer || isSoftTissue)
+    return look.transfer == read.transfer;
+  const auto& points = look.transfer->points();
+  const auto& before = read.transfer->points();
+  return std::equal(points.begin(), points.end(), before.begin(), before.end(),
+                    [](const auto& a, const auto& b) { return a.value == b.value; });
 }
 
 template <class Parts>
@@ -227,12 +251,8 @@ void WorkstationModel::takeOut(const std::string& name, std::uint64_t removal)
                 [&](const std::string& part, const appearance::StructureAppearance& look)
                 {
                   if (look.sourceImage == name)
-                    removed.colored.push_back(part);
+                    removed.readers.push_back({part, look});
                 });
-    if (next.boneLook.sourceImage == name)
-      removed.colored.emplace_back("ct"); // which no other part can be called
-    if (next.softTissue.sourceImage == name)
-      removed.softTissue = next.softTissue;
   }
   for (std::size_t n = 0; n < next.labels.size(); ++n)
     if (const std::size_t at = indexOf(next.labels[n].structures, name);
@@ -283,10 +303,21 @@ void WorkstationModel::restorePart()
     return;
   const std::string name = m_removed.back().name;
   const std::uint64_t removal = m_removed.back().id;
+  const std::vector<PartLook> readers = m_removed.back().readers;
   bringBack(removal);
   recordEdit({"return of " + shownName(name),
               {},
-              [this, name, removal] { takeOut(name, removal); },
+              [this, name, removal, readers]
+              {
+                takeOut(name, removal);
+                // Those that were edited, and are undone next, read it again with the removal.
+                std::vector<PartLook>& present = m_removed.back().readers;
+                for (const PartLook& reader : readers)
+                  if (std::none_of(present.begin(), present.end(),
+                                   [&reader](const PartLook& one)
+                                   { return one.part == reader.part; }))
+                    present.push_back(reader);
+              },
               [this, removal] { bringBack(removal); },
               true});
 }
@@ -317,19 +348,18 @@ void WorkstationModel::bringBack(std::uint64_t removal)
     forEachLook(*m_case,
                 [&](const std::string& part, appearance::StructureAppearance& look)
                 {
-                  if (std::count(removed.colored.begin(), removed.colored.end(), part) > 0)
+                  for (const PartLook& reader : removed.readers)
+                  {
+                    if (reader.part != part || !isAsLeft(part, look, reader.look))
+                      continue;
                     look.sourceImage = removed.name;
+                    if (part != scene::kSoftTissue)
+                      continue;
+                    look.preset = reader.look.preset;
+                    look.transfer = reader.look.transfer;
+                    look.relative = reader.look.relative;
+                  }
                 });
-    if (std::count(removed.colored.begin(), removed.colored.end(), "ct") > 0)
-      m_case->boneLook.sourceImage = removed.name;
-    if (removed.softTissue)
-    {
-      appearance::StructureAppearance& look = m_case->softTissue;
-      look.sourceImage = removed.name;
-      look.preset = removed.softTissue->preset;
-      look.transfer = removed.softTissue->transfer;
-      look.relative = removed.softTissue->relative;
-    }
   }
   if (removed.labels)
   {
@@ -452,7 +482,8 @@ void WorkstationModel::rename(const std::string& name, const std::string& to)
     if (!measurement.structureGone)
       follow(measurement.structure);
   for (RemovedPart& removed : m_removed)
-    std::for_each(removed.colored.begin(), removed.colored.end(), follow);
+    for (PartLook& reader : removed.readers)
+      follow(reader.part);
   if (m_assembly.thicknessOver() == name)
     m_assembly.showThickness({});
   partsMoved();

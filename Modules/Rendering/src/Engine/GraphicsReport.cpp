@@ -84,6 +84,12 @@ std::vector<Change> features()
           [materials](SceneContents& contents)
           {
             materials(contents);
+            contents.third.volume = contents.ct;
+            contents.materials.front().source = appearance::IntensitySource::Third;
+          },
+          [materials](SceneContents& contents)
+          {
+            materials(contents);
             contents.materials.front().surfaceOpacity = 0.5F;
           },
           [](SceneContents& contents) { contents.thickness.distance = filled<float>(1.0F); },

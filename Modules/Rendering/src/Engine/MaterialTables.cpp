@@ -8,7 +8,7 @@ namespace petrous::rendering
 {
 
 void MaterialTables::upload(const std::vector<appearance::Material>& materials, int tableSize,
-                            const volume::ValueRange& ct, const volume::ValueRange& second)
+                            const std::array<volume::ValueRange, 3>& ranges)
 {
   const std::size_t rows = materials.size();
   const auto width = static_cast<std::size_t>(tableSize);
@@ -19,8 +19,8 @@ void MaterialTables::upload(const std::vector<appearance::Material>& materials, 
   {
     const appearance::Material& tissue = materials[row];
     const auto& points = tissue.transfer.points();
-    const bool other = tissue.source == appearance::IntensitySource::Second;
-    const volume::ValueRange& range = other ? second : ct;
+    const auto source = static_cast<std::size_t>(tissue.source);
+    const volume::ValueRange& range = ranges[source];
     double lower = points.front().value;
     double upper = points.back().value;
     if (points.size() > 1)
@@ -72,7 +72,7 @@ void MaterialTables::upload(const std::vector<appearance::Material>& materials, 
     parameter[2] = tissue.surfaceOpacity;
     parameter[3] = tissue.shininess;
     parameter[4] = tissue.lumen ? 1.0F : 0.0F;
-    parameter[5] = other ? 1.0F : 0.0F;
+    parameter[5] = static_cast<float>(source);
     parameter[6] = static_cast<float>(optics::softEdge(tissue.transfer));
   }
   const int height = static_cast<int>(rows);

@@ -176,11 +176,10 @@ bool structuresTranslucent(const SceneContents& contents)
                      { return !m.lumen && m.surfaceOpacity < 1.0F; });
 }
 
-bool readsSecond(const SceneContents& contents)
+bool reads(const SceneContents& contents, appearance::IntensitySource source)
 {
-  const auto asks = [](const appearance::Material& m)
-  { return m.source == appearance::IntensitySource::Second; };
-  return contents.second.volume &&
+  const auto asks = [source](const appearance::Material& m) { return m.source == source; };
+  return otherImage(contents, source).volume &&
          (std::any_of(contents.materials.begin(), contents.materials.end(), asks) ||
           (contents.softTissue && asks(*contents.softTissue)));
 }
@@ -275,18 +274,24 @@ void RayCaster::setContents(const SceneContents& contents)
   std::shared_ptr<const volume::CutMask> mask = maskInUse();
   m_newCt |= !sameCt;
   m_newLabels |= contents.labels != m_contents.labels;
-  m_newSecond |= contents.second.volume != m_contents.second.volume;
+  for (OtherImage& other : m_others)
+    other.isNew |=
+        otherImage(contents, other.source).volume != otherImage(m_contents, other.source).volume;
   m_newThickness |= contents.thickness.distance != m_contents.thickness.distance ||
                     contents.thickness.farthest != m_contents.thickness.farthest;
   const OccupancyGrid::Rules before =
       m_contents.materials.empty() ? OccupancyGrid::Rules{} : rules();
   m_newMaterials |= !sameMaterials(contents, m_contents);
-  m_newOpacities |= !sameOpacities(contents.materials, m_contents.materials);
-  m_newRules |= mask != m_contents.mask || !sameCt || m_newLabels;
+  bool newTissue = mask != m_contents.mask || !sameCt || m_newLabels;
   if (mask != m_contents.mask || !sameCt)
     m_mask.reset(mask, m_quality.maskBits, m_quality.largestTexture);
   else
-    m_newRules |= m_mask.compare();
+    newTissue |= m_mask.compare();
+  m_newRules |= newTissue;
+  // What stops the light depends on the bricks' tissue, not on what a ray sees in it.
+  m_newOpacities |= newTissue || contents.iso != m_contents.iso ||
+                    contents.boneShown != m_contents.boneShown ||
+                    !sameOpacities(contents.materials, m_contents.materials);
   m_contents = contents;
   m_contents.mask = std::move(mask);
   if (m_contents.materials.empty())
@@ -307,11 +312,12 @@ void RayCaster::setQuality(const RenderQuality& quality)
     m_mask.reset(m_contents.mask, quality.maskBits, quality.largestTexture);
   m_newCt |= !sameLimit;
   m_newLabels |= !sameLimit;
-  m_newSecond |= !sameLimit;
+  for (OtherImage& other : m_others)
+    other.isNew |= !sameLimit;
   if (quality.brick != m_quality.brick)
   {
     m_occupancy.reset();
-    m_newRules = true;
+    m_newRules = m_newOpacities = true;
   }
   m_newMaterials |= quality.tableSize != m_quality.tableSize;
   m_quality = quality;
@@ -335,6 +341,8 @@ void RayCaster::maskChanged(std::shared_ptr<const volume::CutMask> mask, const c
       m_dirtyOpacities =
           m_dirtyOpacities.united(m_opacities->maskChanged(lightStoppers(), *m_occupancy, box));
   }
+  else
+    m_newOpacities = true; // they are measured where the bricks say, which are not known yet
 }
 
 void RayCaster::expectCut(bool expected)
@@ -368,7 +376,8 @@ RayFeatures RayCaster::features() const
   features.borders = features.labels && m_labels.borders;
   features.nested = structuresTranslucent(m_contents);
   features.mask = m_mask.inUse();
-  features.second = readsSecond(m_contents);
+  features.third = reads(m_contents, appearance::IntensitySource::Third);
+  features.second = features.third || reads(m_contents, appearance::IntensitySource::Second);
   features.soft = softTissueSeen();
   features.interior = features.soft || translucent(m_contents.materials);
   features.thickness = static_cast<bool>(m_contents.thickness.distance);
@@ -389,11 +398,11 @@ OccupancyGrid::Rules RayCaster::rules() const
   rules.interior = rules.soft || translucent(m_contents.materials);
   rules.opaque = opaqueRanges(m_contents.materials.front().transfer);
   rules.interiorEverywhere =
-      m_contents.materials.front().source == appearance::IntensitySource::Second &&
+      m_contents.materials.front().source != appearance::IntensitySource::Ct &&
       !m_contents.materials.front().transfer.transparent();
   if (rules.soft)
   {
-    rules.softEverywhere = m_contents.softTissue->source == appearance::IntensitySource::Second;
+    rules.softEverywhere = m_contents.softTissue->source != appearance::IntensitySource::Ct;
     rules.softOpaque = opaqueRanges(m_contents.softTissue->transfer);
   }
   return rules;
@@ -417,11 +426,12 @@ void RayCaster::uploadOpacities()
     return;
   }
   core::IndexBox dirty = m_dirtyOpacities;
-  if (!m_opacities || m_newOpacities || m_newRules || m_newLabels || m_newCt)
+  if (!m_opacities || m_newOpacities)
   {
     if (!m_opacities)
       m_opacities = std::make_unique<OpacityPyramid>(m_contents.ct->geometry());
     m_opacities->rebuild(lightStoppers(), *m_occupancy);
+    ++m_statistics.opacityRebuilds;
     dirty = {{0, 0, 0}, m_opacities->levels().front().dims};
   }
   const std::vector<OpacityPyramid::Level>& levels = m_opacities->levels();
@@ -458,14 +468,16 @@ void RayCaster::upload()
     m_ctRange = m_occupancy->range();
     m_newRules = m_newMaterials = true;
   }
-  if (readsSecond(m_contents) && (m_newSecond || !m_second.texture))
-  {
-    m_second.upload(*m_contents.second.volume, m_quality.largestTexture);
-    m_secondRange = m_contents.second.volume->range();
-    m_newMaterials = true;
-  }
-  if (!readsSecond(m_contents))
-    m_second.texture.release();
+  for (OtherImage& other : m_others)
+    if (!reads(m_contents, other.source))
+      other.data.texture.release();
+    else if (other.isNew || !other.data.texture)
+    {
+      const volume::IntensityVolume& image = *otherImage(m_contents, other.source).volume;
+      other.data.upload(image, m_quality.largestTexture);
+      other.range = image.range();
+      m_newMaterials = true;
+    }
   if (m_contents.labels && (m_newLabels || !m_labels.occupancy))
     m_labels.upload(*m_contents.labels, m_quality.largestTexture);
   if (!m_contents.labels)
@@ -479,7 +491,8 @@ void RayCaster::upload()
     std::vector<appearance::Material> rows = m_contents.materials;
     if (softTissueSeen())
       rows.push_back(*m_contents.softTissue);
-    m_materials.upload(rows, m_quality.tableSize, m_ctRange, m_secondRange);
+    m_materials.upload(rows, m_quality.tableSize,
+                       {m_ctRange, m_others[0].range, m_others[1].range});
   }
 
   const auto start = std::chrono::steady_clock::now();
@@ -506,15 +519,18 @@ void RayCaster::upload()
     m_statistics.editMilliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
-  m_newCt = m_newLabels = m_newMaterials = m_newSecond = m_newRules = m_newThickness =
-      m_newOpacities = false;
+  m_newCt = m_newLabels = m_newMaterials = m_newRules = m_newThickness = m_newOpacities = false;
+  for (OtherImage& other : m_others)
+    other.isNew = false;
   m_statistics.notes.clear();
   if (m_ct.reduction != core::Index3{1, 1, 1})
     note("the CT", m_ct.reduction);
   if (m_labels.occupancy && m_labels.reduction != core::Index3{1, 1, 1})
     note("the structures' label field", m_labels.reduction);
-  if (m_second.texture && m_second.reduction != core::Index3{1, 1, 1})
-    note("the second image", m_second.reduction);
+  for (const OtherImage& other : m_others)
+    if (other.data.texture && other.data.reduction != core::Index3{1, 1, 1})
+      note(&other == m_others.data() ? "the second image" : "the third image",
+           other.data.reduction);
   m_statistics.pendingEdits = m_mask.pendingVoxels();
   m_statistics.resources = {{"ct.texture", m_ct.texture.bytes()},
                             {"ct.bricks", m_bricks.bytes() + m_occupancy->bytes()}};
@@ -526,7 +542,7 @@ void RayCaster::upload()
   add("mask.texture", m_mask.texture().bytes());
   add("labels.texture", m_labels.occupancy.bytes() + m_labels.index.bytes());
   add("labels.thickness", m_thickness.texture.bytes());
-  add("mr.texture", m_second.texture.bytes());
+  add("mr.texture", m_others[0].data.texture.bytes() + m_others[1].data.texture.bytes());
   add("light.opacities", m_opacities ? m_opacityTexture.bytes() + m_opacities->bytes() : 0);
 }
 
@@ -696,7 +712,8 @@ float RayCaster::readDepth(double column, double row, int width, int height) con
 void RayCaster::releaseData()
 {
   m_ct.texture.release();
-  m_second.texture.release();
+  for (OtherImage& other : m_others)
+    other.data.texture.release();
   m_mask.release();
   m_labels.release();
   m_thickness.texture.release();

@@ -152,16 +152,27 @@ private:
   std::unique_ptr<OccupancyGrid> m_occupancy;
   std::unique_ptr<OpacityPyramid> m_opacities; // only with shadows
 
-  bool m_newCt = false, m_newLabels = false, m_newMaterials = false, m_newSecond = false;
+  /// An image beside the CT.
+  struct OtherImage
+  {
+    appearance::IntensitySource source; // of the materials that read it
+    IntensityTexture data = {};
+    volume::ValueRange range = {};
+    bool isNew = false;
+  };
+
+  bool m_newCt = false, m_newLabels = false, m_newMaterials = false;
   bool m_newThickness = false;
   bool m_newRules = false;
   bool m_newOpacities = false;
   core::IndexBox m_dirtyBricks;
   core::IndexBox m_dirtyOpacities;
   core::IndexBox m_tissueBricks; // bounding box of all visible tissue
-  volume::ValueRange m_ctRange, m_secondRange;
+  volume::ValueRange m_ctRange;
 
-  IntensityTexture m_ct, m_second;
+  IntensityTexture m_ct;
+  std::array<OtherImage, 2> m_others{OtherImage{appearance::IntensitySource::Second},
+                                     OtherImage{appearance::IntensitySource::Third}};
   MaskTexture m_mask;
   LabelTextures m_labels;
   ThicknessTexture m_thickness;

@@ -31,6 +31,7 @@ enum Unit : int
   OccupancyUnit,
   IndexUnit,
   SecondUnit,
+  ThirdUnit,
   ThicknessUnit,
   DepthUnit,
   OpacityUnit
@@ -57,8 +58,10 @@ void RayCaster::bindTextures(GlProgram& program, const Frame& frame) const
     bind(m_labels.occupancy, OccupancyUnit, "occupancyTexture");
     bind(m_labels.index, IndexUnit, "indexTexture");
   }
-  if (m_second.texture)
-    bind(m_second.texture, SecondUnit, "secondTexture");
+  if (m_others[0].data.texture)
+    bind(m_others[0].data.texture, SecondUnit, "secondTexture");
+  if (m_others[1].data.texture)
+    bind(m_others[1].data.texture, ThirdUnit, "thirdTexture");
   if (m_thickness.texture)
     bind(m_thickness.texture, ThicknessUnit, "thicknessTexture");
   if (m_opacityTexture)
@@ -163,19 +166,25 @@ void RayCaster::setVolume(GlProgram& program) const
     program.set("thicknessUnit", m_thickness.unit);
     program.set("thicknessFarthest", m_contents.thickness.farthest);
   }
-  if (m_second.texture && m_contents.second.volume)
+  for (const OtherImage& other : m_others)
   {
-    const core::GridGeometry& second = m_contents.second.volume->geometry();
-    const core::RigidTransform& motion = m_contents.second.secondFromCt;
-    const Eigen::Matrix3d linear = second.voxelFromPatientLinear() *
-                                   motion.rotation().toRotationMatrix() * voxelFromMm.inverse();
-    program.set("secondFromVoxel", linear);
-    program.set("secondOrigin",
-                second.voxelFromPatient(motion * grid.patientFromVoxel(Eigen::Vector3d::Zero())));
-    program.set("secondUnit", m_second.unit);
-    program.set("secondUpper", upperOf(second.dims()));
-    program.set("secondScale", m_second.map.scale);
-    program.set("secondOffset", m_second.map.offset);
+    const SecondImage& image = otherImage(m_contents, other.source);
+    if (!other.data.texture || !image.volume)
+      continue;
+    const core::GridGeometry& own = image.volume->geometry();
+    const core::RigidTransform& motion = image.secondFromCt;
+    const Eigen::Matrix3d linear =
+        own.voxelFromPatientLinear() * motion.rotation().toRotationMatrix() * voxelFromMm.inverse();
+    const std::string name =
+        other.source == appearance::IntensitySource::Third ? "third" : "second";
+    const auto set = [&](const char* what, const auto& value)
+    { program.set((name + what).c_str(), value); };
+    set("FromVoxel", linear);
+    set("Origin", own.voxelFromPatient(motion * grid.patientFromVoxel(Eigen::Vector3d::Zero())));
+    set("Unit", other.data.unit);
+    set("Upper", upperOf(own.dims()));
+    set("Scale", other.data.map.scale);
+    set("Offset", other.data.map.offset);
   }
 }
 

@@ -35,6 +35,7 @@ constexpr Part kParts[] = {
     {&RayFeatures::nested, "PETROUS_NESTED", "nested"},
     {&RayFeatures::mask, "PETROUS_MASK", "mask"},
     {&RayFeatures::second, "PETROUS_SECOND", "second"},
+    {&RayFeatures::third, "PETROUS_THIRD", "third"},
     {&RayFeatures::interior, "PETROUS_INTERIOR", "interior"},
     {&RayFeatures::soft, "PETROUS_SOFT", "soft tissue"},
     {&RayFeatures::clip, "PETROUS_CLIP", "clipping"},

@@ -18,7 +18,8 @@ struct RayFeatures
   bool borders = false;   ///< touching structures
   bool nested = false;    ///< translucent structures
   bool mask = false;      ///< the cut mask
-  bool second = false;    ///< a second image that some materials read
+  bool second = false;    ///< images beside the CT that some materials read
+  bool third = false;     ///< two of them; with `second`
   bool interior = false;  ///< translucent tissue
   bool soft = false;      ///< soft tissue; with `interior`
   bool clip = false;      ///< clipping planes

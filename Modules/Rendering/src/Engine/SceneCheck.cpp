@@ -41,8 +41,11 @@ void checkContents(const SceneContents& contents)
     checkLabels(*contents.labels);
   const auto checkSource = [&contents](const appearance::Material& material)
   {
-    require(material.source == appearance::IntensitySource::Ct || contents.second.volume,
-            "a material reads a second image, and there is none");
+    require(material.source == appearance::IntensitySource::Ct ||
+                otherImage(contents, material.source).volume,
+            material.source == appearance::IntensitySource::Third
+                ? "a material reads a third image, and there is none"
+                : "a material reads a second image, and there is none");
   };
   std::for_each(contents.materials.begin(), contents.materials.end(), checkSource);
   if (contents.softTissue)

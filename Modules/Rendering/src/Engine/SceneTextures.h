@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,7 +65,7 @@ std::vector<T> reduceBox(const core::Index3& dims, const core::Index3& factor,
   return result;
 }
 
-/// A CT or second image in its native type; intensity = texel * unit.
+/// A CT or another image in its native type; intensity = texel * unit.
 struct IntensityTexture
 {
   GlTexture texture;
@@ -149,9 +150,9 @@ struct MaterialTables
   GlTexture depth;
   GlTexture material;
 
-  /// `ct`, `second`: the images' intensity ranges.
+  /// `ranges`: of the images' intensities, in the order of appearance::IntensitySource.
   void upload(const std::vector<appearance::Material>& materials, int tableSize,
-              const volume::ValueRange& ct, const volume::ValueRange& second);
+              const std::array<volume::ValueRange, 3>& ranges);
   void release();
 };
 

@@ -45,6 +45,7 @@ TissueOptics::TissueOptics(const SceneContents& contents)
   , m_index(contents.labels ? contents.labels->index : nullptr)
   , m_borders(contents.labels ? contents.labels->borders : nullptr)
   , m_second(contents.second)
+  , m_third(contents.third)
   , m_materials(contents.materials)
   , m_softTissue(contents.softTissue && !contents.softTissue->transfer.transparent()
                      ? contents.softTissue
@@ -171,9 +172,13 @@ const appearance::Material& TissueOptics::surfaceMaterial(const Eigen::Vector3d&
 double TissueOptics::intensity(const appearance::Material& material,
                                const Eigen::Vector3d& patient) const
 {
-  if (material.source == appearance::IntensitySource::Second)
-    return m_second.volume->sample(
-        m_second.volume->geometry().voxelFromPatient(m_second.secondFromCt * patient));
+  if (material.source != appearance::IntensitySource::Ct)
+  {
+    const SecondImage& image =
+        material.source == appearance::IntensitySource::Third ? m_third : m_second;
+    return image.volume->sample(
+        image.volume->geometry().voxelFromPatient(image.secondFromCt * patient));
+  }
   return m_ct->sample(m_ct->geometry().voxelFromPatient(patient));
 }
 

@@ -86,7 +86,7 @@ private:
   std::shared_ptr<const volume::Volume<float>> m_occupancy;
   std::shared_ptr<const volume::Volume<std::uint8_t>> m_index;
   std::shared_ptr<const volume::Volume<std::uint8_t>> m_borders;
-  SecondImage m_second;
+  SecondImage m_second, m_third;
   std::vector<appearance::Material> m_materials;
   std::optional<appearance::Material> m_softTissue; ///< if it has any opacity
   std::shared_ptr<const volume::CutMask> m_mask;

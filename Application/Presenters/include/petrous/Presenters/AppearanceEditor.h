@@ -113,8 +113,7 @@ public:
 
   /// The built-in ones, then those of the library. Throws as OwnPresets::all.
   std::vector<Preset> presets() const;
-  /// As `petrous appearance --set`. Throws as OwnPresets::preset; InvalidParameter for bone and
-  /// soft tissue if it is that of a lumen.
+  /// As `petrous appearance --set`. Throws as OwnPresets::preset and withPreset.
   void applyPreset(const std::string& name);
   void savePreset(const std::string& name);   ///< the part's appearance; throws as OwnPresets::save
   void deletePreset(const std::string& name); ///< throws as OwnPresets::remove
@@ -129,7 +128,7 @@ public:
   std::vector<Source> sources() const; ///< the primary image first
   /// Why the selected part reads the primary image only; empty: it may read any.
   std::string sourceFixed() const;
-  /// Soft tissue gets a function of an MR's values with it (softTissueReading).
+  /// Soft tissue gets a function of an MR's values with it. Throws as softTissueReading.
   void setSource(const std::string& image);
   /// Why the selected part is drawn in one colour although it has a function, or soft tissue not at
   /// all; empty: it is drawn as it is set.
@@ -176,8 +175,9 @@ appearance::StructureAppearance softTissueReading(const scene::Case& value,
                                                   AppearanceHistograms::Histogram histogram = {});
 
 /// A part's look with a preset; where that leaves the colour open ("other"), with one unlike those
-/// of the other parts. Throws InvalidParameter if bone or soft tissue would
-/// become a lumen.
+/// of the other parts. Throws InvalidParameter if bone or soft tissue would become a lumen, or if
+/// the preset has values of an MR and the part reads a CT, or the other way round; soft tissue
+/// reads the CT with a preset for it.
 appearance::StructureAppearance withPreset(const scene::Case& value, const std::string& part,
                                            const appearance::StructureAppearance& preset);
 

@@ -24,10 +24,11 @@ public:
   /// What cannot be placed on the CT (scene::Placement) is left out.
   ///
   /// Material 0 is bone, the others are the visible structures in the order of scene::labelSources.
-  /// Of the MRs that appearances refer to, the first registered one is drawn; structures that refer
-  /// to another are drawn in a single colour, and soft tissue that does is not drawn; its MR is
-  /// drawn if bone and structures refer to none. Throws InvalidParameter if more than 255
-  /// structures are shown, CancelledError, and what loading the parts throws.
+  /// Of the MRs that appearances of what is shown refer to, the first registered ones are drawn, up
+  /// to kMrsOfPicture; structures that refer to another are drawn in a single colour, and soft
+  /// tissue that does is not drawn; its MR is drawn if bone and structures leave room. Throws
+  /// InvalidParameter if more than 255 structures are shown, CancelledError, and what loading the
+  /// parts throws.
   rendering::SceneContents contents(const scene::Case& value, const core::Progress& progress = {});
 
   /// Colours bone by its thickness over this structure (BoneThickness.h) from the next `contents`
@@ -43,6 +44,17 @@ private:
   std::vector<volume::LabelSource> m_sources;
   std::shared_ptr<const volume::LabelField> m_labels; ///< of `m_sources`
 };
+
+/// The MRs that a picture shows at most.
+constexpr std::size_t kMrsOfPicture = 2;
+
+/// The names of the MRs that a picture of the case shows, those of bone and structures first. Reads
+/// no image.
+std::vector<std::string> drawnMrs(const scene::Case& value);
+
+/// Why an MR that bone or a structure draws values of is not drawn: others are. Empty: it is, or
+/// nothing asks for it. Reads no image.
+std::string mrMissing(const scene::Case& value, const std::string& mr);
 
 /// Why soft tissue is not drawn where it is shown: "'T2' is not registered with the CT". Empty: it
 /// is. Reads no image.

@@ -399,11 +399,9 @@ private:
     std::optional<At<scene::ImagePart>> mr = {};
     std::optional<At<scene::LabelPart>> labels = {};
     std::optional<At<scene::MeshPart>> mesh = {};
-    std::size_t structure = 0;             ///< place in its label part
-    bool wasAlone = true;                  ///< the label part went with it
-    std::vector<std::string> colored = {}; ///< structures whose appearance read the MR
-    /// As it read the MR, if it did.
-    std::optional<appearance::StructureAppearance> softTissue = {};
+    std::size_t structure = 0;              ///< place in its label part
+    bool wasAlone = true;                   ///< the label part went with it
+    std::vector<PartLook> readers = {};     ///< appearances that read the MR, as they did
     std::vector<std::string> measured = {}; ///< measurements that followed it
   };
   /// What followed a structure that was taken out, until it is put back.

@@ -9,7 +9,8 @@ namespace petrous::appearance
 enum class IntensitySource
 {
   Ct,
-  Second ///< a registered second image, e.g. MR
+  Second, ///< a registered second image, e.g. MR
+  Third   ///< and another one beside it
 };
 
 /// Rendering parameters of one tissue: its surface, and the volume visible through it.

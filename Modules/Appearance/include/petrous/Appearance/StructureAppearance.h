@@ -51,7 +51,7 @@ void makeUntouchable(StructureAppearance& look);
 void applyPreset(StructureAppearance& look, const StructureAppearance& preset);
 
 /// As above, for soft tissue, which stays air to haptics and drilling. It reads the primary image
-/// if the preset is made for CT.
+/// if the preset is made for CT, or has values of one (OwnPresets).
 void applySoftTissuePreset(StructureAppearance& look, const StructureAppearance& preset);
 
 } // namespace petrous::appearance

@@ -83,7 +83,7 @@ struct LightSettings
   }
 };
 
-/// A second image in the same scene, sampled by the materials that ask for it.
+/// An image beside the CT in the same scene, sampled by the materials that ask for it.
 struct SecondImage
 {
   std::shared_ptr<const volume::IntensityVolume> volume; ///< null: none
@@ -128,6 +128,7 @@ struct SceneContents
   /// its surface opacity and whether it is a lumen do not count. nullopt: it is air to a ray.
   std::optional<appearance::Material> softTissue;
   SecondImage second;
+  SecondImage third;
   std::vector<ClippingPlane> clipping;
   std::optional<core::IndexBox> crop; ///< drawn CT voxels; nullopt: all
   /// Where hull, crop box and clipping planes cut tissue off, the face is unlit, and bone's shows
@@ -138,5 +139,12 @@ struct SceneContents
   std::optional<ToolPose> tool;
   LightSettings light;
 };
+
+/// The image that a material of another source than the CT reads.
+inline const SecondImage& otherImage(const SceneContents& contents,
+                                     appearance::IntensitySource source)
+{
+  return source == appearance::IntensitySource::Third ? contents.third : contents.second;
+}
 
 } // namespace petrous::rendering

@@ -112,7 +112,7 @@ float valueAt(Ray ray, float s, float value)
 void passTissue(inout Ray ray, float to, float value, float bulge)
 {
   float reads = valueAt(ray, to, value);
-  bulge = ray.more.y > 0.5 ? 0.0 : bulge; // the second image is not sampled half way
+  bulge = ray.more.y > 0.5 ? 0.0 : bulge; // other images are not sampled half way
   Segment segment = segmentOf(ray.material, ray.row, ray.gathering, max(to - ray.before, 0.0),
                               vec2(ray.value, reads) + 0.66666667 * bulge);
   float middle = 0.5 * (ray.before + to);

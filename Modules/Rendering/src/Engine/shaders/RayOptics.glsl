@@ -20,6 +20,14 @@ vec3 displayed(vec3 lit)
 // Intensity used by a material.
 float intensityAt(vec3 v, vec4 more)
 {
+#ifdef PETROUS_THIRD
+  if (more.y > 1.5)
+  {
+    COUNT(1);
+    vec3 s = clamp(thirdFromVoxel * v + thirdOrigin, vec3(0.0), thirdUpper);
+    return exactly(thirdTexture, s * thirdScale + thirdOffset) * thirdUnit;
+  }
+#endif
 #ifdef PETROUS_SECOND
   if (more.y > 0.5)
   {

@@ -4,7 +4,8 @@
 // Compiled with the features that the scene uses (PETROUS_*); undefined features are not fetched.
 //   BONE       the CT's isosurface            MASK     the cut mask
 //   LABELS     structures                     SECOND   a second image for some materials
-//   BORDERS    touching structures            NESTED   translucent structures
+//   BORDERS    touching structures            THIRD    and a third one (with SECOND)
+//   NESTED     translucent structures
 //   INTERIOR   translucent tissue             CLIP     clipping planes
 //   THICKNESS  bone is coloured by its distance to a structure
 //   SOFT       soft tissue (with INTERIOR)
@@ -25,15 +26,15 @@
 //   occupancyTexture   R16, smoothed union of solid structures, own grid
 //   indexTexture   R8UI, nearest, grid of occupancyTexture: row of the material; with BORDERS
 //                  RG8UI, the second channel as LabelField::borders
-//   secondTexture  as ctTexture, own grid
+//   secondTexture, thirdTexture  as ctTexture, own grids
 //   brickTexture   RGBA8UI, nearest, one texel per brick: distances to tissue, inside; flags;
 //                  distance to soft tissue
 //   lookTexture    RGBA16F, row = material, over its intensities: colour, specular
 //   depthTexture   RGBA32F, nearest, row = material: integrals over its intensities of
 //                  extinction * colour and of extinction (1/mm)
 //   materialTexture RGBA32F, nearest, 2 x rows: (first intensity, 1 / range, surface opacity,
-//                  shininess), (lumen, reads the second image, edge of soft tissue per mm, -); the
-//                  last row is that of soft tissue, with SOFT
+//                  shininess), (lumen, image: 0 the CT, 1 the second, 2 the third, edge of soft
+//                  tissue per mm, -); the last row is that of soft tissue, with SOFT
 //   thicknessTexture R16_SNORM, mm to a structure = texel * thicknessUnit, own grid
 //   opaqueTexture  window depth of opaque polygons
 
@@ -100,6 +101,14 @@ uniform vec3 secondOrigin;
 uniform float secondUnit;
 uniform vec3 secondUpper;
 uniform vec3 secondScale, secondOffset;
+#endif
+#ifdef PETROUS_THIRD
+uniform sampler3D thirdTexture;
+uniform mat3 thirdFromVoxel;
+uniform vec3 thirdOrigin;
+uniform float thirdUnit;
+uniform vec3 thirdUpper;
+uniform vec3 thirdScale, thirdOffset;
 #endif
 #ifdef PETROUS_THICKNESS
 uniform sampler3D thicknessTexture;

@@ -360,6 +360,12 @@ bool RayCaster::softTissueSeen() const
   return m_contents.softTissue && !m_contents.softTissue->transfer.transparent();
 }
 
+// Whether rays go on in tissue.
+bool RayCaster::interiorSeen() const
+{
+  return softTissueSeen() || translucent(m_contents.materials);
+}
+
 RayFeatures RayCaster::features() const
 {
   RayFeatures features;
@@ -370,7 +376,7 @@ RayFeatures RayCaster::features() const
   features.mask = m_mask.inUse();
   features.second = readsSecond(m_contents);
   features.soft = softTissueSeen();
-  features.interior = features.soft || translucent(m_contents.materials);
+  features.interior = interiorSeen();
   features.thickness = static_cast<bool>(m_contents.thickness.distance);
   features.clip = !m_contents.clipping.empty();
   features.shadows = m_contents.light.shadows;
@@ -386,7 +392,7 @@ OccupancyGrid::Rules RayCaster::rules() const
   rules.iso = m_contents.iso;
   rules.bone = m_contents.boneShown;
   rules.soft = softTissueSeen();
-  rules.interior = rules.soft || translucent(m_contents.materials);
+  rules.interior = interiorSeen();
   rules.opaque = opaqueRanges(m_contents.materials.front().transfer);
   rules.interiorEverywhere =
       m_contents.materials.front().source == appearance::IntensitySource::Second &&

@@ -127,6 +127,7 @@ public:
 private:
   std::shared_ptr<const volume::CutMask> maskInUse() const;
   bool softTissueSeen() const;
+  bool interiorSeen() const;
   RayFeatures features() const;
   OccupancyGrid::Rules rules() const;
   OpacityPyramid::Scene lightStoppers() const;

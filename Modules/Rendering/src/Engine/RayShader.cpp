@@ -4,6 +4,7 @@
 
 #include "OccupancyGrid.h"
 #include "OpticalModel.h"
+#include "PolygonShadowsShader.h"
 #include "RayCastShader.h"
 #include "RayClipShader.h"
 #include "RayMarchShader.h"
@@ -40,6 +41,7 @@ constexpr Part kParts[] = {
     {&RayFeatures::clip, "PETROUS_CLIP", "clipping"},
     {&RayFeatures::thickness, "PETROUS_THICKNESS", "thickness"},
     {&RayFeatures::shadows, "PETROUS_SHADOWS", "shadows"},
+    {&RayFeatures::instrument, "PETROUS_INSTRUMENT", "instrument"},
     {&RayFeatures::tone, "PETROUS_TONE", "tone"},
     {&RayFeatures::count, "PETROUS_COUNT", nullptr},
     {&RayFeatures::exact, "PETROUS_EXACT", nullptr},
@@ -109,6 +111,17 @@ std::string toneCurveShader()
   return constantText("kToneStart", optics::kToneStart) +
          constantText("kToneDesaturation", optics::kToneDesaturation) +
          std::string(kToneCurveShader);
+}
+
+std::string polygonShadowsShader()
+{
+  return "#define PETROUS_SHADOWS\n#define PETROUS_CLIP\n#define PETROUS_INSTRUMENT\n"
+         "#define COUNT(n)\n"
+         "uniform vec3 boxLower, boxUpper;\n"
+         "uniform mat3 voxelFromMm;\n"
+         "uniform int planeCount;\n" +
+         constants() + "uniform vec4 planes[kMaxPlanes];\n" + std::string(kRayShadowsShader) +
+         std::string(kPolygonShadowsShader);
 }
 
 std::string rayFragmentShader(const RayFeatures& features)

@@ -55,15 +55,18 @@ namespace petrous::rendering
 /// `farthest`, thicknessColor(d / farthest) replaces the transfer function's colour; light and
 /// highlight stay.
 ///
-/// Shadows (LightSettings::shadows; record 33): a surface that a ray in air or soft tissue meets,
-/// and that is not such a face, with the normal n towards the camera, sees (soft tissue stops
-/// nothing)
+/// Shadows (LightSettings::shadows; records 33 and 42): a surface that a ray in air or soft tissue
+/// meets, and that is not such a face, and one of a mesh or of the tool, with the normal n towards
+/// the camera, sees (soft tissue stops nothing)
 ///   sky     1 - 1/pi integral over the hemisphere of n of (n . w) b(w) (1 - (d / r)^2) dw
 ///   lamp    1 - mean over the lamp's disc of b(w)
-/// where b(w) is the fraction that tissue and the tool stop of what comes from direction w, and d
-/// the distance at which they do, up to r = kOcclusionReach; for the lamp up to kShadowReach. A
-/// surface that a ray in air enters stops the opacity of its material, the tool (ToolShape.h) all.
-/// All other surfaces see all. Meshes cast no shadows, and neither they nor the tool lie in any.
+/// where b(w) is the fraction that tissue, closed meshes and the tool stop of what comes from
+/// direction w, and d the distance at which they do, up to r = kOcclusionReach; for the lamp up to
+/// kShadowReach. A surface that a ray in air enters stops the opacity of its material, a mesh its
+/// own opacity where it is entered (of a drilled one, what the mask left), both only in the hull,
+/// the crop box and on the drawn side of clipping planes; the tool (ToolShape.h, or the instrument)
+/// stops all, but nothing of what reaches itself. What a mesh or the tool lies in stops nothing of
+/// it. All other surfaces see all.
 namespace optics
 {
 

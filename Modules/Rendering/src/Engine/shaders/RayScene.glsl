@@ -8,7 +8,8 @@
 //   INTERIOR   translucent tissue             CLIP     clipping planes
 //   THICKNESS  bone is coloured by its distance to a structure
 //   SOFT       soft tissue (with INTERIOR)
-//   SHADOWS    surfaces see less of the sky and of the lamp where tissue is in the way
+//   SHADOWS    surfaces see less of the sky and of the lamp where something is in the way
+//   INSTRUMENT an instrument is (with SHADOWS)
 //   TONE       lit colours go through the tone curve
 //   COUNT      fetches and samples are counted
 //   EXACT      the card's filter rounds: values come from one of our own

@@ -235,6 +235,7 @@ TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
   EXPECT_NE(drawn("--wetness 1"), plain);
   EXPECT_NE(drawn("--shadows"), plain);
   EXPECT_EQ(drawn("--no-shadows"), plain);
+  EXPECT_EQ(drawn("--edges 0"), plain);
   EXPECT_EQ(drawn("--exposure 0 --no-tone-curve"), plain);
   EXPECT_NE(drawn("--exposure -1"), plain);
   EXPECT_NE(drawn("--exposure 1"), plain);
@@ -242,6 +243,7 @@ TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
   expectRefused(render("--exposure 5"), 2, "EV");
   expectRefused(render("--exposure nan"), 2, "--exposure");
   expectRefused(render("--wetness 1.5"), 2, "--wetness");
+  expectRefused(render("--edges 1.5"), 2, "--edges");
   expectRefused(render("--light-falloff -1"), 2, "mm");
   expectRefused(render("--light-falloff nan"), 2, "--light-falloff");
 }

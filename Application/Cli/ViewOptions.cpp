@@ -148,6 +148,7 @@ scene::ViewState::Light LightOptions::over(scene::ViewState::Light light) const
   light.shadows = shadows.value_or(light.shadows);
   light.exposure = exposure.value_or(light.exposure);
   light.toneCurve = toneCurve.value_or(light.toneCurve);
+  light.edges = edges.value_or(light.edges);
   return light;
 }
 
@@ -181,6 +182,11 @@ void addLightOptions(CLI::App& command, LightOptions& options, const std::string
       ->check(within({-kMaxExposure, kMaxExposure, "EV"}));
   addFlag("tone-curve", options.toneCurve,
           "Roll highlights off above 80 % instead of clipping them");
+  command
+      .add_option("--edges", options.edges,
+                  "More opacity of translucent surfaces that are seen from the side, 0 to 1" +
+                      defaultText)
+      ->check(within({0.0, 1.0}));
 }
 
 } // namespace petrous::cli

@@ -4898,6 +4898,14 @@ Verletzt: %1, %2</translation>
         <source>What lies below the surface threshold and is no structure is drawn, translucent. The Appearance panel has its colours and opacities</source>
         <translation>Was unter der Oberflächenschwelle liegt und keine Struktur ist, wird durchscheinend dargestellt. Farben und Deckkräfte stehen in der Leiste Darstellung</translation>
     </message>
+    <message>
+        <source>Ed&amp;ges</source>
+        <translation>Kant&amp;en</translation>
+    </message>
+    <message>
+        <source>Translucent surfaces are more opaque where they are seen from the side, as a shell is, so that bone keeps its shape</source>
+        <translation>Durchscheinende Oberflächen sind dort, wo man sie von der Seite sieht, deckender, wie eine Schale, sodass Knochen seine Form behält</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::PreviewBar</name>

@@ -173,3 +173,23 @@ TEST(OpticalModel, NoColorLeavesZeroToOne)
   light.intensity = -1.0;
   EXPECT_GE(lit(light, 1.0).minCoeff(), 0.0);
 }
+
+// A shell of opacity 0.12 is passed twice as long at 60 degrees.
+TEST(OpticalModel, ATranslucentSurfaceIsAsOpaqueFromTheSideAsAShell)
+{
+  EXPECT_NEAR(optics::edgeOpacity(0.12, 0.5, 1.0), 1.0 - 0.88 * 0.88, 1e-12);
+  EXPECT_NEAR(optics::edgeOpacity(0.12, -0.25, 1.0), 1.0 - std::pow(0.88, 4.0), 1e-12);
+  EXPECT_NEAR(optics::edgeOpacity(0.12, 0.5, 0.5), 1.0 - std::pow(0.88, 1.5), 1e-12);
+  EXPECT_NEAR(optics::edgeOpacity(0.12, 1.0, 1.0), 0.12, 1e-12);
+  EXPECT_EQ(optics::edgeOpacity(0.12, 0.1, 0.0), 0.12); // to the bit
+  EXPECT_EQ(optics::edgeOpacity(1.0, 0.1, 1.0), 1.0);
+  EXPECT_EQ(optics::edgeOpacity(0.0, 0.0, 1.0), 0.0);
+  double before = 0.0;
+  for (const double cosine : {1.0, 0.7, 0.3, 0.1, 0.02, 0.0})
+  {
+    const double opacity = optics::edgeOpacity(0.12, cosine, 1.0);
+    EXPECT_GT(opacity, before);
+    EXPECT_LT(opacity, 1.0);
+    before = opacity;
+  }
+}

@@ -383,6 +383,7 @@ RayFeatures RayCaster::features(const Frame& frame) const
   features.second = readsSecond(m_contents);
   features.soft = softTissueSeen();
   features.interior = interiorSeen();
+  features.edges = m_contents.light.edges > 0.0 && translucent(m_contents.materials);
   features.thickness = static_cast<bool>(m_contents.thickness.distance);
   features.clip = !m_contents.clipping.empty();
   features.shadows = m_contents.light.shadows;

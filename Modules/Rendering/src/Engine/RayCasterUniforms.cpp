@@ -195,6 +195,7 @@ void RayCaster::setLight(GlProgram& program, const Frame& frame) const
   program.set("light", Eigen::Vector4d(optics::lightAt(light, 0.0, frame.lamp.focus), light.ambient,
                                        light.specular, light.wetness));
   program.set("plainLight", light.intensity);
+  program.set("edges", light.edges);
   program.set("falloff", light.falloff);
   const SectionWindow window = m_contents.section.value_or(SectionWindow());
   program.set("section", m_contents.section ? Eigen::Vector2d(window.level - 0.5 * window.width,

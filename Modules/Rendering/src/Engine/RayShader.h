@@ -20,6 +20,7 @@ struct RayFeatures
   bool mask = false;       ///< the cut mask
   bool second = false;     ///< a second image that some materials read
   bool interior = false;   ///< translucent tissue
+  bool edges = false;      ///< its surfaces are more opaque from the side; with `interior`
   bool soft = false;       ///< soft tissue; with `interior`
   bool clip = false;       ///< clipping planes
   bool thickness = false;  ///< bone is coloured by its distance to a structure

@@ -41,6 +41,14 @@ Eigen::Vector3d displayed(const Eigen::Vector3d& color, const LightSettings& lig
   return light.toneCurve ? toneCurve(color) : color.cwiseMax(0.0).cwiseMin(1.0).eval();
 }
 
+double edgeOpacity(double opacity, double cosine, double edges)
+{
+  if (!(edges > 0.0) || opacity >= 1.0)
+    return opacity;
+  const double path = 1.0 + edges * (1.0 / std::clamp(std::abs(cosine), kLeastFacing, 1.0) - 1.0);
+  return 1.0 - std::pow(1.0 - opacity, path);
+}
+
 double sectionGrey(const SectionWindow& window, double value)
 {
   return std::clamp((value - window.level) / window.width + 0.5, 0.0, 1.0);

@@ -41,7 +41,7 @@ namespace petrous::rendering
 ///   v       intensity at x - n * kColorDepth * (smallest spacing of the CT), clamped to the hull
 ///           of the sampled image
 ///   c_s     surfaceColor(transfer(v), |n . ray|, distance along the ray)
-///   opacity material.surfaceOpacity
+///   opacity edgeOpacity(material.surfaceOpacity, |n . ray|)
 /// The material is i's from structure to structure i; otherwise structureAt(x)'s where occupancy >
 /// 0.5 - 1e-3 at x; otherwise a lumen's where the index at x is that of a lumen; otherwise bone.
 /// Where tissue is cut off by the hull, the crop box or a clipping plane, n is that face's normal
@@ -86,6 +86,9 @@ constexpr double kOccupancyThreshold = 0.5 - 1e-3;
 /// Surface opacity from which slice steps are smoothed when shading the CT's surface. They are less
 /// visible on more transparent surfaces, and a ray meets many of those.
 constexpr double kSmoothOpacity = 0.5;
+
+/// Smallest cosine of edgeOpacity.
+constexpr double kLeastFacing = 1.0 / 64.0;
 
 /// Distance, mm, up to which tissue keeps the light of the sky from a surface, and that of the
 /// lamp.
@@ -142,6 +145,14 @@ Eigen::Vector3d toneCurve(const Eigen::Vector3d& color);
 
 /// A lit colour as it is displayed: by toneCurve if the light has one, else clamped to 0..1.
 Eigen::Vector3d displayed(const Eigen::Vector3d& color, const LightSettings& light);
+
+/// Opacity of a translucent surface, `opacity` head-on, at a cosine c: that of a shell of constant
+/// thickness by the law of Beer and Lambert, through which the path is 1/c times as long (Kay and
+/// Greenberg, Transparency for computer synthesized images, 1979):
+///   1 - (1 - opacity)^(1 + edges (1 / max(c, kLeastFacing) - 1))
+/// What it adds and what it lets through remain 1 together. Faces, and what a surface stops of the
+/// light of others (shadows), have `opacity`.
+double edgeOpacity(double opacity, double cosine, double edges);
 
 /// Grey of a CT's value in a section, 0 to 1.
 double sectionGrey(const SectionWindow& window, double value);

@@ -183,6 +183,7 @@ std::optional<double> toolAlong(const ToolPose& tool, const PixelRay& ray)
 SurfaceGeometry::SurfaceGeometry(const SceneContents& contents)
   : m_light(contents.light)
 {
+  m_light.wetness = 0.0; // VTK draws them dry
   for (const MeshContents& mesh : contents.meshes)
   {
     if (!mesh.mesh)

@@ -71,6 +71,9 @@ struct LightSettings
   bool shadows = false;
   double exposure = 0.0;  ///< EV: each doubles the luminance on the screen (record 35)
   bool toneCurve = false; ///< highlights roll off instead of being clipped
+  /// How much of the path through a shell its opacity follows, 0 to 1: translucent surfaces are
+  /// the more opaque the more they are seen from the side, and keep their shape (record 42).
+  double edges = 0.0;
 
   /// With the ambient light that goes with it.
   void setShadows(bool on)

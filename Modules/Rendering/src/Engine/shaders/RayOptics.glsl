@@ -57,6 +57,17 @@ vec4 overlayAt(vec3 v)
 #endif
 }
 
+// Opacity of a surface that is not a face; see edgeOpacity in OpticalModel.h.
+float opacityFrom(float opacity, float facing)
+{
+#ifdef PETROUS_EDGES
+  float path = 1.0 + edges * (1.0 / max(facing, kLeastFacing) - 1.0);
+  return opacity < 1.0 ? 1.0 - pow(1.0 - opacity, path) : opacity;
+#else
+  return opacity;
+#endif
+}
+
 // `overlay`: see overlayAt; `seen`: of the surface; `isSection`: a face, which is not lit.
 vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, vec4 overlay,
                   Seen seen, bool isSection)

@@ -6,6 +6,7 @@
 //   LABELS     structures                     SECOND   a second image for some materials
 //   BORDERS    touching structures            NESTED   translucent structures
 //   INTERIOR   translucent tissue             CLIP     clipping planes
+//   EDGES      translucent surfaces are more opaque from the side (with INTERIOR)
 //   THICKNESS  bone is coloured by its distance to a structure
 //   SOFT       soft tissue (with INTERIOR)
 //   SHADOWS    surfaces see less of the sky and of the lamp where something is in the way
@@ -15,7 +16,8 @@
 //   EXACT      the card's filter rounds: values come from one of our own
 //   ROUNDED    the card's filter is made to round its weights, for tests on one that does not
 // Preceded by the constants that the C++ code defines (RayShader.cpp): kMaxPlanes,
-// kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity (OpticalModel.h),
+// kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity, kLeastFacing
+// (OpticalModel.h),
 // kOcclusionReach, kShadowReach, kLampTangent, kSliceGrowth (OpticalModel.h, RayShader.h),
 // kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h), kMeeting,
 // kDeepest, kMarginPerDepth (LabelBorders.h).
@@ -78,6 +80,9 @@ uniform float weights; // of the card's filter between two texels
 uniform vec4 light; // intensity at the lamp with exposure, ambient, specular, wetness
 uniform float plainLight; // intensity without exposure and falloff
 uniform float falloff;
+#ifdef PETROUS_EDGES
+uniform float edges; // 0 to 1
+#endif
 uniform vec2 section; // grey of bone's faces: value of black, 1 / range; 0, 0: lit as surfaces are
 
 #ifdef PETROUS_MASK

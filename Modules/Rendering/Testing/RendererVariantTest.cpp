@@ -79,6 +79,19 @@ TEST(RendererVariant, EdgesOfTranslucentSurfacesCostNoFetchAndNothingWhereThereA
   EXPECT_EQ(countDifferentPixels(solid, shoot(opaque, slanting()).picture), 0U);
 }
 
+TEST(RendererVariant, ASurfaceThatIsNotSeenTakesNoLookUpForItsShadows)
+{
+  const auto fetches = [](float opacity, bool shadows)
+  {
+    SceneContents contents = translucentBall();
+    contents.materials = {boneMaterial(opacity)};
+    contents.light.shadows = shadows;
+    return counted(contents, slanting()).fetchesPerPixel;
+  };
+  EXPECT_EQ(fetches(0.0F, true), fetches(0.0F, false));
+  EXPECT_GT(fetches(0.35F, true), 1.05 * fetches(0.35F, false));
+}
+
 TEST(RendererVariant, TakesWhatTheSceneUsesAndNothingElse)
 {
   SceneContents contents = hollowBall();

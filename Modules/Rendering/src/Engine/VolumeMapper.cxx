@@ -511,7 +511,7 @@ void vtkPetrousVolumeMapper::PrepareShadows(vtkRenderer* renderer, vtkVolume* vo
   }
   catch (const std::exception&)
   {
-    // Comes again, and is told, when the volume is drawn.
+    my.clipped = 0; // it comes again, and is told, when the volume is drawn
   }
 }
 

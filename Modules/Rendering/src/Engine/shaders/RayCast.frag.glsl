@@ -196,16 +196,11 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   vec4 overlay = bony ? overlayAt(v) : vec4(0.0);
   float size = length(slopeMm);
   vec3 below = v;
-  bool isSection = facing >= 0.0 && section.y > 0.0;
+  bool isFace = facing >= 0.0;
+  bool isSection = isFace && section.y > 0.0;
   bool isGrey = isSection && ray.material == 0;
-  Seen seen = Seen(1.0, 1.0);
-#ifdef PETROUS_SHADOWS
-  bool shadowed = facing < 0.0 && ray.state <= kAir && size > 1e-12;
-  vec3 normal = shadowed ? slopeMm / (along > 0.0 ? -size : size) : -ray.unit;
-  seen = seenAt(v, normal, ray.unit, hit, shadowed);
-#endif
   float opacity = ray.row.z;
-  if (facing < 0.0)
+  if (!isFace)
   {
     facing = 1.0; // zero gradient: facing the camera
     if (size > 1e-12)
@@ -215,6 +210,13 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
     }
     opacity = opacityFrom(opacity, facing);
   }
+  Seen seen = Seen(1.0, 1.0);
+#ifdef PETROUS_SHADOWS
+  bool shadowed = !isFace && ray.state <= kAir && size > 1e-12 &&
+                  ray.transmittance * opacity > kLeastShadowed;
+  vec3 normal = shadowed ? slopeMm / (along > 0.0 ? -size : size) : -ray.unit;
+  seen = seenAt(v, normal, ray.unit, hit, shadowed);
+#endif
   float value = intensityAt(below, isGrey ? vec4(0.0) : ray.more);
   if (isGrey)
     overlay = vec4(vec3(clamp((value - section.x) * section.y, 0.0, 1.0)), 1.0);

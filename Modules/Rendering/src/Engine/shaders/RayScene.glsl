@@ -140,6 +140,7 @@ const float kFirstAside = 0.3;
 const float kNextAside = 0.6;
 const float kLastAside = 0.02;
 const float kLongSteps = 4.0; // where only the density varies
+const float kLeastShadowed = 0.004; // part of a pixel: its shadows are less than a level of 255
 const float kLeastLit = 1e-4; // opacity of soft tissue below which nobody sees how it is lit
 
 #ifdef PETROUS_COUNT

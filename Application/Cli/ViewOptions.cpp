@@ -171,7 +171,8 @@ void addLightOptions(CLI::App& command, LightOptions& options, const std::string
       ->check(within({0.0, 10000.0, "mm"}));
   command
       .add_option("--wetness", options.wetness,
-                  "Specular gloss of a wet surface, 0 to 1" + defaultText)
+                  "A film of water on tissue, thin highlights in place of its gloss, 0 to 1" +
+                      defaultText)
       ->check(within({0.0, 1.0}));
   addFlag("shadows", options.shadows,
           "Darken cavities, and throw the soft shadow of a lamp above the view axis");

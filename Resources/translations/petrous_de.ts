@@ -4783,8 +4783,8 @@ Verletzt: %1, %2</translation>
         <translation>&amp;Nässe</translation>
     </message>
     <message>
-        <source>Gloss of a wet surface</source>
-        <translation>Glanz einer nassen Oberfläche</translation>
+        <source>A film of water on tissue: thin highlights in place of its own gloss</source>
+        <translation>Ein Wasserfilm auf dem Gewebe: schmale Glanzlichter anstelle seines eigenen Glanzes</translation>
     </message>
     <message>
         <source>How both eyes&apos; pictures come to one screen</source>

@@ -140,6 +140,19 @@ TEST(OpticalModel, WetnessAddsANarrowWhiteHighlight)
   EXPECT_LT((lit(wet, 0.8) - lit(dry, 0.8)).norm(), 1e-10);
 }
 
+TEST(OpticalModel, BelowAFilmOfWaterASurfaceLosesItsOwnGloss)
+{
+  const auto gloss = [](double wetness)
+  {
+    LightSettings light;
+    light.wetness = wetness;
+    return (lit(light, 0.9, 0.0, 0.5) - lit(light, 0.9, 0.0, 0.0))[2];
+  };
+  EXPECT_GT(gloss(0.0), 0.01);
+  EXPECT_NEAR(gloss(0.4), 0.6 * gloss(0.0), 1e-12);
+  EXPECT_NEAR(gloss(1.0), 0.0, 1e-12);
+}
+
 TEST(OpticalModel, FalloffDimsAllThatALampLights)
 {
   LightSettings light;

@@ -60,8 +60,9 @@ Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics,
 {
   const double facing = std::clamp(std::abs(cosine), 0.0, 1.0);
   const double diffuse = light.ambient * seen.sky + (1.0 - light.ambient) * facing * seen.lamp;
-  const double highlight = optics.specular * light.specular * std::pow(facing, shininess) +
-                           light.wetness * std::pow(facing, kWetShininess);
+  const double highlight =
+      (1.0 - light.wetness) * optics.specular * light.specular * std::pow(facing, shininess) +
+      light.wetness * std::pow(facing, kWetShininess);
   const Eigen::Vector3d color(optics.color[0], optics.color[1], optics.color[2]);
   const double reaching = lightAt(light, distance, focus);
   const Eigen::Vector3d lit = (isScale ? std::min(reaching, light.intensity) : reaching) *

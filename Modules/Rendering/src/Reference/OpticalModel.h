@@ -78,8 +78,8 @@ constexpr double kColorDepth = 2.0;
 /// Effective cosine for all directions inside a scattering tissue (no normal is computed there).
 constexpr double kInteriorFacing = 2.0 / 3.0;
 
-/// Exponent of the highlight of a wet surface.
-constexpr double kWetShininess = 120.0;
+/// Exponent of the highlight of a film of water: half of it is seen 4.4 degrees off.
+constexpr double kWetShininess = 240.0;
 
 constexpr double kOccupancyThreshold = 0.5 - 1e-3;
 
@@ -157,8 +157,10 @@ double edgeOpacity(double opacity, double cosine, double edges);
 /// Grey of a CT's value in a section, 0 to 1.
 double sectionGrey(const SectionWindow& window, double value);
 
-/// light (c (ambient sky + (1 - ambient) facing lamp) + lamp (k_s specular facing^shininess
-///        + wetness facing^kWetShininess)), as displayed; k_s of the transfer function.
+/// light (c (ambient sky + (1 - ambient) facing lamp) + lamp ((1 - wetness) k_s specular
+///        facing^shininess + wetness facing^kWetShininess)), as displayed; k_s of the transfer
+/// function. Below water a surface has no gloss of its own: bone (refractive index 1.55) reflects
+/// 4.7 % in air and 0.6 % in water (Fresnel).
 ///
 /// `isScale`: a colour that is compared with a legend; the light is at most the intensity then, and
 /// nothing rolls off.

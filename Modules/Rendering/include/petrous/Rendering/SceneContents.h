@@ -65,7 +65,9 @@ struct LightSettings
   /// mm from the light to where it has half of its intensity at the light; 0: no attenuation. The
   /// camera's focal point is as bright as without.
   double falloff = 0.0;
-  double wetness = 0.0; ///< intensity of the narrow highlight of a wet surface, 0 to 1; 0: dry
+  /// Intensity of the thin highlight of a film of water, which takes the place of tissue's own
+  /// gloss, 0 to 1; 0: dry.
+  double wetness = 0.0;
   /// Tissue, closed meshes and the tool keep ambient light out of cavities, and throw a soft shadow
   /// of a lamp somewhat above the view axis (records 33 and 42).
   bool shadows = false;

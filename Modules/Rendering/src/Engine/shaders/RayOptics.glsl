@@ -78,7 +78,8 @@ vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, ve
   vec4 look = texture(lookTexture, vec2(u, rowCoordinate(material)));
   look.rgb = mix(look.rgb, overlay.rgb, overlay.a);
   float diffuse = light.y * seen.sky + (1.0 - light.y) * facing * seen.lamp;
-  float highlight = look.a * light.z * pow(facing, row.w) + light.w * pow(facing, kWetShininess);
+  float highlight = (1.0 - light.w) * look.a * light.z * pow(facing, row.w) +
+                    light.w * pow(facing, kWetShininess);
   float reaching = lightAt(t);
   bool isScale = overlay.a > 0.0; // compared with a legend: no brighter than that, and its hue
   vec3 lit = (isScale ? min(reaching, plainLight) : reaching) *

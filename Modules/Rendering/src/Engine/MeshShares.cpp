@@ -15,7 +15,7 @@ namespace petrous::rendering
 namespace
 {
 
-constexpr std::size_t kManyRows = 1U << 15U; // of texels: then fewer lines each
+constexpr std::size_t kManyRows = 1U << 12U; // of texels: then fewer lines each
 
 // Texel i of an axis is from i to i + 1.
 core::TriangleMesh inTexels(const core::TriangleMesh& mesh, const core::GridGeometry& ct,

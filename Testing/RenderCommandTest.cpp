@@ -235,6 +235,7 @@ TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
   EXPECT_NE(drawn("--wetness 1"), plain);
   EXPECT_NE(drawn("--shadows"), plain);
   EXPECT_EQ(drawn("--no-shadows"), plain);
+  EXPECT_EQ(drawn("--edges 0"), plain);
   EXPECT_EQ(drawn("--exposure 0 --no-tone-curve"), plain);
   EXPECT_NE(drawn("--exposure -1"), plain);
   EXPECT_NE(drawn("--exposure 1"), plain);
@@ -247,6 +248,7 @@ TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
   for (const char* flag : {"--no-shadows", "--no-tone-curve"})
     for (const char* value : {"false", "true", "3", "some"})
       expectRefused(render(std::string(flag) + "=" + value), 2, "takes no value");
+  expectRefused(render("--edges 1.5"), 2, "--edges");
   expectRefused(render("--light-falloff -1"), 2, "mm");
   expectRefused(render("--light-falloff nan"), 2, "--light-falloff");
 }

@@ -220,11 +220,9 @@ nlohmann::json viewJson(const scene::Case& value)
     branches[name] = cameraJson(camera);
   nlohmann::json light = nullptr;
   if (view.light)
-    light = {{"falloff_mm", view.light->falloff},
-             {"wetness", view.light->wetness},
-             {"shadows", view.light->shadows},
-             {"exposure_ev", view.light->exposure},
-             {"tone_curve", view.light->toneCurve}};
+    light = {{"falloff_mm", view.light->falloff},   {"wetness", view.light->wetness},
+             {"shadows", view.light->shadows},      {"exposure_ev", view.light->exposure},
+             {"tone_curve", view.light->toneCurve}, {"edges", view.light->edges}};
   nlohmann::json stereo = nullptr;
   if (view.stereo)
     stereo = {{"mode", view.stereo->mode},

@@ -148,6 +148,7 @@ scene::ViewState::Light LightOptions::over(scene::ViewState::Light light) const
   light.shadows = shadows.value_or(light.shadows);
   light.exposure = exposure.value_or(light.exposure);
   light.toneCurve = toneCurve.value_or(light.toneCurve);
+  light.edges = edges.value_or(light.edges);
   return light;
 }
 
@@ -191,7 +192,8 @@ void addLightOptions(CLI::App& command, LightOptions& options, const std::string
       ->check(within({0.0, 10000.0, "mm"}));
   command
       .add_option("--wetness", options.wetness,
-                  "Specular gloss of a wet surface, 0 to 1" + defaultText)
+                  "A film of water on tissue, thin highlights in place of its gloss, 0 to 1" +
+                      defaultText)
       ->check(within({0.0, 1.0}));
   addFlag("shadows", options.shadows,
           "Darken cavities, and throw the soft shadow of a lamp above the view axis");
@@ -202,6 +204,11 @@ void addLightOptions(CLI::App& command, LightOptions& options, const std::string
       ->check(within({-kMaxExposure, kMaxExposure, "EV"}));
   addFlag("tone-curve", options.toneCurve,
           "Roll highlights off above 80 % instead of clipping them");
+  command
+      .add_option("--edges", options.edges,
+                  "More opacity of translucent surfaces that are seen from the side, 0 to 1" +
+                      defaultText)
+      ->check(within({0.0, 1.0}));
 }
 
 } // namespace petrous::cli

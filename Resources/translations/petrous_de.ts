@@ -4814,8 +4814,8 @@ Verletzt: %1, %2</translation>
         <translation>&amp;Nässe</translation>
     </message>
     <message>
-        <source>Gloss of a wet surface</source>
-        <translation>Glanz einer nassen Oberfläche</translation>
+        <source>A film of water on tissue: thin highlights in place of its own gloss</source>
+        <translation>Ein Wasserfilm auf dem Gewebe: schmale Glanzlichter anstelle seines eigenen Glanzes</translation>
     </message>
     <message>
         <source>How both eyes&apos; pictures come to one screen</source>
@@ -4928,6 +4928,14 @@ Verletzt: %1, %2</translation>
     <message>
         <source>What lies below the surface threshold and is no structure is drawn, translucent. The Appearance panel has its colours and opacities</source>
         <translation>Was unter der Oberflächenschwelle liegt und keine Struktur ist, wird durchscheinend dargestellt. Farben und Deckkräfte stehen in der Leiste Darstellung</translation>
+    </message>
+    <message>
+        <source>Ed&amp;ges</source>
+        <translation>Kant&amp;en</translation>
+    </message>
+    <message>
+        <source>Translucent surfaces are more opaque where they are seen from the side, as a shell is, so that bone keeps its shape</source>
+        <translation>Durchscheinende Oberflächen sind dort, wo man sie von der Seite sieht, deckender, wie eine Schale, sodass Knochen seine Form behält</translation>
     </message>
 </context>
 <context>

@@ -8513,6 +8513,10 @@
         <translation>die Belichtung muss -4 bis 4 EV sein</translation>
     </message>
     <message>
+        <source>the edges' emphasis must be 0 to 1</source>
+        <translation>die Betonung der Kanten muss 0 bis 1 sein</translation>
+    </message>
+    <message>
         <source>the stereo mode is unknown</source>
         <translation>der Stereomodus ist unbekannt</translation>
     </message>

@@ -33,7 +33,8 @@ TEST(ViewSettings, ExposureAndToneCurveComeBackFromASavedView)
   settings.setExposure(1.0 / 3.0);
   settings.setToneCurve(true);
   settings.setToneCurve(true);
-  EXPECT_EQ(lights, 2);
+  settings.setEdges(0.25);
+  EXPECT_EQ(lights, 3);
   petrous::scene::ViewState view;
   view.light = settings.lightState();
   ViewSettings other, copy;
@@ -41,10 +42,12 @@ TEST(ViewSettings, ExposureAndToneCurveComeBackFromASavedView)
   copy.take(other);
   EXPECT_EQ(copy.light().exposure, 1.0 / 3.0);
   EXPECT_TRUE(copy.light().toneCurve);
+  EXPECT_EQ(copy.light().edges, 0.25);
   view.light.emplace(); // as saved before there was any
   copy.take(view, false);
   EXPECT_EQ(copy.light().exposure, 0.0);
   EXPECT_FALSE(copy.light().toneCurve);
+  EXPECT_EQ(copy.light().edges, 0.0);
 }
 
 TEST(ViewSettings, HoldsValuesWithinTheirLimits)
@@ -52,6 +55,8 @@ TEST(ViewSettings, HoldsValuesWithinTheirLimits)
   ViewSettings settings;
   settings.setWetness(7.0);
   EXPECT_EQ(settings.light().wetness, 1.0);
+  settings.setEdges(-1.0);
+  EXPECT_EQ(settings.light().edges, 0.0);
   settings.setFalloff(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(settings.light().falloff, 0.0);
   settings.setExposure(-7.0);

@@ -61,11 +61,20 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
                              lengthRange(presenters::ViewSettings::kFarthestFalloff, tr("none"))),
                    [this] { return m_settings.light().falloff; },
                    [this](double mm) { m_settings.setFalloff(mm); }));
-  addPercent(form, tr("&Wetness"),
-             m_bound.add(
-                 percentSlider("wetness", tr("Gloss of a wet surface")),
-                 [this] { return percent(m_settings.light().wetness); },
-                 [this](int percent) { m_settings.setWetness(0.01 * percent); }));
+  addPercent(
+      form, tr("&Wetness"),
+      m_bound.add(
+          percentSlider("wetness",
+                        tr("A film of water on tissue: thin highlights in place of its own gloss")),
+          [this] { return percent(m_settings.light().wetness); },
+          [this](int percent) { m_settings.setWetness(0.01 * percent); }));
+  addPercent(
+      form, tr("Ed&ges"),
+      m_bound.add(
+          percentSlider("edges", tr("Translucent surfaces are more opaque where they are seen from "
+                                    "the side, as a shell is, so that bone keeps its shape")),
+          [this] { return percent(m_settings.light().edges); },
+          [this](int percent) { m_settings.setEdges(0.01 * percent); }));
   addCheck(
       form, tr("&Shadows"), "shadows",
       tr("Cavities are darker than what is open, and a lamp somewhat above the line "

@@ -38,6 +38,7 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   widget<QDoubleSpinBox>("thrust").setValue(2.5);
   widget<QDoubleSpinBox>("lightFalloff").setValue(120.0);
   widget<QSlider>("wetness").setValue(40);
+  widget<QSlider>("edges").setValue(70);
   widget<QAbstractButton>("shadows").click();
   widget<QDoubleSpinBox>("exposure").setValue(-1.5);
   widget<QAbstractButton>("toneCurve").click();
@@ -54,6 +55,7 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   EXPECT_EQ(widget<QDoubleSpinBox>("thrust").value(), 2.5);
   EXPECT_EQ(widget<QDoubleSpinBox>("lightFalloff").value(), 120.0);
   EXPECT_EQ(widget<QSlider>("wetness").value(), 40);
+  EXPECT_EQ(widget<QSlider>("edges").value(), 70);
   EXPECT_TRUE(widget<QAbstractButton>("shadows").isChecked());
   EXPECT_EQ(widget<QDoubleSpinBox>("exposure").value(), -1.5);
   EXPECT_TRUE(widget<QAbstractButton>("toneCurve").isChecked());

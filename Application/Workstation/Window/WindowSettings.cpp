@@ -64,6 +64,8 @@ void WindowSettings::restore(presenters::ViewSettings& view, bool quadBuffer) co
   if (const auto exposure = number("light/exposure_ev"))
     view.setExposure(*exposure);
   view.setToneCurve(m_file.value("light/tone_curve").toBool());
+  if (const auto edges = number("light/edges"))
+    view.setEdges(*edges);
   view.setEyeSeparation(number("stereo/eye_separation_mm"));
   view.setConvergence(number("stereo/convergence_mm"));
   const QString mode = m_file.value("stereo/mode").toString();
@@ -79,6 +81,7 @@ void WindowSettings::keep(const presenters::ViewSettings& view)
   m_file.setValue("light/shadows", view.light().shadows);
   m_file.setValue("light/exposure_ev", view.light().exposure);
   m_file.setValue("light/tone_curve", view.light().toneCurve);
+  m_file.setValue("light/edges", view.light().edges);
   for (const auto& [value, name] : kModes)
     if (value == view.stereo())
       m_file.setValue("stereo/mode", name);

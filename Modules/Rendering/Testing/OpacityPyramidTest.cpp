@@ -1,7 +1,9 @@
 #include "OpacityPyramid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -23,6 +25,7 @@ struct Built
   SceneContents contents;
   OccupancyGrid grid;
   OpacityPyramid pyramid;
+  std::vector<OpacityPyramid::Mesh> meshes;
 
   explicit Built(SceneContents scene)
     : contents(std::move(scene))
@@ -32,13 +35,27 @@ struct Built
     OccupancyGrid::Rules rules;
     rules.iso = contents.iso;
     grid.rebuild(rules, contents.labels.get(), contents.mask.get());
+    takeMeshes();
     pyramid.rebuild(scene_(), grid);
+  }
+
+  void takeMeshes()
+  {
+    meshes.clear();
+    for (const MeshContents& mesh : contents.meshes)
+      meshes.push_back({std::make_shared<const MeshShares>(pyramid.sharesOf(*mesh.mesh)),
+                        static_cast<double>(mesh.look.opacity), mesh.drilled});
   }
 
   OpacityPyramid::Scene scene_() const
   {
-    return {*contents.ct,       contents.labels.get(), contents.mask.get(),
-            contents.materials, contents.iso,          contents.boneShown};
+    return {*contents.ct,
+            contents.labels.get(),
+            contents.mask.get(),
+            contents.materials,
+            contents.iso,
+            contents.boneShown,
+            &meshes};
   }
 
   OpacityPyramid::Texel at(std::size_t level, int i, int j, int k) const
@@ -158,6 +175,118 @@ TEST(OpacityPyramid, AnEditEqualsARebuild)
     for (std::size_t level = 0; level < fresh.pyramid.levels().size(); ++level)
       EXPECT_TRUE(fresh.pyramid.levels()[level].texels == built.pyramid.levels()[level].texels)
           << level;
+  }
+}
+
+namespace
+{
+
+MeshContents meshOf(std::shared_ptr<const core::TriangleMesh> mesh, float opacity = 1.0F,
+                    bool drilled = false)
+{
+  MeshContents contents;
+  contents.mesh = std::move(mesh);
+  contents.look.opacity = opacity;
+  contents.drilled = drilled;
+  return contents;
+}
+
+SceneContents airScene(const core::GridGeometry& grid)
+{
+  return boneScene(ct<std::int16_t>(grid, [](const Vector&) { return -5.0; }));
+}
+
+// mm^3 of what is solid, and of what that stops.
+std::array<double, 2> volumesOf(const Built& built)
+{
+  const core::Index3& factor = built.pyramid.factor();
+  const double texel =
+      built.contents.ct->geometry().spacing().prod() * factor[0] * factor[1] * factor[2] / 255.0;
+  std::array<double, 2> volumes{};
+  for (const OpacityPyramid::Texel& each : built.pyramid.levels().front().texels)
+  {
+    volumes[0] += texel * each.tissue;
+    volumes[1] += texel * each.stopped;
+  }
+  return volumes;
+}
+
+} // namespace
+
+TEST(OpacityPyramid, HoldsTheShareOfEachTexelInAClosedMesh)
+{
+  // Texels of 2 x 2 x 2 voxels of 0.25 mm, the first from the grid's lower corner.
+  SceneContents contents =
+      airScene(core::GridGeometry({64, 64, 64}, {0.25, 0.25, 0.25}, {0, 0, 0}));
+  contents.meshes = {meshOf(boxMesh({2.0, 3.0, 4.0}, {6.0, 5.0, 7.0}), 0.6F)};
+  const Built box(contents);
+  const auto share = [](double lower, double upper, int texel)
+  {
+    const double begin = 0.5 * texel - 0.125; // of the texel, mm
+    return std::clamp(std::min(upper, begin + 0.5) - std::max(lower, begin), 0.0, 0.5) / 0.5;
+  };
+  for (int k = 6; k < 17; ++k)
+    for (int j = 4; j < 13; ++j)
+      for (int i = 2; i < 15; ++i)
+      {
+        const double wanted = share(2.0, 6.0, i) * share(3.0, 5.0, j) * share(4.0, 7.0, k);
+        ASSERT_NEAR(box.at(0, i, j, k).tissue / 255.0, wanted, 0.01) << i << " " << j << " " << k;
+        ASSERT_NEAR(box.at(0, i, j, k).stopped / 255.0, 0.6 * wanted, 0.01);
+      }
+  constexpr double kPi = 3.14159265358979323846;
+  for (const Eigen::Matrix3d& direction : {oblique(), obliqueMirrored()})
+  {
+    SceneContents ball = airScene(cube(64, 0.3, direction));
+    ball.meshes = {meshOf(ballMesh({0.4, -0.3, 0.2}, 4.0, 96), 0.25F)};
+    const double volume = 4.0 / 3.0 * kPi * 64.0;
+    const auto [solid, stopped] = volumesOf(Built(ball));
+    EXPECT_NEAR(solid, volume, 0.01 * volume);
+    EXPECT_NEAR(stopped, 0.25 * volume, 0.01 * volume);
+  }
+}
+
+TEST(OpacityPyramid, AMeshOnTheBoneThatItWasMadeOfChangesNothingAndAnOpenOneIsNone)
+{
+  const auto depth = [](const Vector& p) { return 6.0 - p.norm(); };
+  SceneContents contents = boneScene(ct<std::int16_t>(cube(56, 0.3), depth));
+  const double bone = volumesOf(Built(contents))[0];
+  contents.meshes = {meshOf(ballMesh(Vector::Zero(), 5.9, 96))};
+  EXPECT_NEAR(volumesOf(Built(contents))[0], bone, 0.02 * bone);
+  core::TriangleMesh open = *ballMesh({0.0, 0.0, 7.0}, 1.0);
+  open.triangles.pop_back();
+  contents.meshes = {meshOf(std::make_shared<const core::TriangleMesh>(open))};
+  EXPECT_EQ(volumesOf(Built(contents))[0], bone);
+}
+
+TEST(OpacityPyramid, OfADrilledMeshItHoldsWhatTheMaskLeft)
+{
+  constexpr double kPi = 3.14159265358979323846;
+  for (const bool drilled : {true, false})
+  {
+    SceneContents contents = airScene(cube(64, 0.3, oblique()));
+    contents.mask = cut(contents.ct->geometry(), [](const Vector& p) { return p.x(); });
+    contents.meshes = {meshOf(ballMesh(Vector::Zero(), 4.0, 96), 1.0F, drilled)};
+    const double volume = (drilled ? 0.5 : 1.0) * 4.0 / 3.0 * kPi * 64.0;
+    EXPECT_NEAR(volumesOf(Built(contents))[0], volume, 0.015 * volume);
+  }
+}
+
+TEST(OpacityPyramid, WhereMeshesChangedItEqualsARebuild)
+{
+  SceneContents contents = cutBall(0.35F);
+  contents.meshes = {meshOf(ballMesh({1.0, -9.0, 2.0}, 3.0), 0.7F, true)};
+  Built built(contents);
+  const core::IndexBox before = built.meshes.front().shares->box;
+  built.contents.meshes = {meshOf(boxMesh({-8.0, -10.0, -2.0}, {-4.0, -6.0, 3.0}))};
+  built.takeMeshes();
+  built.pyramid.meshesChanged(built.scene_(), built.grid,
+                              before.united(built.meshes.front().shares->box));
+  const Built fresh(built.contents);
+  const Built without(cutBall(0.35F));
+  for (std::size_t level = 0; level < fresh.pyramid.levels().size(); ++level)
+  {
+    EXPECT_TRUE(fresh.pyramid.levels()[level].texels == built.pyramid.levels()[level].texels);
+    EXPECT_FALSE(without.pyramid.levels()[level].texels == built.pyramid.levels()[level].texels);
   }
 }
 

@@ -140,6 +140,19 @@ TEST(OpticalModel, WetnessAddsANarrowWhiteHighlight)
   EXPECT_LT((lit(wet, 0.8) - lit(dry, 0.8)).norm(), 1e-10);
 }
 
+TEST(OpticalModel, BelowAFilmOfWaterASurfaceLosesItsOwnGloss)
+{
+  const auto gloss = [](double wetness)
+  {
+    LightSettings light;
+    light.wetness = wetness;
+    return (lit(light, 0.9, 0.0, 0.5) - lit(light, 0.9, 0.0, 0.0))[2];
+  };
+  EXPECT_GT(gloss(0.0), 0.01);
+  EXPECT_NEAR(gloss(0.4), 0.6 * gloss(0.0), 1e-12);
+  EXPECT_NEAR(gloss(1.0), 0.0, 1e-12);
+}
+
 TEST(OpticalModel, FalloffDimsAllThatALampLights)
 {
   LightSettings light;
@@ -172,4 +185,24 @@ TEST(OpticalModel, NoColorLeavesZeroToOne)
   EXPECT_LT(optics::interiorColor(Eigen::Vector3d::Ones(), light, 0.0).maxCoeff(), 1.0);
   light.intensity = -1.0;
   EXPECT_GE(lit(light, 1.0).minCoeff(), 0.0);
+}
+
+// A shell of opacity 0.12 is passed twice as long at 60 degrees.
+TEST(OpticalModel, ATranslucentSurfaceIsAsOpaqueFromTheSideAsAShell)
+{
+  EXPECT_NEAR(optics::edgeOpacity(0.12, 0.5, 1.0), 1.0 - 0.88 * 0.88, 1e-12);
+  EXPECT_NEAR(optics::edgeOpacity(0.12, -0.25, 1.0), 1.0 - std::pow(0.88, 4.0), 1e-12);
+  EXPECT_NEAR(optics::edgeOpacity(0.12, 0.5, 0.5), 1.0 - std::pow(0.88, 1.5), 1e-12);
+  EXPECT_NEAR(optics::edgeOpacity(0.12, 1.0, 1.0), 0.12, 1e-12);
+  EXPECT_EQ(optics::edgeOpacity(0.12, 0.1, 0.0), 0.12); // to the bit
+  EXPECT_EQ(optics::edgeOpacity(1.0, 0.1, 1.0), 1.0);
+  EXPECT_EQ(optics::edgeOpacity(0.0, 0.0, 1.0), 0.0);
+  double before = 0.0;
+  for (const double cosine : {1.0, 0.7, 0.3, 0.1, 0.02, 0.0})
+  {
+    const double opacity = optics::edgeOpacity(0.12, cosine, 1.0);
+    EXPECT_GT(opacity, before);
+    EXPECT_LT(opacity, 1.0);
+    before = opacity;
+  }
 }

@@ -54,6 +54,12 @@ View toned(View view, double exposure, bool toneCurve)
   return view;
 }
 
+View edged(View view, double edges)
+{
+  view.contents.light.edges = edges;
+  return view;
+}
+
 // Bone with scanner noise of a fifth of the intensity rise per voxel at the surface.
 SceneContents noisy(float surfaceOpacity)
 {
@@ -210,6 +216,8 @@ std::vector<Case> cases()
          return View{labelledBall(cube(64, 0.35, obliqueMirrored())),
                      from({0.0, -1.0, 0.5}, {4.0, -6.0, 3.0}, 70.0)};
        }},
+      {"Edges", [] { return edged(View{translucentBall()}, 1.0); }},
+      {"EdgesOfEverything", [] { return edged(View{fullScene()}, 0.5); }},
       {"FalloffAndWetness", [] { return lit(View{fullScene()}, 50.0, 0.5); }},
       {"FalloffInTheInside",
        [] {

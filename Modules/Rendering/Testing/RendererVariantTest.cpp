@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "PictureComparison.h"
 #include "PictureScenes.h"
 #include "petrous/Rendering/RenderingError.h"
@@ -50,6 +52,45 @@ TEST(RendererVariant, UsesNothingButTheCtWhereThereIsNothingElse)
   EXPECT_EQ(shot.statistics.variant, (Names{"ct", "bone"}));
   EXPECT_EQ(namesOf(shot.statistics.resources), (Names{"ct.bricks", "ct.texture"}));
   EXPECT_EQ(shot.statistics.resources.at("ct.texture"), 2U * 48U * 48U * 48U);
+}
+
+TEST(RendererVariant, EdgesOfTranslucentSurfacesCostNoFetchAndNothingWhereThereAreNone)
+{
+  const auto hasEdges = [](const SceneContents& contents)
+  {
+    const Names names = variantOf(contents);
+    return std::count(names.begin(), names.end(), "edges") > 0;
+  };
+  SceneContents contents = translucentBall();
+  const Picture plain = shoot(contents, slanting()).picture;
+  const RenderStatistics before = counted(contents, slanting());
+  EXPECT_FALSE(hasEdges(contents));
+  contents.light.edges = 1.0;
+  EXPECT_TRUE(hasEdges(contents));
+  EXPECT_GT(countDifferentPixels(plain, shoot(contents, slanting()).picture), 500U);
+  const RenderStatistics after = counted(contents, slanting());
+  EXPECT_LE(after.fetchesPerPixel, before.fetchesPerPixel); // rays may end earlier
+  EXPECT_LE(after.samplesPerPixel, before.samplesPerPixel);
+  contents.light.edges = 0.0;
+  EXPECT_EQ(countDifferentPixels(plain, shoot(contents, slanting()).picture), 0U);
+  SceneContents opaque = hollowBall();
+  const Picture solid = shoot(opaque, slanting()).picture;
+  opaque.light.edges = 1.0;
+  EXPECT_FALSE(hasEdges(opaque));
+  EXPECT_EQ(countDifferentPixels(solid, shoot(opaque, slanting()).picture), 0U);
+}
+
+TEST(RendererVariant, ASurfaceThatIsNotSeenTakesNoLookUpForItsShadows)
+{
+  const auto fetches = [](float opacity, bool shadows)
+  {
+    SceneContents contents = translucentBall();
+    contents.materials = {boneMaterial(opacity)};
+    contents.light.shadows = shadows;
+    return counted(contents, slanting()).fetchesPerPixel;
+  };
+  EXPECT_EQ(fetches(0.0F, true), fetches(0.0F, false));
+  EXPECT_GT(fetches(0.35F, true), 1.05 * fetches(0.35F, false));
 }
 
 TEST(RendererVariant, TakesWhatTheSceneUsesAndNothingElse)

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <ostream>
+#include <utility>
 
 #include "PictureComparison.h"
 #include "PictureScenes.h"
@@ -24,8 +26,11 @@ SceneContents white(SceneContents contents, double ambient)
 {
   for (appearance::Material& material : contents.materials)
     material.transfer = appearance::TransferFunction::constant({1.0F, 1.0F, 1.0F}, 1.0F, 0.0F);
+  for (MeshContents& mesh : contents.meshes)
+    mesh.look.color = {1.0F, 1.0F, 1.0F};
   contents.light.shadows = true;
   contents.light.ambient = ambient;
+  contents.light.specular = 0.0;
   return contents;
 }
 
@@ -78,6 +83,26 @@ SceneContents with(SceneContents contents, const ToolPose& pose)
   return contents;
 }
 
+ToolPose instrument(const Vector& tip)
+{
+  ToolPose pose = tool(tip);
+  pose.instrument = boxMesh({-1.0, -1.5, 0.0}, {1.0, 1.5, 30.0});
+  pose.rotation = Eigen::Quaterniond::FromTwoVectors(Vector::UnitZ(), pose.axisToHand) *
+                  Eigen::AngleAxisd(0.7, Vector::UnitZ());
+  return pose;
+}
+
+SceneContents with(SceneContents contents, std::shared_ptr<const core::TriangleMesh> mesh,
+                   bool drilled = false)
+{
+  MeshContents added;
+  added.name = "mesh";
+  added.mesh = std::move(mesh);
+  added.drilled = drilled;
+  contents.meshes.push_back(std::move(added));
+  return contents;
+}
+
 core::CameraPose above()
 {
   core::CameraPose pose = from({10.0, -80.0, 14.0}, {0.0, -5.0, 0.0}, 20.0);
@@ -104,6 +129,40 @@ Error errorOf(const Shot& shot, const ReferencePicture& truth)
     error.mean += difference;
     ++error.pixels;
   }
+  error.rms = std::sqrt(error.rms / std::max(error.pixels, 1));
+  error.mean /= std::max(error.pixels, 1);
+  return error;
+}
+
+// Of the pixels that show an opaque mesh or tool, as their neighbours do; with `shadowedIn`, of
+// those that this picture has 20 levels brighter than the truth.
+Error errorOfPolygons(const Picture& picture, const ReferencePicture& truth,
+                      const Picture* shadowedIn = nullptr)
+{
+  const auto isPolygon = [&](int column, int row)
+  {
+    const std::size_t p = static_cast<std::size_t>(column + kColumns * row);
+    const auto isDark = [](double value)
+    { return std::abs(value - optics::kBackground[0]) < 0.01; };
+    return std::isnan(truth.depth.millimetres[p]) &&
+           !isDark(static_cast<double>(truth.rgb[3 * p])) && !isDark(picture.rgb[3 * p] / 255.0);
+  };
+  Error error;
+  for (int row = 1; row + 1 < kRows; ++row)
+    for (int column = 1; column + 1 < kColumns; ++column)
+    {
+      bool isInner = true;
+      for (int n = 0; n < 9; ++n)
+        isInner = isInner && isPolygon(column + n % 3 - 1, row + n / 3 - 1);
+      const std::size_t p = static_cast<std::size_t>(column + kColumns * row);
+      const double wanted = static_cast<double>(truth.rgb[3 * p]);
+      if (!isInner || (shadowedIn && shadowedIn->rgb[3 * p] - 255.0 * wanted < 20.0))
+        continue;
+      const double difference = picture.rgb[3 * p] / 255.0 - wanted;
+      error.rms += difference * difference;
+      error.mean += difference;
+      ++error.pixels;
+    }
   error.rms = std::sqrt(error.rms / std::max(error.pixels, 1));
   error.mean /= std::max(error.pixels, 1);
   return error;
@@ -165,6 +224,25 @@ std::vector<Case> cases()
       {"BurrInAShaft",
        [] {
          return with(holed(shaft, true, cube(56, 0.5)), tool({0.0, 1.0, 0.0}, 1.5));
+       }},
+      {"InstrumentOnTheSurface",
+       [] {
+         return with(holed(holes, true, cube(56, 0.5)), instrument({0.0, -9.5, 9.0}));
+       }},
+      {"MeshOverTheSurface",
+       [] {
+         return with(holed(holes, true, cube(56, 0.5)), ballMesh({-3.0, -12.0, 7.0}, 2.0));
+       }},
+      {"MeshInAShaft",
+       [] {
+         return with(holed(shaft, true, cube(56, 0.5, oblique())), ballMesh({0.5, 1.0, 1.0}, 2.0));
+       }},
+      {"DrilledMesh",
+       []
+       {
+         // A plate on the bone, with the burr holes through it.
+         return with(holed(holes, true, cube(56, 0.5)),
+                     boxMesh({-12.0, -10.5, -4.0}, {12.0, -8.5, 4.0}), true);
        }},
       {"CropBox",
        []
@@ -248,6 +326,149 @@ TEST(ShadowPicture, APlaneIsDrawnAsWithoutShadowsToTheBit)
     EXPECT_EQ(countDifferentPixels(plain, shoot(contents, pose, {}, kColumns, kRows).picture), 0U)
         << n;
   }
+}
+
+// In a shaft of 14 mm.
+TEST(ShadowPicture, MeshAndToolSeeAboutAsMuchAsManyRays)
+{
+  const auto deep = [] { return holed(shaft, true, cube(56, 0.5)); };
+  struct Scene
+  {
+    const char* name;
+    SceneContents contents;
+    double least; // ratio of the error without shadows
+  };
+  const Scene scenes[] = {{"mesh", with(deep(), ballMesh({0.5, 1.5, 0.5}, 2.5, 96)), 2.0},
+                          {"burr", with(deep(), tool({0.0, 1.0, 0.0}, 2.0)), 1.0},
+                          {"instrument", with(deep(), instrument({0.0, 2.0, 0.0})), 1.0}};
+  core::CameraPose into = from({6.0, -80.0, 6.0}, {0.0, -2.0, 0.0}, 9.0);
+  into.viewUp = {0.0, 0.0, 1.0};
+  for (const Scene& scene : scenes)
+  {
+    SceneContents contents = white(scene.contents, 1.0);
+    const ReferencePicture truth = truthOf(contents, into, kColumns, kRows);
+    const Error error = errorOfPolygons(shoot(contents, into, {}, kColumns, kRows).picture, truth);
+    EXPECT_GT(error.pixels, 100) << scene.name;
+    EXPECT_LE(error.rms, 0.1) << scene.name;
+    EXPECT_LE(std::abs(error.mean), 0.06) << scene.name;
+    contents.light.shadows = false;
+    EXPECT_GT(errorOfPolygons(shoot(contents, into, {}, kColumns, kRows).picture, truth).rms,
+              scene.least * error.rms)
+        << scene.name;
+  }
+}
+
+// A plate on the bone, below a burr, an instrument and a ball.
+TEST(ShadowPicture, ShadowsFallOnAMeshAsByManyRays)
+{
+  const SceneContents plate = with(holed([](const Vector&) { return 50.0; }, false, cube(56, 0.5)),
+                                   boxMesh({-12.0, -10.0, -12.0}, {12.0, -8.0, 12.0}));
+  const std::pair<const char*, SceneContents> scenes[] = {
+      {"burr", with(plate, tool({-3.0, -16.0, 5.0}, 3.0))},
+      {"instrument", with(plate, instrument({0.0, -13.0, 5.0}))},
+      {"mesh", with(plate, ballMesh({-3.0, -16.0, 5.0}, 3.0, 96))}};
+  for (const auto& [name, scene] : scenes)
+  {
+    SceneContents contents = white(scene, 0.0);
+    const ReferencePicture truth = truthOf(contents, above(), kColumns, kRows);
+    const Picture shadowed = shoot(contents, above(), {}, kColumns, kRows).picture;
+    EXPECT_LE(errorOfPolygons(shadowed, truth).rms, 0.08) << name;
+    contents.light.shadows = false;
+    const Picture plain = shoot(contents, above(), {}, kColumns, kRows).picture;
+    const Error without = errorOfPolygons(plain, truth, &plain);
+    EXPECT_GT(without.pixels, 10) << name;
+    EXPECT_LE(errorOfPolygons(shadowed, truth, &plain).rms, 0.6 * without.rms) << name;
+  }
+}
+
+// It is convex.
+TEST(ShadowPicture, ABallOfTrianglesSeesAllOfTheSky)
+{
+  const auto nothing = [](const Vector&) { return -50.0; };
+  SceneContents contents = white(
+      with(holed(nothing, true, cube(56, 0.5, oblique())), ballMesh({0.0, 0.0, 0.0}, 6.0, 96)),
+      1.0);
+  const Picture shadowed = shoot(contents, above(), {}, kColumns, kRows).picture;
+  contents.light.shadows = false;
+  const Picture plain = shoot(contents, above(), {}, kColumns, kRows).picture;
+  int most = 0;
+  for (std::size_t n = 0; n < plain.rgb.size(); ++n)
+    most = std::max(most, std::abs(int{plain.rgb[n]} - int{shadowed.rgb[n]}));
+  EXPECT_LE(most, 1);
+  EXPECT_EQ(*std::max_element(plain.rgb.begin(), plain.rgb.end()), 255);
+}
+
+// As a structure of the label field there.
+TEST(ShadowPicture, AMeshInTranslucentBoneIsAsBrightAsWithoutShadows)
+{
+  SceneContents contents =
+      boneScene(ct<std::int16_t>(cube(56, 0.5), [](const Vector& p) { return 12.0 - p.norm(); }));
+  contents = white(with(std::move(contents), ballMesh({0.0, 0.0, 0.0}, 4.0, 96)), 1.0);
+  // Green through a white surface.
+  contents.materials = {{appearance::TransferFunction::constant({1.0F, 1.0F, 1.0F}, 0.0F, 0.0F),
+                         appearance::IntensitySource::Ct, 0.2F}};
+  contents.meshes[0].look.color = {0.0F, 1.0F, 0.0F};
+  core::CameraPose pose = above();
+  pose.focalPoint = {0.0, 0.0, 0.0};
+  const Shot shot = shoot(contents, pose, {}, kColumns, kRows);
+  const std::uint8_t* pixel = shot.picture.pixel(kColumns / 2, kRows / 2);
+  EXPECT_NEAR(pixel[0], 0.2 * 255.0, 2.0);
+  EXPECT_NEAR(pixel[1], 255.0, 2.0);
+}
+
+TEST(ShadowPicture, FollowsMeshesThatComeChangeAndGo)
+{
+  SceneContents contents = holed(holes, true, cube(56, 0.5));
+  contents.light.setShadows(true);
+  ScenePicture scene;
+  scene.setContents(contents);
+  scene.setCamera(above());
+  OffscreenView view(kColumns, kRows);
+  const Picture without = view.render(scene);
+  SceneContents full = with(contents, ballMesh({-3.0, -12.0, 7.0}, 2.0));
+  const auto expectFresh = [&](const SceneContents& wanted)
+  {
+    scene.setContents(wanted);
+    EXPECT_EQ(countDifferentPixels(view.render(scene),
+                                   shoot(wanted, above(), {}, kColumns, kRows).picture),
+              0U);
+  };
+  expectFresh(full);
+  EXPECT_GT(countDifferentPixels(without, view.render(scene)), 100U);
+  full.meshes[0].look.opacity = 0.5F;
+  expectFresh(full);
+  full.meshes[0].look.shown = false;
+  scene.setContents(full);
+  EXPECT_EQ(countDifferentPixels(without, view.render(scene)), 0U);
+  full.meshes[0].look.shown = true;
+  full.meshes[0].look.opacity = 1.0F;
+  expectFresh(full);
+  scene.setContents(contents);
+  EXPECT_EQ(countDifferentPixels(without, view.render(scene)), 0U);
+}
+
+TEST(ShadowPicture, AnInstrumentThatIsTakenUpThrowsItsShadowInTheSameFrame)
+{
+  SceneContents contents = holed(holes, true, cube(56, 0.5));
+  contents.light.setShadows(true);
+  ScenePicture scene;
+  scene.setContents(contents);
+  scene.setCamera(above());
+  OffscreenView view(kColumns, kRows);
+  const Picture without = view.render(scene);
+  const ToolPose poses[] = {instrument({0.0, -9.5, 9.0}), tool({0.0, -11.0, 9.0}),
+                            instrument({4.0, -9.5, 6.0})};
+  for (const ToolPose& pose : poses)
+  {
+    scene.setTool(pose);
+    const Picture picture = view.render(scene);
+    EXPECT_GT(countDifferentPixels(without, picture), 300U);
+    EXPECT_EQ(countDifferentPixels(
+                  picture, shoot(with(contents, pose), above(), {}, kColumns, kRows).picture),
+              0U);
+  }
+  scene.setTool(std::nullopt);
+  EXPECT_EQ(countDifferentPixels(without, view.render(scene)), 0U);
 }
 
 // The closed form of SurfaceShadowsTest.

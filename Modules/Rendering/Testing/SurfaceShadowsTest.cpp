@@ -23,7 +23,7 @@ struct Seer
   explicit Seer(const SceneContents& contents)
     : optics(contents)
     , drawn(contents.ct->geometry(), contents.crop, contents.clipping)
-    , shadows(optics, drawn, contents.tool)
+    , shadows(optics, drawn, contents)
   {
   }
 };
@@ -172,6 +172,85 @@ TEST(SurfaceShadows, ABallOverAPlaneStopsThePartOfItsCap)
                 1.0 - stopped, 0.015)
         << radius << " " << height;
   }
+}
+
+// As the ball of a burr, whose closed form is above.
+TEST(SurfaceShadows, AClosedMeshStopsWhatTheBallDoesByItsOpacity)
+{
+  const Vector normal = Vector(0.3, -0.8, 0.5).normalized();
+  SceneContents contents = boneScene(
+      ct<std::int16_t>(cube(64, 0.4, oblique()), [&](const Vector& p) { return -p.dot(normal); }));
+  const Vector at = surfaceNear(Seer(contents), Vector::Zero(), normal);
+  const optics::Lamp lamp = towards(normal + 0.2 * normal.unitOrthogonal());
+  SceneContents withBall = contents;
+  withBall.tool = ToolPose();
+  withBall.tool->center = at + 3.0 * normal;
+  withBall.tool->axisToHand = normal;
+  withBall.tool->radius = 2.0;
+  const optics::Seen ball = Seer(withBall).shadows.at(at, normal, lamp);
+  ASSERT_LT(ball.sky, 0.7);
+  ASSERT_EQ(ball.lamp, 0.0);
+  MeshContents mesh;
+  mesh.mesh = ballMesh(withBall.tool->center, 2.0, 64);
+  for (const float opacity : {1.0F, 0.4F})
+  {
+    mesh.look.opacity = opacity;
+    contents.meshes = {mesh};
+    const optics::Seen seen = Seer(contents).shadows.at(at, normal, lamp);
+    EXPECT_NEAR(1.0 - seen.sky, static_cast<double>(opacity) * (1.0 - ball.sky), 0.01);
+    EXPECT_NEAR(1.0 - seen.lamp, static_cast<double>(opacity), 1e-6);
+  }
+  mesh.look.shown = false;
+  contents.meshes = {mesh};
+  EXPECT_EQ(Seer(contents).shadows.at(at, normal, lamp).sky, 1.0);
+  core::TriangleMesh open = *mesh.mesh;
+  open.triangles.pop_back();
+  mesh.mesh = std::make_shared<const core::TriangleMesh>(open);
+  mesh.look.shown = true;
+  contents.meshes = {mesh};
+  EXPECT_EQ(Seer(contents).shadows.at(at, normal, lamp).sky, 1.0);
+}
+
+TEST(SurfaceShadows, WhatTheDrillTookOfAMeshStopsNothing)
+{
+  const Vector up(0.0, 0.0, 1.0);
+  SceneContents contents =
+      boneScene(ct<std::int16_t>(cube(64, 0.4), [](const Vector& p) { return -p.z(); }));
+  MeshContents mesh;
+  mesh.mesh = boxMesh({-6.0, -6.0, 3.0}, {6.0, 6.0, 8.0});
+  mesh.drilled = true;
+  contents.meshes = {mesh};
+  contents.mask = cut(contents.ct->geometry(), [](const Vector& p)
+                      { return std::max(std::hypot(p.x(), p.y()) - 3.0, 1.0 - p.z()); });
+  const auto lampAt = [&](double x)
+  {
+    const Seer seer(contents);
+    return seer.shadows.at(surfaceNear(seer, {x, 0.0, 0.0}, up), up, towards(up)).lamp;
+  };
+  EXPECT_EQ(lampAt(0.0), 1.0); // through the hole
+  EXPECT_EQ(lampAt(4.5), 0.0);
+  contents.meshes[0].drilled = false;
+  EXPECT_EQ(lampAt(0.0), 0.0);
+}
+
+TEST(SurfaceShadows, AMeshInTissueAndTheToolSeePastWhatTheyAreIn)
+{
+  const Vector up(0.0, 0.0, 1.0);
+  SceneContents contents = boneScene(
+      ct<std::int16_t>(cube(48, 0.5), [](const Vector& p) { return 4.0 - p.norm(); }), 0.3F);
+  ToolPose tool;
+  tool.center = Vector::Zero();
+  tool.radius = 1.0;
+  tool.axisToHand = -up;
+  using Of = SurfaceShadows::Of;
+  const Seer inBone(contents);
+  const optics::Seen seen = inBone.shadows.at(Vector::Zero(), up, towards(up), Of::Mesh);
+  EXPECT_EQ(seen.sky, 1.0);
+  EXPECT_EQ(seen.lamp, 1.0);
+  contents.tool = tool;
+  const Seer withTool(contents);
+  EXPECT_EQ(withTool.shadows.at({0.0, 0.0, 1.0}, up, towards(up), Of::Tool).sky, 1.0);
+  EXPECT_EQ(withTool.shadows.at({0.0, 0.0, -2.0}, up, towards(up), Of::Mesh).lamp, 0.0);
 }
 
 TEST(SurfaceShadows, ABallHidesALampBehindIt)

@@ -131,6 +131,48 @@ inline std::shared_ptr<const core::TriangleMesh> boxMesh(const Eigen::Vector3d& 
   return mesh;
 }
 
+/// Closed; a ball by rings and sectors.
+inline std::shared_ptr<const core::TriangleMesh> ballMesh(const Eigen::Vector3d& center,
+                                                          double radius, int rings = 48)
+{
+  auto mesh = std::make_shared<core::TriangleMesh>();
+  constexpr double kPi = 3.14159265358979323846;
+  const int sectors = 2 * rings;
+  const auto at = [&](int ring, int sector)
+  {
+    const double polar = kPi * ring / rings;
+    const double around = 2.0 * kPi * (sector % sectors) / sectors;
+    return (center + radius * Eigen::Vector3d(std::sin(polar) * std::cos(around),
+                                              std::sin(polar) * std::sin(around), std::cos(polar)))
+        .cast<float>()
+        .eval();
+  };
+  mesh->vertices.push_back(at(0, 0));
+  for (int ring = 1; ring < rings; ++ring)
+    for (int sector = 0; sector < sectors; ++sector)
+      mesh->vertices.push_back(at(ring, sector));
+  mesh->vertices.push_back(at(rings, 0));
+  const auto index = [&](int ring, int sector) -> std::uint32_t
+  {
+    if (ring == 0)
+      return 0;
+    if (ring == rings)
+      return static_cast<std::uint32_t>(mesh->vertices.size() - 1);
+    return static_cast<std::uint32_t>(1 + (ring - 1) * sectors + sector % sectors);
+  };
+  for (int ring = 0; ring < rings; ++ring)
+    for (int sector = 0; sector < sectors; ++sector)
+    {
+      if (ring > 0)
+        mesh->triangles.push_back(
+            {index(ring, sector), index(ring + 1, sector), index(ring, sector + 1)});
+      if (ring < rings - 1)
+        mesh->triangles.push_back(
+            {index(ring, sector + 1), index(ring + 1, sector), index(ring + 1, sector + 1)});
+    }
+  return mesh;
+}
+
 template <class Inside>
 std::shared_ptr<const volume::LabelMap> labels(const core::GridGeometry& grid, const Inside& inside)
 {

@@ -657,6 +657,7 @@ ViewState::Light lightIn(const json& j)
   light.shadows = j.value("shadows", false);
   light.exposure = j.value("exposure_ev", 0.0);
   light.toneCurve = j.value("tone_curve", false);
+  light.edges = j.value("edges", 0.0);
   return light;
 }
 
@@ -679,6 +680,8 @@ json viewOut(const Case& value)
       j["light"]["exposure_ev"] = view.light->exposure;
     if (view.light->toneCurve)
       j["light"]["tone_curve"] = true;
+    if (view.light->edges != 0.0)
+      j["light"]["edges"] = view.light->edges;
   }
   if (view.stereo)
     j["stereo"] = stereoOut(*view.stereo);

@@ -84,6 +84,7 @@ void illuminate(rendering::SceneContents& contents,
   contents.light.setShadows(given.shadows);
   contents.light.exposure = given.exposure;
   contents.light.toneCurve = given.toneCurve;
+  contents.light.edges = given.edges;
 }
 
 std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clipping,

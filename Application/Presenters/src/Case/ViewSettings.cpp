@@ -68,6 +68,11 @@ void ViewSettings::setToneCurve(bool on)
   change(m_light.toneCurve, on, events.lightChanged);
 }
 
+void ViewSettings::setEdges(double edges)
+{
+  change(m_light.edges, held(edges, 0.0, 1.0), events.lightChanged);
+}
+
 void ViewSettings::setStereo(rendering::StereoMode mode)
 {
   change(m_stereo, mode, events.stereoChanged);
@@ -96,6 +101,7 @@ void ViewSettings::take(const scene::ViewState& view, bool quadBuffer)
     setShadows(view.light->shadows);
     setExposure(view.light->exposure);
     setToneCurve(view.light->toneCurve);
+    setEdges(view.light->edges);
   }
   if (!view.stereo)
     return;
@@ -114,6 +120,7 @@ void ViewSettings::take(const ViewSettings& other)
   setShadows(other.m_light.shadows);
   setExposure(other.m_light.exposure);
   setToneCurve(other.m_light.toneCurve);
+  setEdges(other.m_light.edges);
   setEyeSeparation(other.m_rig.eyeSeparation);
   setConvergence(other.m_rig.convergence);
   setStereo(other.m_stereo);
@@ -121,7 +128,8 @@ void ViewSettings::take(const ViewSettings& other)
 
 scene::ViewState::Light ViewSettings::lightState() const
 {
-  return {m_light.falloff, m_light.wetness, m_light.shadows, m_light.exposure, m_light.toneCurve};
+  return {m_light.falloff,  m_light.wetness,   m_light.shadows,
+          m_light.exposure, m_light.toneCurve, m_light.edges};
 }
 
 scene::ViewState::Stereo ViewSettings::stereoState() const

@@ -106,7 +106,7 @@ void GlProgram::release()
   m_locations.clear();
 }
 
-GLint GlProgram::location(const char* name)
+GLint GlUniforms::location(const char* name)
 {
   const auto found = m_locations.find(name);
   if (found != m_locations.end())
@@ -114,41 +114,41 @@ GLint GlProgram::location(const char* name)
   return m_locations.emplace(name, glGetUniformLocation(m_name, name)).first->second;
 }
 
-void GlProgram::set(const char* name, int value)
+void GlUniforms::set(const char* name, int value)
 {
   glUniform1i(location(name), value);
 }
 
-void GlProgram::set(const char* name, double value)
+void GlUniforms::set(const char* name, double value)
 {
   glUniform1f(location(name), static_cast<float>(value));
 }
 
-void GlProgram::set(const char* name, const Eigen::Vector2d& value)
+void GlUniforms::set(const char* name, const Eigen::Vector2d& value)
 {
   const Eigen::Vector2f single = value.cast<float>();
   glUniform2fv(location(name), 1, single.data());
 }
 
-void GlProgram::set(const char* name, const Eigen::Vector3d& value)
+void GlUniforms::set(const char* name, const Eigen::Vector3d& value)
 {
   const Eigen::Vector3f single = value.cast<float>();
   glUniform3fv(location(name), 1, single.data());
 }
 
-void GlProgram::set(const char* name, const Eigen::Vector4d& value)
+void GlUniforms::set(const char* name, const Eigen::Vector4d& value)
 {
   const Eigen::Vector4f single = value.cast<float>();
   glUniform4fv(location(name), 1, single.data());
 }
 
-void GlProgram::set(const char* name, const Eigen::Matrix3d& value)
+void GlUniforms::set(const char* name, const Eigen::Matrix3d& value)
 {
   const Eigen::Matrix3f single = value.cast<float>();
   glUniformMatrix3fv(location(name), 1, GL_FALSE, single.data());
 }
 
-void GlProgram::setArray(const char* name, const float* vectors4, int count)
+void GlUniforms::setArray(const char* name, const float* vectors4, int count)
 {
   glUniform4fv(location(name), count, vectors4);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <unordered_map>
 
@@ -41,9 +42,36 @@ private:
   vtkOpenGLState::ScopedglViewport m_viewport;
 };
 
-/// A linked vertex and fragment shader of the current context, with uniforms set by name. Names
-/// that a variant does not use are ignored. Must be released explicitly, as GlTexture.
-class GlProgram
+/// Uniforms of a linked program of the current context, set by name while it is in use. Names that
+/// it does not have are ignored.
+class GlUniforms
+{
+public:
+  /// 0: none.
+  explicit GlUniforms(GLuint program = 0)
+    : m_name(program)
+  {
+  }
+
+  void set(const char* name, int value);
+  void set(const char* name, double value);
+  void set(const char* name, const Eigen::Vector2d& value);
+  void set(const char* name, const Eigen::Vector3d& value);
+  void set(const char* name, const Eigen::Vector4d& value);
+  void set(const char* name, const Eigen::Matrix3d& value);
+  void setArray(const char* name, const float* vectors4, int count);
+
+protected:
+  GLuint m_name = 0;
+  std::unordered_map<std::string, GLint> m_locations;
+
+private:
+  GLint location(const char* name);
+};
+
+/// A linked vertex and fragment shader of the current context. Must be released explicitly, as
+/// GlTexture.
+class GlProgram : public GlUniforms
 {
 public:
   GlProgram() = default;
@@ -55,21 +83,6 @@ public:
   void use() const { glUseProgram(m_name); }
   void release();
   explicit operator bool() const noexcept { return m_name != 0; }
-
-  // While in use:
-  void set(const char* name, int value);
-  void set(const char* name, double value);
-  void set(const char* name, const Eigen::Vector2d& value);
-  void set(const char* name, const Eigen::Vector3d& value);
-  void set(const char* name, const Eigen::Vector4d& value);
-  void set(const char* name, const Eigen::Matrix3d& value);
-  void setArray(const char* name, const float* vectors4, int count);
-
-private:
-  GLint location(const char* name);
-
-  GLuint m_name = 0;
-  std::unordered_map<std::string, GLint> m_locations;
 };
 
 } // namespace petrous::rendering

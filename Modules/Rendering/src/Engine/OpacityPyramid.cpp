@@ -19,6 +19,11 @@ namespace
 constexpr int kBlock = 4;              // texels of the unit of work, along each axis
 constexpr double kFieldScale = 1000.0; // unit of c_CT, as the tissue field's default
 
+std::uint8_t inBits(double value)
+{
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+}
+
 std::size_t indexIn(const core::Index3& dims, int i, int j, int k)
 {
   return static_cast<std::size_t>(i) +
@@ -238,21 +243,22 @@ core::IndexBox OpacityPyramid::boxAt(std::size_t level, const core::IndexBox& te
   return box;
 }
 
+core::IndexBox OpacityPyramid::voxelsOf(const core::IndexBox& texels) const noexcept
+{
+  core::IndexBox voxels;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    voxels.lower[a] = texels.lower[a] * m_factor[a];
+    voxels.upper[a] = std::min(texels.upper[a] * m_factor[a], m_grid.dims()[a]);
+  }
+  return voxels;
+}
+
 void OpacityPyramid::update(const Scene& scene, const OccupancyGrid& grid,
                             const core::IndexBox& texels)
 {
   Level& first = m_levels.front();
   const core::Index3& dims = m_grid.dims();
-  const auto voxelsOf = [&](const core::IndexBox& block)
-  {
-    core::IndexBox voxels;
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      voxels.lower[a] = block.lower[a] * m_factor[a];
-      voxels.upper[a] = std::min(block.upper[a] * m_factor[a], dims[a]);
-    }
-    return voxels;
-  };
   const auto around = [&](core::IndexBox voxels)
   {
     for (std::size_t a = 0; a < 3; ++a)
@@ -270,8 +276,6 @@ void OpacityPyramid::update(const Scene& scene, const OccupancyGrid& grid,
                         static_cast<std::ptrdiff_t>(indexIn(first.dims, block.lower[0], j, k)),
                     block.upper[0] - block.lower[0], value);
   };
-  const auto inBits = [](double value)
-  { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0))); };
   const Texel nothing;
   const Texel inside{255,
                      inBits(255.0 * static_cast<double>(scene.materials.front().surfaceOpacity))};
@@ -325,8 +329,56 @@ void OpacityPyramid::update(const Scene& scene, const OccupancyGrid& grid,
                                 .intersected(texels));
             });
       });
+  if (scene.meshes)
+    for (const Mesh& mesh : *scene.meshes)
+      addMesh(mesh, scene.mask, texels);
   for (std::size_t level = 1; level < m_levels.size(); ++level)
     reduce(level, boxAt(level, texels));
+}
+
+// The mask's mean is what the drill left of a texel.
+void OpacityPyramid::addMesh(const Mesh& mesh, const volume::CutMask* mask,
+                             const core::IndexBox& texels)
+{
+  const core::IndexBox& own = mesh.shares->box;
+  const core::IndexBox box = own.intersected(texels);
+  if (box.empty())
+    return;
+  const bool isCut = mesh.drilled && mask && !mask->untouched(voxelsOf(box));
+  const auto left = [&](const core::IndexBox& voxels)
+  {
+    if (!isCut || mask->untouched(voxels))
+      return 1.0;
+    double sum = 0.0;
+    for (int k = voxels.lower[2]; k < voxels.upper[2]; ++k)
+      for (int j = voxels.lower[1]; j < voxels.upper[1]; ++j)
+        for (int i = voxels.lower[0]; i < voxels.upper[0]; ++i)
+          sum += mask->at(i, j, k);
+    return sum / (static_cast<double>(voxels.count()) * volume::CutMask::kUntouched);
+  };
+  Level& first = m_levels.front();
+  for (int k = box.lower[2]; k < box.upper[2]; ++k)
+    for (int j = box.lower[1]; j < box.upper[1]; ++j)
+      for (int i = box.lower[0]; i < box.upper[0]; ++i)
+      {
+        double share =
+            mesh.shares
+                ->shares[indexIn(own.size(), i - own.lower[0], j - own.lower[1], k - own.lower[2])];
+        if (!(share > 0.0))
+          continue;
+        share *= left(voxelsOf({{i, j, k}, {i + 1, j + 1, k + 1}}));
+        Texel& texel = first.texels[indexIn(first.dims, i, j, k)];
+        texel.tissue = std::max(texel.tissue, inBits(share));
+        texel.stopped = std::max(texel.stopped, inBits(share * mesh.opacity));
+      }
+}
+
+void OpacityPyramid::meshesChanged(const Scene& scene, const OccupancyGrid& grid,
+                                   const core::IndexBox& texels)
+{
+  const core::IndexBox box = texels.intersected({{0, 0, 0}, m_levels.front().dims});
+  if (!box.empty())
+    update(scene, grid, box);
 }
 
 void OpacityPyramid::reduce(std::size_t level, const core::IndexBox& texels)

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "MeshShares.h"
 #include "OccupancyGrid.h"
 #include "petrous/Appearance/Material.h"
 #include "petrous/Volume/CutMask.h"
@@ -20,13 +21,27 @@ namespace petrous::rendering
 /// A voxel stops the surface opacity of its material, times the share of the voxel in which f > 0:
 ///   1/2 + f / |grad f|, clamped to 0..1    where f changes sign to one of its six neighbours
 ///   1 or 0                                 elsewhere
-/// Neither crop box nor clipping planes are taken into account.
+/// A closed mesh stops its opacity times its share of a texel. Where both are, or several meshes,
+/// the most counts: a mesh made of this CT lies where its bone does. Neither crop box nor clipping
+/// planes are taken into account.
 class OpacityPyramid
 {
 public:
   static constexpr double kEdge = 0.5;                              ///< mm, wanted of a texel
   static constexpr std::size_t kMostTexels = std::size_t{1} << 25U; ///< else texels are larger
   static constexpr double kWidest = 4.0; ///< mm, texels of the last level
+
+  struct Mesh
+  {
+    std::shared_ptr<const MeshShares> shares;
+    double opacity = 1.0;
+    bool drilled = false; ///< the mask counts
+
+    friend bool operator==(const Mesh& a, const Mesh& b) noexcept
+    {
+      return a.shares == b.shares && a.opacity == b.opacity && a.drilled == b.drilled;
+    }
+  };
 
   struct Scene
   {
@@ -36,6 +51,7 @@ public:
     const std::vector<appearance::Material>& materials;
     double iso;
     bool bone;
+    const std::vector<Mesh>* meshes = nullptr; ///< null: none
   };
 
   /// Of 255.
@@ -60,6 +76,15 @@ public:
   core::IndexBox maskChanged(const Scene& scene, const OccupancyGrid& grid,
                              const core::IndexBox& voxels);
 
+  /// Of its texels; see meshShares.
+  MeshShares sharesOf(const core::TriangleMesh& mesh) const
+  {
+    return meshShares(mesh, m_grid, m_factor);
+  }
+
+  /// The meshes changed in a box of texels of the first level.
+  void meshesChanged(const Scene& scene, const OccupancyGrid& grid, const core::IndexBox& texels);
+
   /// The texels of a level that depend on a box of the first.
   static core::IndexBox boxAt(std::size_t level, const core::IndexBox& texels) noexcept;
 
@@ -75,6 +100,8 @@ public:
 
 private:
   void update(const Scene& scene, const OccupancyGrid& grid, const core::IndexBox& texels);
+  void addMesh(const Mesh& mesh, const volume::CutMask* mask, const core::IndexBox& texels);
+  core::IndexBox voxelsOf(const core::IndexBox& texels) const noexcept;
   void reduce(std::size_t level, const core::IndexBox& texels);
 
   core::GridGeometry m_grid;

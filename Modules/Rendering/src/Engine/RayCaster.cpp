@@ -15,6 +15,7 @@
 #include "RayCastVertexShader.h"
 #include "SceneCheck.h"
 #include "petrous/Rendering/RenderingError.h"
+#include "petrous/Rendering/ToolShape.h"
 
 namespace petrous::rendering
 {
@@ -269,6 +270,7 @@ void RayCaster::setContents(const SceneContents& contents)
   checkContents(contents);
   checkPlaneCount(contents);
   ++m_changes;
+  m_isPrepared = false;
   const bool sameCt = contents.ct == m_contents.ct;
   m_givenMask = contents.mask;
   std::shared_ptr<const volume::CutMask> mask = maskInUse();
@@ -282,6 +284,7 @@ void RayCaster::setContents(const SceneContents& contents)
   const OccupancyGrid::Rules before =
       m_contents.materials.empty() ? OccupancyGrid::Rules{} : rules();
   m_newMaterials |= !sameMaterials(contents, m_contents);
+  m_newMeshes = true; // compared when they are needed
   bool newTissue = mask != m_contents.mask || !sameCt || m_newLabels;
   if (mask != m_contents.mask || !sameCt)
     m_mask.reset(mask, m_quality.maskBits, m_quality.largestTexture);
@@ -307,6 +310,7 @@ void RayCaster::setContents(const SceneContents& contents)
 void RayCaster::setQuality(const RenderQuality& quality)
 {
   quality.validate();
+  m_isPrepared = false;
   const bool sameLimit = quality.largestTexture == m_quality.largestTexture;
   if (quality.maskBits != m_quality.maskBits || !sameLimit)
     m_mask.reset(m_contents.mask, quality.maskBits, quality.largestTexture);
@@ -326,6 +330,7 @@ void RayCaster::setQuality(const RenderQuality& quality)
 void RayCaster::maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box)
 {
   ++m_changes;
+  m_isPrepared = false;
   const bool wasCut = m_mask.inUse();
   m_givenMask = std::move(mask);
   mask = maskInUse();
@@ -352,6 +357,7 @@ void RayCaster::expectCut(bool expected)
   if (static_cast<bool>(mask) == m_mask.inUse())
     return;
   ++m_changes;
+  m_isPrepared = false;
   // The bricks stay valid: a mask in which nothing is cut yields the same flags as no mask.
   m_contents.mask = mask;
   m_mask.reset(std::move(mask), m_quality.maskBits, m_quality.largestTexture);
@@ -368,7 +374,13 @@ bool RayCaster::softTissueSeen() const
   return m_contents.softTissue && !m_contents.softTissue->transfer.transparent();
 }
 
-RayFeatures RayCaster::features() const
+// Whether rays go on in tissue.
+bool RayCaster::interiorSeen() const
+{
+  return softTissueSeen() || translucent(m_contents.materials);
+}
+
+RayFeatures RayCaster::features(const Frame& frame) const
 {
   RayFeatures features;
   features.bone = m_contents.boneShown;
@@ -379,10 +391,12 @@ RayFeatures RayCaster::features() const
   features.third = reads(m_contents, appearance::IntensitySource::Third);
   features.second = features.third || reads(m_contents, appearance::IntensitySource::Second);
   features.soft = softTissueSeen();
-  features.interior = features.soft || translucent(m_contents.materials);
+  features.interior = interiorSeen();
+  features.edges = m_contents.light.edges > 0.0 && translucent(m_contents.materials);
   features.thickness = static_cast<bool>(m_contents.thickness.distance);
   features.clip = !m_contents.clipping.empty();
   features.shadows = m_contents.light.shadows;
+  features.instrument = hasInstrument(frame);
   features.tone = m_contents.light.toneCurve;
   features.exact = m_statistics.filterBits < RenderQuality::kExactFilterBits;
   features.rounded = features.exact && m_quality.filterBits > 0;
@@ -395,7 +409,7 @@ OccupancyGrid::Rules RayCaster::rules() const
   rules.iso = m_contents.iso;
   rules.bone = m_contents.boneShown;
   rules.soft = softTissueSeen();
-  rules.interior = rules.soft || translucent(m_contents.materials);
+  rules.interior = interiorSeen();
   rules.opaque = opaqueRanges(m_contents.materials.front().transfer);
   rules.interiorEverywhere =
       m_contents.materials.front().source != appearance::IntensitySource::Ct &&
@@ -410,11 +424,51 @@ OccupancyGrid::Rules RayCaster::rules() const
 
 OpacityPyramid::Scene RayCaster::lightStoppers() const
 {
-  return {*m_contents.ct,       m_contents.labels.get(), m_contents.mask.get(),
-          m_contents.materials, m_contents.iso,          m_contents.boneShown};
+  return {*m_contents.ct,
+          m_contents.labels.get(),
+          m_contents.mask.get(),
+          m_contents.materials,
+          m_contents.iso,
+          m_contents.boneShown,
+          &m_meshes};
 }
 
 // ---- textures
+
+// Returns the texels of the pyramid in which they are not as before.
+core::IndexBox RayCaster::followMeshes()
+{
+  if (!std::exchange(m_newMeshes, false))
+    return {};
+  const std::map<MeshPointer, std::shared_ptr<const MeshShares>> known = std::move(m_shares);
+  const std::vector<OpacityPyramid::Mesh> before = std::move(m_meshes);
+  m_shares.clear();
+  m_meshes.clear();
+  for (const MeshContents& mesh : m_contents.meshes)
+  {
+    const auto found = known.find(mesh.mesh);
+    if (found != known.end())
+      m_shares.insert(*found);
+    if (!mesh.mesh || !mesh.look.shown || !(mesh.look.opacity > 0.0F))
+      continue;
+    std::shared_ptr<const MeshShares>& shares = m_shares[mesh.mesh];
+    if (!shares)
+      shares = std::make_shared<const MeshShares>(m_opacities->sharesOf(*mesh.mesh));
+    if (!shares->box.empty())
+      m_meshes.push_back(
+          {shares, std::min(static_cast<double>(mesh.look.opacity), 1.0), mesh.drilled});
+  }
+  core::IndexBox changed;
+  const auto compare = [&changed](const auto& some, const auto& others)
+  {
+    for (const OpacityPyramid::Mesh& mesh : some)
+      if (std::find(others.begin(), others.end(), mesh) == others.end())
+        changed = changed.united(mesh.shares->box);
+  };
+  compare(before, m_meshes);
+  compare(m_meshes, before);
+  return changed;
+}
 
 // After the bricks.
 void RayCaster::uploadOpacities()
@@ -426,13 +480,25 @@ void RayCaster::uploadOpacities()
     return;
   }
   core::IndexBox dirty = m_dirtyOpacities;
-  if (!m_opacities || m_newOpacities)
+  const bool isNew = !m_opacities;
+  if (isNew)
   {
-    if (!m_opacities)
-      m_opacities = std::make_unique<OpacityPyramid>(m_contents.ct->geometry());
+    m_opacities = std::make_unique<OpacityPyramid>(m_contents.ct->geometry());
+    m_shares.clear();
+    m_meshes.clear();
+    m_newMeshes = true;
+  }
+  const core::IndexBox changed = followMeshes();
+  if (isNew || m_newOpacities)
+  {
     m_opacities->rebuild(lightStoppers(), *m_occupancy);
     ++m_statistics.opacityRebuilds;
     dirty = {{0, 0, 0}, m_opacities->levels().front().dims};
+  }
+  else if (!changed.empty())
+  {
+    m_opacities->meshesChanged(lightStoppers(), *m_occupancy, changed);
+    dirty = dirty.united(changed);
   }
   const std::vector<OpacityPyramid::Level>& levels = m_opacities->levels();
   if (!m_opacityTexture || m_opacityTexture.dims() != levels.front().dims)
@@ -449,6 +515,43 @@ void RayCaster::uploadOpacities()
     m_opacityTexture.update(box, boxOf(levels[n].texels, levels[n].dims, box).data(),
                             static_cast<int>(n));
   }
+}
+
+bool RayCaster::hasInstrument(const Frame& frame) const
+{
+  return m_contents.light.shadows && m_instrument.texture && frame.tool &&
+         tool::isShown(*frame.tool) && frame.tool->instrument == m_instrument.mesh;
+}
+
+// One that is put away stays: it is often taken up again.
+void RayCaster::uploadInstrument(const Frame& frame)
+{
+  if (!m_contents.light.shadows)
+  {
+    m_instrument.texture.release();
+    m_instrument.mesh.reset();
+    return;
+  }
+  if (!frame.tool || !frame.tool->instrument || !tool::isShown(*frame.tool) ||
+      frame.tool->instrument == m_instrument.mesh)
+    return;
+  m_instrument.texture.release();
+  m_instrument.mesh = frame.tool->instrument;
+  m_instrument.place = InstrumentDistance::of(*m_instrument.mesh);
+  std::vector<float> distances = std::move(m_instrument.place.distances);
+  if (!distances.empty())
+    m_instrument.texture.create(texel::kFloat, m_instrument.place.dims, distances.data(),
+                                GL_LINEAR);
+}
+
+void RayCaster::prepareShadows(const Frame& frame)
+{
+  m_isPrepared = false;
+  if (!m_contents.light.shadows || !drawable(m_contents))
+    return;
+  upload();
+  uploadInstrument(frame);
+  m_isPrepared = true;
 }
 
 void RayCaster::upload()
@@ -543,14 +646,15 @@ void RayCaster::upload()
   add("labels.texture", m_labels.occupancy.bytes() + m_labels.index.bytes());
   add("labels.thickness", m_thickness.texture.bytes());
   add("mr.texture", m_others[0].data.texture.bytes() + m_others[1].data.texture.bytes());
+  add("light.instrument", m_instrument.texture.bytes());
   add("light.opacities", m_opacities ? m_opacityTexture.bytes() + m_opacities->bytes() : 0);
 }
 
 // ---- one frame
 
-GlProgram& RayCaster::program(bool count)
+GlProgram& RayCaster::program(const Frame& frame, bool count)
 {
-  RayFeatures wanted = features();
+  RayFeatures wanted = features(frame);
   wanted.count = count;
   m_statistics.variant = wanted.names();
   GlProgram& result = m_programs[wanted.key()];
@@ -575,7 +679,11 @@ void RayCaster::draw(const Frame& frame, bool count)
   m_fovea.reset();
   if (anything)
   {
-    upload();
+    if (!std::exchange(m_isPrepared, false))
+    {
+      upload();
+      uploadInstrument(frame);
+    }
     findFilterBits();
   }
   m_target.prepare(width, height, count);
@@ -593,7 +701,7 @@ void RayCaster::draw(const Frame& frame, bool count)
       releaseData();
     return;
   }
-  GlProgram& shader = program(count);
+  GlProgram& shader = program(frame, count);
   shader.use();
   bindTextures(shader, frame);
   setRays(shader, frame);
@@ -655,7 +763,7 @@ void RayCaster::drawPart(const Frame& frame, const RenderQuality& quality,
     ~Restored() { quality = before; }
   } restored{m_quality, m_quality};
   m_quality = quality;
-  GlProgram& shader = program(false);
+  GlProgram& shader = program(frame, false);
   shader.use();
   bindTextures(shader, frame);
   setRays(shader, frame);
@@ -720,6 +828,9 @@ void RayCaster::releaseData()
   m_materials.release();
   m_bricks.release();
   m_opacityTexture.release();
+  m_instrument.texture.release();
+  m_instrument.mesh.reset();
+  m_isPrepared = false;
 }
 
 void RayCaster::releasePicture()

@@ -2,14 +2,18 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
+#include <vector>
 
 #include <vtk_glew.h>
 
 #include "GlProgram.h"
 #include "GlTexture.h"
+#include "InstrumentDistance.h"
 #include "OpacityPyramid.h"
 #include "OpticalModel.h"
 #include "RayShader.h"
@@ -97,6 +101,14 @@ public:
   /// Renders into the own target; counting is slower. Throws RenderingError NoOpenGL.
   void draw(const Frame& frame, bool count);
 
+  /// Before the polygons of a frame, which are drawn before its rays: makes what shadePolygons
+  /// needs, if there are shadows. Throws RenderingError NoOpenGL.
+  void prepareShadows(const Frame& frame);
+  /// Sets the uniforms of polygonShadowsShader in a program that is in use. `isTool`: it draws the
+  /// tool, which throws no shadow on itself.
+  void shadePolygons(GLuint program, const Frame& frame, const Eigen::Matrix4d& patientFromView,
+                     bool isTool) const;
+
   /// Draws the own target over the bound frame buffer; the caller sets up blending.
   void present(int width, int height);
   /// The same of another target of that size.
@@ -127,20 +139,25 @@ public:
 private:
   std::shared_ptr<const volume::CutMask> maskInUse() const;
   bool softTissueSeen() const;
-  RayFeatures features() const;
+  bool interiorSeen() const;
+  RayFeatures features(const Frame& frame) const;
   OccupancyGrid::Rules rules() const;
   OpacityPyramid::Scene lightStoppers() const;
   void upload();
   void uploadOpacities();
+  core::IndexBox followMeshes();
+  void uploadInstrument(const Frame& frame);
+  bool hasInstrument(const Frame& frame) const;
   void findTissue(const core::IndexBox& bricks);
   void drawFovea(const Frame& frame);
-  GlProgram& program(bool count);
+  GlProgram& program(const Frame& frame, bool count);
   void findFilterBits();
   void bindTextures(GlProgram& program, const Frame& frame) const;
   void setRays(GlProgram& program, const Frame& frame) const;
   void setVolume(GlProgram& program) const;
   void setLight(GlProgram& program, const Frame& frame) const;
-  void setShadows(GlProgram& program, const Frame& frame) const;
+  void setShadows(GlUniforms& program, const Frame& frame) const;
+  void setDrawn(GlUniforms& program) const;
   void castRays(const core::IndexBox& pixels);
   GlProgram& presenting();
 
@@ -151,6 +168,10 @@ private:
   RenderStatistics m_statistics;
   std::unique_ptr<OccupancyGrid> m_occupancy;
   std::unique_ptr<OpacityPyramid> m_opacities; // only with shadows
+  using MeshPointer = std::shared_ptr<const core::TriangleMesh>;
+  std::map<MeshPointer, std::shared_ptr<const MeshShares>> m_shares; // once shown
+  std::vector<OpacityPyramid::Mesh> m_meshes;                        // that are shown
+  bool m_isPrepared = false; // for the polygons of this frame, and its rays
 
   /// An image beside the CT.
   struct OtherImage
@@ -165,6 +186,7 @@ private:
   bool m_newThickness = false;
   bool m_newRules = false;
   bool m_newOpacities = false;
+  bool m_newMeshes = false;
   core::IndexBox m_dirtyBricks;
   core::IndexBox m_dirtyOpacities;
   core::IndexBox m_tissueBricks; // bounding box of all visible tissue
@@ -179,6 +201,12 @@ private:
   MaterialTables m_materials;
   GlTexture m_bricks;
   GlTexture m_opacityTexture;
+  struct InstrumentTexture
+  {
+    GlTexture texture;
+    MeshPointer mesh;         // whose it is
+    InstrumentDistance place; // without the distances
+  } m_instrument;
   RayTarget m_target;
   RayTarget m_foveaTarget;
   std::optional<Fovea> m_fovea; // of the last frame

@@ -34,7 +34,8 @@ enum Unit : int
   ThirdUnit,
   ThicknessUnit,
   DepthUnit,
-  OpacityUnit
+  OpacityUnit,
+  InstrumentUnit
 };
 
 } // namespace
@@ -66,6 +67,8 @@ void RayCaster::bindTextures(GlProgram& program, const Frame& frame) const
     bind(m_thickness.texture, ThicknessUnit, "thicknessTexture");
   if (m_opacityTexture)
     bind(m_opacityTexture, OpacityUnit, "opacityTexture");
+  if (m_instrument.texture)
+    bind(m_instrument.texture, InstrumentUnit, "instrumentTexture");
   glActiveTexture(GL_TEXTURE0 + OpaqueUnit);
   glBindTexture(GL_TEXTURE_2D, frame.opaque);
   program.set("opaqueTexture", int{OpaqueUnit});
@@ -88,7 +91,25 @@ void RayCaster::setRays(GlProgram& program, const Frame& frame) const
   program.set("viewY", view.directionY);
   program.set("parallel", view.parallel ? 1 : 0);
   program.set("opaqueDepth", view.depth);
+}
 
+// The part of the volume that is drawn.
+void RayCaster::setDrawn(GlUniforms& program) const
+{
+  const core::GridGeometry& grid = m_contents.ct->geometry();
+  const Eigen::Matrix3d& voxelFromMm = grid.voxelFromPatientLinear();
+  program.set("voxelFromMm", voxelFromMm);
+  Eigen::Vector3d lower = Eigen::Vector3d::Zero();
+  Eigen::Vector3d upper(grid.dims()[0] - 1.0, grid.dims()[1] - 1.0, grid.dims()[2] - 1.0);
+  if (m_contents.crop)
+    for (int a = 0; a < 3; ++a)
+    {
+      const auto axis = static_cast<std::size_t>(a);
+      lower[a] = std::max<double>(lower[a], m_contents.crop->lower[axis]);
+      upper[a] = std::min<double>(upper[a], m_contents.crop->upper[axis] - 1.0);
+    }
+  program.set("boxLower", lower);
+  program.set("boxUpper", upper);
   std::array<float, 4 * kMaxPlanes> planes{};
   const std::size_t count = std::min(m_contents.clipping.size(), kMaxPlanes);
   for (std::size_t i = 0; i < count; ++i)
@@ -111,18 +132,8 @@ void RayCaster::setVolume(GlProgram& program) const
   const Eigen::Matrix3d& voxelFromMm = grid.voxelFromPatientLinear();
   const auto upperOf = [](const core::Index3& dims)
   { return Eigen::Vector3d(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0); };
-  Eigen::Vector3d lower = Eigen::Vector3d::Zero();
-  Eigen::Vector3d upper = upperOf(grid.dims());
-  program.set("hullUpper", upper);
-  if (m_contents.crop)
-    for (int a = 0; a < 3; ++a)
-    {
-      const auto axis = static_cast<std::size_t>(a);
-      lower[a] = std::max<double>(lower[a], m_contents.crop->lower[axis]);
-      upper[a] = std::min<double>(upper[a], m_contents.crop->upper[axis] - 1.0);
-    }
-  program.set("boxLower", lower);
-  program.set("boxUpper", upper);
+  program.set("hullUpper", upperOf(grid.dims()));
+  setDrawn(program);
   program.set("ctScale", m_ct.map.scale);
   program.set("ctOffset", m_ct.map.offset);
   program.set("ctUnit", m_ct.unit);
@@ -135,7 +146,6 @@ void RayCaster::setVolume(GlProgram& program) const
   program.set("weights", std::ldexp(1.0, m_statistics.filterBits));
   program.set("termination", m_quality.termination);
   program.set("normalFromVoxel", Eigen::Matrix3d(voxelFromMm.transpose()));
-  program.set("voxelFromMm", voxelFromMm);
   program.set("colorDepth", optics::kColorDepth * grid.minSpacing());
   program.set("maskScale", m_mask.map().scale);
   program.set("maskOffset", m_mask.map().offset);
@@ -194,6 +204,7 @@ void RayCaster::setLight(GlProgram& program, const Frame& frame) const
   program.set("light", Eigen::Vector4d(optics::lightAt(light, 0.0, frame.lamp.focus), light.ambient,
                                        light.specular, light.wetness));
   program.set("plainLight", light.intensity);
+  program.set("edges", light.edges);
   program.set("falloff", light.falloff);
   const SectionWindow window = m_contents.section.value_or(SectionWindow());
   program.set("section", m_contents.section ? Eigen::Vector2d(window.level - 0.5 * window.width,
@@ -201,7 +212,33 @@ void RayCaster::setLight(GlProgram& program, const Frame& frame) const
                                             : Eigen::Vector2d::Zero().eval());
 }
 
-void RayCaster::setShadows(GlProgram& program, const Frame& frame) const
+void RayCaster::shadePolygons(GLuint program, const Frame& frame,
+                              const Eigen::Matrix4d& patientFromView, bool isTool) const
+{
+  GlUniforms uniforms(program);
+  const bool isShadowed = m_isPrepared && m_opacities && m_opacityTexture;
+  uniforms.set("isShadowed", isShadowed ? 1 : 0);
+  // Also without: samplers of two kinds must not share a unit.
+  uniforms.set("opacityTexture", int{OpacityUnit});
+  uniforms.set("instrumentTexture", int{InstrumentUnit});
+  if (!isShadowed)
+    return;
+  m_opacityTexture.bind(OpacityUnit);
+  if (m_instrument.texture)
+    m_instrument.texture.bind(InstrumentUnit);
+  const Eigen::Matrix3d turn = patientFromView.topLeftCorner<3, 3>();
+  const Eigen::Vector3d eye = patientFromView.topRightCorner<3, 1>();
+  const core::GridGeometry& grid = m_contents.ct->geometry();
+  uniforms.set("patientFromView", turn);
+  uniforms.set("voxelFromView", Eigen::Matrix3d(grid.voxelFromPatientLinear() * turn));
+  uniforms.set("eyeVoxel", grid.voxelFromPatient(eye));
+  setDrawn(uniforms);
+  setShadows(uniforms, frame);
+  if (isTool)
+    uniforms.set("toolBall", Eigen::Vector4d::Zero().eval());
+}
+
+void RayCaster::setShadows(GlUniforms& program, const Frame& frame) const
 {
   if (!m_opacities)
     return;
@@ -240,7 +277,24 @@ void RayCaster::setShadows(GlProgram& program, const Frame& frame) const
   program.set("pictureRight", lamp.right);
 
   Eigen::Vector4d ball = Eigen::Vector4d::Zero();
-  if (frame.tool && tool::castsShadow(*frame.tool))
+  const bool isInstrument = hasInstrument(frame);
+  program.set("hasInstrument", isInstrument ? 1 : 0);
+  if (isInstrument)
+  {
+    const ToolPose& pose = *frame.tool;
+    const InstrumentDistance& place = m_instrument.place;
+    const TextureMap texels = textureMap(place.dims, {1, 1, 1}); // of samples
+    ball << grid.voxelFromPatient(pose.center), 1.0;
+    program.set("toolFromVoxel", Eigen::Matrix3d(pose.rotation.conjugate().toRotationMatrix() *
+                                                 grid.patientFromVoxelLinear()));
+    program.set("instrumentLower", place.lower);
+    program.set("instrumentUpper", place.upper());
+    program.set("instrumentScale", Eigen::Vector3d(texels.scale / place.edge));
+    program.set(
+        "instrumentOffset",
+        Eigen::Vector3d(texels.offset - texels.scale.cwiseProduct(place.lower) / place.edge));
+  }
+  else if (frame.tool && tool::isShown(*frame.tool) && !frame.tool->instrument)
   {
     const ToolPose& pose = *frame.tool;
     ball << grid.voxelFromPatient(pose.center), pose.radius;

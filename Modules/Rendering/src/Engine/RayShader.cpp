@@ -4,6 +4,7 @@
 
 #include "OccupancyGrid.h"
 #include "OpticalModel.h"
+#include "PolygonShadowsShader.h"
 #include "RayCastShader.h"
 #include "RayClipShader.h"
 #include "RayMarchShader.h"
@@ -37,10 +38,12 @@ constexpr Part kParts[] = {
     {&RayFeatures::second, "PETROUS_SECOND", "second"},
     {&RayFeatures::third, "PETROUS_THIRD", "third"},
     {&RayFeatures::interior, "PETROUS_INTERIOR", "interior"},
+    {&RayFeatures::edges, "PETROUS_EDGES", "edges"},
     {&RayFeatures::soft, "PETROUS_SOFT", "soft tissue"},
     {&RayFeatures::clip, "PETROUS_CLIP", "clipping"},
     {&RayFeatures::thickness, "PETROUS_THICKNESS", "thickness"},
     {&RayFeatures::shadows, "PETROUS_SHADOWS", "shadows"},
+    {&RayFeatures::instrument, "PETROUS_INSTRUMENT", "instrument"},
     {&RayFeatures::tone, "PETROUS_TONE", "tone"},
     {&RayFeatures::count, "PETROUS_COUNT", nullptr},
     {&RayFeatures::exact, "PETROUS_EXACT", nullptr},
@@ -60,6 +63,7 @@ std::string constants()
       {"kWetShininess", optics::kWetShininess},
       {"kOccupancyThreshold", optics::kOccupancyThreshold},
       {"kSmoothOpacity", optics::kSmoothOpacity},
+      {"kLeastFacing", optics::kLeastFacing},
       {"kMarginPerDepth", volume::kMarginPerDepth},
       {"kOcclusionReach", optics::kOcclusionReach},
       {"kShadowReach", optics::kShadowReach},
@@ -110,6 +114,17 @@ std::string toneCurveShader()
   return constantText("kToneStart", optics::kToneStart) +
          constantText("kToneDesaturation", optics::kToneDesaturation) +
          std::string(kToneCurveShader);
+}
+
+std::string polygonShadowsShader()
+{
+  return "#define PETROUS_SHADOWS\n#define PETROUS_CLIP\n#define PETROUS_INSTRUMENT\n"
+         "#define COUNT(n)\n"
+         "uniform vec3 boxLower, boxUpper;\n"
+         "uniform mat3 voxelFromMm;\n"
+         "uniform int planeCount;\n" +
+         constants() + "uniform vec4 planes[kMaxPlanes];\n" + std::string(kRayShadowsShader) +
+         std::string(kPolygonShadowsShader);
 }
 
 std::string rayFragmentShader(const RayFeatures& features)

@@ -130,7 +130,9 @@ ToolPose toolIn(const Eigen::Matrix4d& worldFromPatient, ToolPose tool)
 {
   const Eigen::Matrix4d patientFromWorld = worldFromPatient.inverse();
   tool.center = (patientFromWorld * tool.center.homogeneous()).head<3>();
-  tool.axisToHand = patientFromWorld.topLeftCorner<3, 3>() * tool.axisToHand;
+  const Eigen::Matrix3d turn = patientFromWorld.topLeftCorner<3, 3>();
+  tool.axisToHand = turn * tool.axisToHand;
+  tool.rotation = Eigen::Quaterniond(turn) * tool.rotation;
   return tool;
 }
 
@@ -279,6 +281,21 @@ public:
   std::optional<vtkPetrousVolumeMapper::Fovea> fovea;
   std::optional<petrous::core::CameraPose> lampCamera;
   std::optional<petrous::rendering::ToolPose> tool; // world
+
+  /// With neither size nor depth.
+  petrous::rendering::RayCaster::Frame frameOf(vtkRenderer* renderer, vtkVolume* volume) const
+  {
+    const Eigen::Matrix4d worldFromPatient = petrous::rendering::toEigen(volume->GetMatrix());
+    petrous::rendering::RayCaster::Frame frame;
+    frame.view = petrous::rendering::raysOf(renderer->GetActiveCamera(),
+                                            renderer->GetTiledAspectRatio(), worldFromPatient);
+    frame.lamp = petrous::rendering::lampIn(
+        worldFromPatient,
+        lampCamera.value_or(petrous::rendering::poseOf(renderer->GetActiveCamera())));
+    if (tool)
+      frame.tool = petrous::rendering::toolIn(worldFromPatient, *tool);
+    return frame;
+  }
 
   /// The picture at rest of one eye, with the depth at which its rays end.
   struct Rest
@@ -451,7 +468,8 @@ void vtkPetrousVolumeMapper::UpdateContents(vtkVolume* volume)
   my.caster.setContents(contents);
 }
 
-void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
+// Makes the renderer's window the one that this draws in.
+void vtkPetrousVolumeMapper::Attach(vtkRenderer* renderer)
 {
   Internals& my = *this->Internal;
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
@@ -470,25 +488,65 @@ void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
   }
   my.window = window;
   my.owner = window;
+}
+
+void vtkPetrousVolumeMapper::PrepareShadows(vtkRenderer* renderer, vtkVolume* volume)
+{
+  Internals& my = *this->Internal;
+  if (!my.contents.light.shadows || !my.contents.ct)
+    return;
+  int width = 0;
+  int height = 0;
+  int x = 0;
+  int y = 0;
+  renderer->GetTiledSizeAndOrigin(&width, &height, &x, &y);
+  if (width < 1 || height < 1)
+    return;
+  try
+  {
+    this->Attach(renderer);
+    this->UpdateContents(volume);
+    const petrous::rendering::PlainDrawing plain(my.window);
+    my.caster.prepareShadows(my.frameOf(renderer, volume));
+  }
+  catch (const std::exception&)
+  {
+    my.clipped = 0; // it comes again, and is told, when the volume is drawn
+  }
+}
+
+void vtkPetrousVolumeMapper::ShadePolygons(vtkRenderer* renderer, vtkVolume* volume,
+                                           unsigned program, bool isTool)
+{
+  const Internals& my = *this->Internal;
+  const Eigen::Matrix4d viewFromPatient =
+      petrous::rendering::toEigen(renderer->GetActiveCamera()->GetModelViewTransformMatrix()) *
+      petrous::rendering::toEigen(volume->GetMatrix());
+  my.caster.shadePolygons(program, my.frameOf(renderer, volume), viewFromPatient.inverse(), isTool);
+  glActiveTexture(GL_TEXTURE0);
+  if (my.window)
+    my.window->GetState()->ResetGLActiveTexture();
+}
+
+void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
+{
+  Internals& my = *this->Internal;
+  this->Attach(renderer);
+  vtkOpenGLRenderWindow* window = my.window;
   this->UpdateContents(volume);
 
   int x = 0;
   int y = 0;
-  petrous::rendering::RayCaster::Frame frame;
-  renderer->GetTiledSizeAndOrigin(&frame.width, &frame.height, &x, &y);
-  if (frame.width < 1 || frame.height < 1)
+  int width = 0;
+  int height = 0;
+  renderer->GetTiledSizeAndOrigin(&width, &height, &x, &y);
+  if (width < 1 || height < 1)
     return;
-  my.width = frame.width;
-  my.height = frame.height;
-  frame.view =
-      petrous::rendering::raysOf(renderer->GetActiveCamera(), renderer->GetTiledAspectRatio(),
-                                 petrous::rendering::toEigen(volume->GetMatrix()));
-  frame.lamp = petrous::rendering::lampIn(
-      petrous::rendering::toEigen(volume->GetMatrix()),
-      my.lampCamera.value_or(petrous::rendering::poseOf(renderer->GetActiveCamera())));
-  if (my.tool)
-    frame.tool =
-        petrous::rendering::toolIn(petrous::rendering::toEigen(volume->GetMatrix()), *my.tool);
+  my.width = width;
+  my.height = height;
+  petrous::rendering::RayCaster::Frame frame = my.frameOf(renderer, volume);
+  frame.width = width;
+  frame.height = height;
 
   vtkOpenGLState* state = window->GetState();
   // Before copying the depth, which a scissor would clip as well.

@@ -41,6 +41,14 @@ Eigen::Vector3d displayed(const Eigen::Vector3d& color, const LightSettings& lig
   return light.toneCurve ? toneCurve(color) : color.cwiseMax(0.0).cwiseMin(1.0).eval();
 }
 
+double edgeOpacity(double opacity, double cosine, double edges)
+{
+  if (!(edges > 0.0) || opacity >= 1.0)
+    return opacity;
+  const double path = 1.0 + edges * (1.0 / std::clamp(std::abs(cosine), kLeastFacing, 1.0) - 1.0);
+  return 1.0 - std::pow(1.0 - opacity, path);
+}
+
 double sectionGrey(const SectionWindow& window, double value)
 {
   return std::clamp((value - window.level) / window.width + 0.5, 0.0, 1.0);
@@ -52,8 +60,9 @@ Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics,
 {
   const double facing = std::clamp(std::abs(cosine), 0.0, 1.0);
   const double diffuse = light.ambient * seen.sky + (1.0 - light.ambient) * facing * seen.lamp;
-  const double highlight = optics.specular * light.specular * std::pow(facing, shininess) +
-                           light.wetness * std::pow(facing, kWetShininess);
+  const double highlight =
+      (1.0 - light.wetness) * optics.specular * light.specular * std::pow(facing, shininess) +
+      light.wetness * std::pow(facing, kWetShininess);
   const Eigen::Vector3d color(optics.color[0], optics.color[1], optics.color[2]);
   const double reaching = lightAt(light, distance, focus);
   const Eigen::Vector3d lit = (isScale ? std::min(reaching, light.intensity) : reaching) *

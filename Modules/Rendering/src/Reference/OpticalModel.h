@@ -41,7 +41,7 @@ namespace petrous::rendering
 ///   v       intensity at x - n * kColorDepth * (smallest spacing of the CT), clamped to the hull
 ///           of the sampled image
 ///   c_s     surfaceColor(transfer(v), |n . ray|, distance along the ray)
-///   opacity material.surfaceOpacity
+///   opacity edgeOpacity(material.surfaceOpacity, |n . ray|)
 /// The material is i's from structure to structure i; otherwise structureAt(x)'s where occupancy >
 /// 0.5 - 1e-3 at x; otherwise a lumen's where the index at x is that of a lumen; otherwise bone.
 /// Where tissue is cut off by the hull, the crop box or a clipping plane, n is that face's normal
@@ -55,15 +55,18 @@ namespace petrous::rendering
 /// `farthest`, thicknessColor(d / farthest) replaces the transfer function's colour; light and
 /// highlight stay.
 ///
-/// Shadows (LightSettings::shadows; record 33): a surface that a ray in air or soft tissue meets,
-/// and that is not such a face, with the normal n towards the camera, sees (soft tissue stops
-/// nothing)
+/// Shadows (LightSettings::shadows; records 33 and 42): a surface that a ray in air or soft tissue
+/// meets, and that is not such a face, and one of a mesh or of the tool, with the normal n towards
+/// the camera, sees (soft tissue stops nothing)
 ///   sky     1 - 1/pi integral over the hemisphere of n of (n . w) b(w) (1 - (d / r)^2) dw
 ///   lamp    1 - mean over the lamp's disc of b(w)
-/// where b(w) is the fraction that tissue and the tool stop of what comes from direction w, and d
-/// the distance at which they do, up to r = kOcclusionReach; for the lamp up to kShadowReach. A
-/// surface that a ray in air enters stops the opacity of its material, the tool (ToolShape.h) all.
-/// All other surfaces see all. Meshes cast no shadows, and neither they nor the tool lie in any.
+/// where b(w) is the fraction that tissue, closed meshes and the tool stop of what comes from
+/// direction w, and d the distance at which they do, up to r = kOcclusionReach; for the lamp up to
+/// kShadowReach. A surface that a ray in air enters stops the opacity of its material, a mesh its
+/// own opacity where it is entered (of a drilled one, what the mask left), both only in the hull,
+/// the crop box and on the drawn side of clipping planes; the tool (ToolShape.h, or the instrument)
+/// stops all, but nothing of what reaches itself. What a mesh or the tool lies in stops nothing of
+/// it. All other surfaces see all.
 namespace optics
 {
 
@@ -75,14 +78,17 @@ constexpr double kColorDepth = 2.0;
 /// Effective cosine for all directions inside a scattering tissue (no normal is computed there).
 constexpr double kInteriorFacing = 2.0 / 3.0;
 
-/// Exponent of the highlight of a wet surface.
-constexpr double kWetShininess = 120.0;
+/// Exponent of the highlight of a film of water: half of it is seen 4.4 degrees off.
+constexpr double kWetShininess = 240.0;
 
 constexpr double kOccupancyThreshold = 0.5 - 1e-3;
 
 /// Surface opacity from which slice steps are smoothed when shading the CT's surface. They are less
 /// visible on more transparent surfaces, and a ray meets many of those.
 constexpr double kSmoothOpacity = 0.5;
+
+/// Smallest cosine of edgeOpacity.
+constexpr double kLeastFacing = 1.0 / 64.0;
 
 /// Distance, mm, up to which tissue keeps the light of the sky from a surface, and that of the
 /// lamp.
@@ -140,11 +146,21 @@ Eigen::Vector3d toneCurve(const Eigen::Vector3d& color);
 /// A lit colour as it is displayed: by toneCurve if the light has one, else clamped to 0..1.
 Eigen::Vector3d displayed(const Eigen::Vector3d& color, const LightSettings& light);
 
+/// Opacity of a translucent surface, `opacity` head-on, at a cosine c: that of a shell of constant
+/// thickness by the law of Beer and Lambert, through which the path is 1/c times as long (Kay and
+/// Greenberg, Transparency for computer synthesized images, 1979):
+///   1 - (1 - opacity)^(1 + edges (1 / max(c, kLeastFacing) - 1))
+/// What it adds and what it lets through remain 1 together. Faces, and what a surface stops of the
+/// light of others (shadows), have `opacity`.
+double edgeOpacity(double opacity, double cosine, double edges);
+
 /// Grey of a CT's value in a section, 0 to 1.
 double sectionGrey(const SectionWindow& window, double value);
 
-/// light (c (ambient sky + (1 - ambient) facing lamp) + lamp (k_s specular facing^shininess
-///        + wetness facing^kWetShininess)), as displayed; k_s of the transfer function.
+/// light (c (ambient sky + (1 - ambient) facing lamp) + lamp ((1 - wetness) k_s specular
+///        facing^shininess + wetness facing^kWetShininess)), as displayed; k_s of the transfer
+/// function. Below water a surface has no gloss of its own: bone (refractive index 1.55) reflects
+/// 4.7 % in air and 0.6 % in water (Fresnel).
 ///
 /// `isScale`: a colour that is compared with a legend; the light is at most the intensity then, and
 /// nothing rolls off.

@@ -48,6 +48,7 @@ public:
 
   Implementation(const SceneContents& contents, const Quality& quality)
     : m_shapes(contents)
+    , m_hasShadows(contents.light.shadows)
   {
     const double step = checkedStep(quality);
     checkContents(contents);
@@ -61,6 +62,7 @@ private:
   GatheredLight gather(const PixelRay& ray, double end, const optics::Lamp& lamp) const;
 
   SurfaceGeometry m_shapes;
+  bool m_hasShadows;
   std::optional<TissueRay> m_tissue;
 };
 
@@ -75,7 +77,14 @@ ReferenceRayCaster::Implementation::see(const PixelRay& ray, const optics::Lamp&
 {
   Eigen::Vector3d color = Eigen::Vector3d::Zero();
   double visible = 1.0; // fraction of the pixels not yet covered by a screen door
-  for (const SurfaceGeometry::Hit& hit : m_shapes.along(ray, lamp.focus))
+  SurfaceGeometry::Seeing seeing;
+  if (m_hasShadows && m_tissue)
+    seeing = [&](const Eigen::Vector3d& point, const Eigen::Vector3d& normal, bool isTool)
+    {
+      using Of = SurfaceShadows::Of;
+      return m_tissue->shadows().at(point, normal, lamp, isTool ? Of::Tool : Of::Mesh);
+    };
+  for (const SurfaceGeometry::Hit& hit : m_shapes.along(ray, lamp.focus, seeing))
   {
     const GatheredLight light = gather(ray, hit.distance, lamp);
     color += visible * hit.opacity * (light.color + light.transmittance * hit.color);

@@ -97,11 +97,24 @@ Eigen::Vector3d normalAt(const core::TriangleMesh& mesh,
       .normalized();
 }
 
-Eigen::Vector3d lit(const Eigen::Vector3d& color, const ShapeHit& hit, const PixelRay& ray,
-                    const LightSettings& light, double focus)
+// What a hit is seen by.
+struct Sight
 {
-  return optics::surfaceColor({{color[0], color[1], color[2]}, 0.0, 1.0}, light.shininess,
-                              hit.normal.dot(ray.direction), light, hit.distance, {}, focus);
+  const PixelRay& ray;
+  double focus;
+  const SurfaceGeometry::Seeing& seeing;
+};
+
+Eigen::Vector3d lit(const Eigen::Vector3d& color, const ShapeHit& hit, const Sight& sight,
+                    const LightSettings& light, bool isTool)
+{
+  const double cosine = hit.normal.dot(sight.ray.direction);
+  optics::Seen seen;
+  if (sight.seeing)
+    seen = sight.seeing(sight.ray.origin + hit.distance * sight.ray.direction,
+                        cosine > 0.0 ? (-hit.normal).eval() : hit.normal, isTool);
+  return optics::surfaceColor({{color[0], color[1], color[2]}, 0.0, 1.0}, light.shininess, cosine,
+                              light, hit.distance, seen, sight.focus);
 }
 
 struct ToolHits
@@ -134,8 +147,7 @@ Hit meetInstrument(const ToolPose& tool, const volume::MeshTree& tree, const Pix
 }
 
 void addTool(const ToolPose& tool, const std::optional<volume::MeshTree>& instrument,
-             const LightSettings& lamp, double focus, const PixelRay& ray,
-             std::vector<SurfaceGeometry::Hit>& hits)
+             const LightSettings& lamp, const Sight& sight, std::vector<SurfaceGeometry::Hit>& hits)
 {
   LightSettings light = lamp;
   light.intensity = 1.0;
@@ -146,11 +158,11 @@ void addTool(const ToolPose& tool, const std::optional<volume::MeshTree>& instru
   {
     if (hit)
       hits.push_back(
-          {hit->distance, lit({color[0], color[1], color[2]}, *hit, ray, light, focus), 1.0});
+          {hit->distance, lit({color[0], color[1], color[2]}, *hit, sight, light, true), 1.0});
   };
   if (instrument)
-    return add(meetInstrument(tool, *instrument, ray), tool::kShaftColor);
-  const ToolHits met = meetTool(tool, ray);
+    return add(meetInstrument(tool, *instrument, sight.ray), tool::kShaftColor);
+  const ToolHits met = meetTool(tool, sight.ray);
   add(met.burr, tool.drilling ? tool::kDrillingColor : tool::kBurrColor);
   add(met.shaft, tool::kShaftColor);
   add(met.handpiece, tool::kHandpieceColor);
@@ -171,7 +183,7 @@ std::optional<double> toolAlong(const ToolPose& tool, const PixelRay& ray)
 SurfaceGeometry::SurfaceGeometry(const SceneContents& contents)
   : m_light(contents.light)
 {
-  m_light.ambient = m_light.ambientOfMeshes();
+  m_light.wetness = 0.0; // VTK draws them dry
   for (const MeshContents& mesh : contents.meshes)
   {
     if (!mesh.mesh)
@@ -193,8 +205,10 @@ SurfaceGeometry::SurfaceGeometry(const SceneContents& contents)
     m_instrument.emplace(*m_tool->instrument);
 }
 
-std::vector<SurfaceGeometry::Hit> SurfaceGeometry::along(const PixelRay& ray, double focus) const
+std::vector<SurfaceGeometry::Hit> SurfaceGeometry::along(const PixelRay& ray, double focus,
+                                                         const Seeing& seeing) const
 {
+  const Sight sight{ray, focus, seeing};
   std::vector<Hit> hits;
   for (const Mesh& mesh : m_meshes)
     if (const auto hit = mesh.tree.firstAlong(ray.origin, ray.direction, 0.0))
@@ -203,11 +217,11 @@ std::vector<SurfaceGeometry::Hit> SurfaceGeometry::along(const PixelRay& ray, do
       hits.push_back(
           {hit->distance,
            lit({color[0], color[1], color[2]},
-               {hit->distance, normalAt(*mesh.mesh, mesh.normals, *hit)}, ray, m_light, focus),
+               {hit->distance, normalAt(*mesh.mesh, mesh.normals, *hit)}, sight, m_light, false),
            std::min(static_cast<double>(mesh.look.opacity), 1.0)});
     }
   if (m_tool)
-    addTool(*m_tool, m_instrument, m_light, focus, ray, hits);
+    addTool(*m_tool, m_instrument, m_light, sight, hits);
   std::sort(hits.begin(), hits.end(),
             [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
   const auto solid =

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "OpticalModel.h"
 #include "petrous/Rendering/PixelRays.h"
 #include "petrous/Rendering/SceneContents.h"
 #include "petrous/Volume/MeshTree.h"
@@ -31,9 +33,14 @@ public:
   /// inconsistent one.
   explicit SurfaceGeometry(const SceneContents& contents);
 
+  /// What a point of a mesh or of the tool sees; normal towards the camera.
+  using Seeing = std::function<optics::Seen(const Eigen::Vector3d& point,
+                                            const Eigen::Vector3d& normal, bool isTool)>;
+
   /// Nearest first, at most one hit per mesh, up to and including the first opaque one. `focus`:
-  /// mm to where the light's falloff changes nothing.
-  std::vector<Hit> along(const PixelRay& ray, double focus = 0.0) const;
+  /// mm to where the light's falloff changes nothing. `seeing`: null: everything is seen.
+  std::vector<Hit> along(const PixelRay& ray, double focus = 0.0,
+                         const Seeing& seeing = nullptr) const;
 
 private:
   struct Mesh

@@ -267,9 +267,10 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
   look.color = overlay.value_or(look.color);
   if (face && m_section)
     return {{look.color[0], look.color[1], look.color[2]}, material.surfaceOpacity};
+  const double opacity = material.surfaceOpacity;
   return {optics::surfaceColor(look, material.shininess, cosine, m_light, t, seen, focus,
                                overlay.has_value()),
-          material.surfaceOpacity};
+          face ? opacity : optics::edgeOpacity(opacity, cosine, m_light.edges)};
 }
 
 } // namespace petrous::rendering

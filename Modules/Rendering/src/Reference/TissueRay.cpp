@@ -36,7 +36,7 @@ struct TissueRay::Sample
 TissueRay::TissueRay(const SceneContents& contents, double step)
   : m_optics(contents)
   , m_drawn(contents.ct->geometry(), contents.crop, contents.clipping)
-  , m_shadows(m_optics, m_drawn, contents.tool)
+  , m_shadows(m_optics, m_drawn, contents)
   , m_step(step * contents.ct->geometry().minSpacing())
   , m_tolerance(kTolerance * contents.ct->geometry().minSpacing())
 {

@@ -34,6 +34,8 @@ public:
   /// Up to `end` mm, e.g. an opaque hit. `lamp`: of the frame.
   GatheredLight cast(const PixelRay& ray, double end, const optics::Lamp& lamp) const;
 
+  const SurfaceShadows& shadows() const noexcept { return m_shadows; }
+
 private:
   struct Walk;
   struct Sample;

@@ -195,10 +195,10 @@ struct MeshActor
   std::size_t bytes = 0;
   SurfaceActor actor;
 
-  MeshActor(const MeshContents& contents, int pattern)
+  MeshActor(const MeshContents& contents, int pattern, ProgramSetter shadows)
     : name(contents.name)
     , mesh(contents.mesh)
-    , actor(pattern)
+    , actor(pattern, std::move(shadows))
   {
     show(*mesh, vertexNormals(*mesh));
   }
@@ -312,6 +312,7 @@ public:
 private:
   template <class Visit>
   void forEachProp(const Visit& visit);
+  ProgramSetter shadowsOn(bool isTool);
 
   vtkNew<vtkLight> m_lamp;
   double m_falloff = 0.0; // mm
@@ -334,6 +335,17 @@ ScenePicture::Implementation::Implementation()
                        { static_cast<Implementation*>(self)->endFrame(); });
   volume->SetMapper(mapper);
   volume->PickableOff();
+  tool.followShadows(shadowsOn(true));
+}
+
+// For polygons; while it is attached.
+ProgramSetter ScenePicture::Implementation::shadowsOn(bool isTool)
+{
+  return [this, isTool](unsigned program)
+  {
+    if (renderer)
+      mapper->ShadePolygons(renderer, volume, program, isTool);
+  };
 }
 
 void ScenePicture::Implementation::startFrame()
@@ -363,6 +375,7 @@ void ScenePicture::Implementation::startFrame()
   // The light is at the camera, as in the ray caster; a parallel projection has no such position.
   m_lamp->SetPositional(renderer->GetActiveCamera()->GetParallelProjection() ? 0 : 1);
   m_timer.begin();
+  mapper->PrepareShadows(renderer, volume);
 }
 
 void ScenePicture::Implementation::coarsen()
@@ -504,7 +517,7 @@ void ScenePicture::Implementation::setMeshes(const SceneContents& contents)
       actor = std::move(*found);
     else
     {
-      actor = std::make_unique<MeshActor>(wanted, pattern);
+      actor = std::make_unique<MeshActor>(wanted, pattern, shadowsOn(false));
       if (renderer)
         renderer->AddViewProp(actor->actor.prop());
     }

@@ -1,8 +1,11 @@
 #include "SurfaceActor.h"
 
+#include <utility>
+
 #include <Eigen/Geometry>
 
 #include <vtkActor.h>
+#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
@@ -11,6 +14,7 @@
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkShaderProgram.h>
 #include <vtkShaderProperty.h>
 #include <vtkUniforms.h>
 
@@ -26,6 +30,11 @@ namespace
 // VTK's highlight falls off as cos(2a)^n, a being the angle between normal and view direction. For
 // small angles this equals the optical model's cos(a)^n with a quarter of the exponent.
 constexpr double kHighlight = 0.25;
+
+// By the parts of which VTK's shader has just made the colour.
+constexpr const char* kShadowed =
+    "Seen seen = polygonSeen(vertexVC.xyz, normalVCVSOutput);\n"
+    "gl_FragData[0].rgb = seen.sky * ambientColor + seen.lamp * (diffuse + specular);\n";
 } // namespace
 
 vtkSmartPointer<vtkPolyData> toPolyData(const core::TriangleMesh& mesh,
@@ -78,11 +87,32 @@ std::vector<Eigen::Vector3f> vertexNormals(const core::TriangleMesh& mesh)
   return normals;
 }
 
+void PolygonShading::followShadows(vtkActor* actor, ProgramSetter setter)
+{
+  if (!setter)
+    return;
+  m_followsShadows = true;
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(new ProgramSetter(std::move(setter)));
+  command->SetClientDataDeleteCallback([](void* data)
+                                       { delete static_cast<ProgramSetter*>(data); });
+  command->SetCallback(
+      [](vtkObject*, unsigned long, void* data, void* program)
+      {
+        const auto* shader = static_cast<vtkShaderProgram*>(program);
+        (*static_cast<ProgramSetter*>(data))(static_cast<unsigned>(shader->GetHandle()));
+      });
+  actor->GetMapper()->AddObserver(vtkCommand::UpdateShaderEvent, command);
+}
+
 void PolygonShading::apply(vtkActor* actor, const LightSettings& light, float opacity, int pattern)
 {
   const bool isExposed = light.exposure != 0.0;
   const bool hasPattern = opacity < 1.0F;
+  const bool isShadowed = light.shadows && m_followsShadows;
   std::string code;
+  if (isShadowed)
+    code += kShadowed;
   if (isExposed)
     code += "gl_FragData[0].rgb *= p_exposure;\n";
   if (light.toneCurve)
@@ -95,9 +125,11 @@ void PolygonShading::apply(vtkActor* actor, const LightSettings& light, float op
     m_code = code;
     shader->ClearAllFragmentShaderReplacements();
     shader->GetFragmentCustomUniforms()->RemoveAllUniforms();
-    if (light.toneCurve)
+    const std::string functions = (isShadowed ? polygonShadowsShader() : std::string()) +
+                                  (light.toneCurve ? toneCurveShader() : std::string());
+    if (!functions.empty())
       shader->AddFragmentShaderReplacement("//VTK::Light::Dec", true,
-                                           "//VTK::Light::Dec\n" + toneCurveShader(), false);
+                                           "//VTK::Light::Dec\n" + functions, false);
     if (!code.empty())
       shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
                                            "//VTK::Light::Impl\n" + code, false);
@@ -112,11 +144,12 @@ void PolygonShading::apply(vtkActor* actor, const LightSettings& light, float op
   }
 }
 
-SurfaceActor::SurfaceActor(int pattern)
+SurfaceActor::SurfaceActor(int pattern, ProgramSetter shadows)
   : m_pattern(pattern)
 {
   m_mapper->ScalarVisibilityOff();
   m_actor->SetMapper(m_mapper);
+  m_shading.followShadows(m_actor, std::move(shadows));
   m_actor->SetVisibility(0);
 }
 
@@ -138,9 +171,8 @@ void SurfaceActor::setLook(const appearance::StructureAppearance& look, const Li
   vtkProperty* property = m_actor->GetProperty();
   property->SetColor(look.color[0], look.color[1], look.color[2]);
   property->SetInterpolationToPhong();
-  const double ambient = light.ambientOfMeshes();
-  property->SetAmbient(ambient * light.intensity);
-  property->SetDiffuse((1.0 - ambient) * light.intensity);
+  property->SetAmbient(light.ambient * light.intensity);
+  property->SetDiffuse((1.0 - light.ambient) * light.intensity);
   property->SetSpecular(light.specular * light.intensity);
   property->SetSpecularPower(kHighlight * light.shininess);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,16 +25,25 @@ vtkSmartPointer<vtkPolyData> toPolyData(const core::TriangleMesh& mesh,
 /// Area-weighted vertex normals.
 std::vector<Eigen::Vector3f> vertexNormals(const core::TriangleMesh& mesh);
 
+/// Sets the uniforms of an OpenGL program that is in use.
+using ProgramSetter = std::function<void(unsigned program)>;
+
 /// What is injected into VTK's polygon shader so that an actor's lit colours are displayed as the
-/// ray caster's are: exposure, tone curve and screen-door transparency. Nothing where none is used.
+/// ray caster's are: shadows, exposure, tone curve and screen-door transparency. Nothing where none
+/// is used.
 class PolygonShading
 {
 public:
+  /// Without, nothing lies in shadow. `setter`: of polygonShadowsShader (RayShader.h), called
+  /// whenever the actor is drawn. Once.
+  void followShadows(vtkActor* actor, ProgramSetter setter);
+
   /// `pattern` offsets the screen door of an opacity below 1.
   void apply(vtkActor* actor, const LightSettings& light, float opacity = 1.0F, int pattern = 0);
 
 private:
   std::string m_code; // injected
+  bool m_followsShadows = false;
 };
 
 /// A surface shaded like bone, with screen-door transparency.
@@ -41,7 +51,8 @@ class SurfaceActor
 {
 public:
   /// `pattern` offsets the screen door, so that neighbours in a list do not share it.
-  explicit SurfaceActor(int pattern);
+  /// `shadows`: see PolygonShading.
+  explicit SurfaceActor(int pattern, ProgramSetter shadows = {});
   ~SurfaceActor();
 
   vtkActor* prop() const;

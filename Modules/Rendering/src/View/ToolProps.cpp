@@ -221,6 +221,13 @@ void ToolProps::setPose(const std::optional<ToolPose>& tool)
     actor->SetUserMatrix(pose);
 }
 
+void ToolProps::followShadows(const std::function<void(unsigned program)>& setter) const
+{
+  for (std::size_t part = 0; part < m_actors.size(); ++part)
+    if (m_shadings[part])
+      m_shadings[part]->followShadows(m_actors[part], setter);
+}
+
 void ToolProps::setLight(const LightSettings& light)
 {
   for (std::size_t part = 0; part < m_actors.size(); ++part)

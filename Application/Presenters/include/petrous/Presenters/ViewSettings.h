@@ -31,6 +31,7 @@ public:
   void setShadows(bool on);
   void setExposure(double exposure); ///< EV, clamped to +-ViewState::Light::kMaxExposure
   void setToneCurve(bool on);
+  void setEdges(double edges); ///< clamped to 0 to 1
 
   rendering::StereoMode stereo() const noexcept { return m_stereo; }
   const rendering::StereoRig& rig() const noexcept { return m_rig; }

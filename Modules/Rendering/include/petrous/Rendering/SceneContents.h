@@ -47,7 +47,7 @@ struct ToolPose
   BurrFinish finish = BurrFinish::Smooth;
   double turn = 0.0; ///< rad about the axis, of the finish
   /// Drawn in place of ball, shaft and handpiece: a closed surface, its tip at the origin, +z to
-  /// the hand, mm. It throws no shadow.
+  /// the hand, mm.
   std::shared_ptr<const core::TriangleMesh> instrument = nullptr;
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity(); ///< of the instrument
 };
@@ -65,15 +65,17 @@ struct LightSettings
   /// mm from the light to where it has half of its intensity at the light; 0: no attenuation. The
   /// camera's focal point is as bright as without.
   double falloff = 0.0;
-  double wetness = 0.0; ///< intensity of the narrow highlight of a wet surface, 0 to 1; 0: dry
-  /// Tissue keeps ambient light out of cavities, and throws a soft shadow of a lamp somewhat above
-  /// the view axis (record 33).
+  /// Intensity of the thin highlight of a film of water, which takes the place of tissue's own
+  /// gloss, 0 to 1; 0: dry.
+  double wetness = 0.0;
+  /// Tissue, closed meshes and the tool keep ambient light out of cavities, and throw a soft shadow
+  /// of a lamp somewhat above the view axis (records 33 and 42).
   bool shadows = false;
   double exposure = 0.0;  ///< EV: each doubles the luminance on the screen (record 35)
   bool toneCurve = false; ///< highlights roll off instead of being clipped
-
-  /// Meshes lie in no shadow, and look the same with and without.
-  double ambientOfMeshes() const noexcept { return shadows ? kAmbient : ambient; }
+  /// How much of the path through a shell its opacity follows, 0 to 1: translucent surfaces are
+  /// the more opaque the more they are seen from the side, and keep their shape (record 42).
+  double edges = 0.0;
 
   /// With the ambient light that goes with it.
   void setShadows(bool on)

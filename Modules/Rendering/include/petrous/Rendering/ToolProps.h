@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -36,7 +37,10 @@ public:
   void addTo(vtkRenderer* renderer) const;
   void removeFrom(vtkRenderer* renderer) const;
   void setPose(const std::optional<ToolPose>& tool);
-  void setLight(const LightSettings& light); ///< exposure and tone curve; not of a ghost
+  /// Shadows (once they are followed), exposure and tone curve; not of a ghost.
+  void setLight(const LightSettings& light);
+  /// See PolygonShading (SurfaceActor.h); once, not of a ghost.
+  void followShadows(const std::function<void(unsigned program)>& setter) const;
 
 private:
   void shapeBurr(const ToolPose& tool);

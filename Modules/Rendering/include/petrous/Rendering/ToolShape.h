@@ -34,12 +34,6 @@ inline bool isShown(const ToolPose& pose)
          pose.axisToHand.allFinite();
 }
 
-/// Whether it darkens what is near it: an instrument has no distance that a shader could evaluate.
-inline bool castsShadow(const ToolPose& pose)
-{
-  return isShown(pose) && !pose.instrument;
-}
-
 /// mm
 inline double shaftRadius(const ToolPose& pose)
 {

@@ -79,6 +79,13 @@ public:
   /// Casts shadows, if there are any (world); null: none does. Drawn elsewhere.
   void SetShadowingTool(const std::optional<petrous::rendering::ToolPose>& tool);
 
+  /// For polygons that lie in shadows, whose shaders contain polygonShadowsShader (RayShader.h):
+  /// first PrepareShadows, before a frame's polygons, then ShadePolygons for each OpenGL program
+  /// while it is in use. `isTool`: it draws the tool, which throws no shadow on itself. Errors are
+  /// those of the frame.
+  void PrepareShadows(vtkRenderer* renderer, vtkVolume* volume);
+  void ShadePolygons(vtkRenderer* renderer, vtkVolume* volume, unsigned program, bool isTool);
+
   /// Counts texture fetches and samples of subsequent frames, which slows them down.
   vtkSetMacro(Counting, bool);
   vtkGetMacro(Counting, bool);
@@ -104,6 +111,7 @@ protected:
 
 private:
   class Internals;
+  void Attach(vtkRenderer* renderer);
   void UpdateContents(vtkVolume* volume);
   void DrawRays(vtkRenderer* renderer, vtkVolume* volume);
   double IsoValue = 300.0;

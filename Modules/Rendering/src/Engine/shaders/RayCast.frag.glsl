@@ -196,15 +196,11 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   vec4 overlay = bony ? overlayAt(v) : vec4(0.0);
   float size = length(slopeMm);
   vec3 below = v;
-  bool isSection = facing >= 0.0 && section.y > 0.0;
+  bool isFace = facing >= 0.0;
+  bool isSection = isFace && section.y > 0.0;
   bool isGrey = isSection && ray.material == 0;
-  Seen seen = Seen(1.0, 1.0);
-#ifdef PETROUS_SHADOWS
-  bool shadowed = facing < 0.0 && ray.state <= kAir && size > 1e-12;
-  vec3 normal = shadowed ? slopeMm / (along > 0.0 ? -size : size) : -ray.unit;
-  seen = seenAt(v, normal, ray.unit, hit, shadowed);
-#endif
-  if (facing < 0.0)
+  float opacity = ray.row.z;
+  if (!isFace)
   {
     facing = 1.0; // zero gradient: facing the camera
     if (size > 1e-12)
@@ -212,17 +208,25 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
       facing = min(abs(along) / size, 1.0);
       below += voxelFromMm * (slopeMm * (colorDepth / size));
     }
+    opacity = opacityFrom(opacity, facing);
   }
+  Seen seen = Seen(1.0, 1.0);
+#ifdef PETROUS_SHADOWS
+  bool shadowed = !isFace && ray.state <= kAir && size > 1e-12 &&
+                  ray.transmittance * opacity > kLeastShadowed;
+  vec3 normal = shadowed ? slopeMm / (along > 0.0 ? -size : size) : -ray.unit;
+  seen = seenAt(v, normal, ray.unit, hit, shadowed);
+#endif
   float value = intensityAt(below, isGrey ? vec4(0.0) : ray.more);
   if (isGrey)
     overlay = vec4(vec3(clamp((value - section.x) * section.y, 0.0, 1.0)), 1.0);
   vec3 lit =
       surfaceColor(ray.material, ray.row, value, facing, hit, overlay, seen, isSection);
-  ray.color += ray.transmittance * ray.row.z * lit;
+  ray.color += ray.transmittance * opacity * lit;
 #ifdef PETROUS_INTERIOR
-  ray.lit += ray.transmittance * ray.row.z * reaches(ray.gathering, hit / stepLength);
+  ray.lit += ray.transmittance * opacity * reaches(ray.gathering, hit / stepLength);
 #endif
-  ray.transmittance *= 1.0 - ray.row.z;
+  ray.transmittance *= 1.0 - opacity;
 }
 
 // Passes a change of state. `facing`: see shade.

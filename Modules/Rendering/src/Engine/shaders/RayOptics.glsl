@@ -65,6 +65,17 @@ vec4 overlayAt(vec3 v)
 #endif
 }
 
+// Opacity of a surface that is not a face; see edgeOpacity in OpticalModel.h.
+float opacityFrom(float opacity, float facing)
+{
+#ifdef PETROUS_EDGES
+  float path = 1.0 + edges * (1.0 / max(facing, kLeastFacing) - 1.0);
+  return opacity < 1.0 ? 1.0 - pow(1.0 - opacity, path) : opacity;
+#else
+  return opacity;
+#endif
+}
+
 // `overlay`: see overlayAt; `seen`: of the surface; `isSection`: a face, which is not lit.
 vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, vec4 overlay,
                   Seen seen, bool isSection)
@@ -75,7 +86,8 @@ vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, ve
   vec4 look = texture(lookTexture, vec2(u, rowCoordinate(material)));
   look.rgb = mix(look.rgb, overlay.rgb, overlay.a);
   float diffuse = light.y * seen.sky + (1.0 - light.y) * facing * seen.lamp;
-  float highlight = look.a * light.z * pow(facing, row.w) + light.w * pow(facing, kWetShininess);
+  float highlight = (1.0 - light.w) * look.a * light.z * pow(facing, row.w) +
+                    light.w * pow(facing, kWetShininess);
   float reaching = lightAt(t);
   bool isScale = overlay.a > 0.0; // compared with a legend: no brighter than that, and its hue
   vec3 lit = (isScale ? min(reaching, plainLight) : reaching) *

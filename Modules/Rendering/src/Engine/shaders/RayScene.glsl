@@ -7,15 +7,18 @@
 //   BORDERS    touching structures            THIRD    and a third one (with SECOND)
 //   NESTED     translucent structures
 //   INTERIOR   translucent tissue             CLIP     clipping planes
+//   EDGES      translucent surfaces are more opaque from the side (with INTERIOR)
 //   THICKNESS  bone is coloured by its distance to a structure
 //   SOFT       soft tissue (with INTERIOR)
-//   SHADOWS    surfaces see less of the sky and of the lamp where tissue is in the way
+//   SHADOWS    surfaces see less of the sky and of the lamp where something is in the way
+//   INSTRUMENT an instrument is (with SHADOWS)
 //   TONE       lit colours go through the tone curve
 //   COUNT      fetches and samples are counted
 //   EXACT      the card's filter rounds: values come from one of our own
 //   ROUNDED    the card's filter is made to round its weights, for tests on one that does not
 // Preceded by the constants that the C++ code defines (RayShader.cpp): kMaxPlanes,
-// kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity (OpticalModel.h),
+// kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity, kLeastFacing
+// (OpticalModel.h),
 // kOcclusionReach, kShadowReach, kLampTangent, kSliceGrowth (OpticalModel.h, RayShader.h),
 // kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h), kMeeting,
 // kDeepest, kMarginPerDepth (LabelBorders.h).
@@ -78,6 +81,9 @@ uniform float weights; // of the card's filter between two texels
 uniform vec4 light; // intensity at the lamp with exposure, ambient, specular, wetness
 uniform float plainLight; // intensity without exposure and falloff
 uniform float falloff;
+#ifdef PETROUS_EDGES
+uniform float edges; // 0 to 1
+#endif
 uniform vec2 section; // grey of bone's faces: value of black, 1 / range; 0, 0: lit as surfaces are
 
 #ifdef PETROUS_MASK
@@ -143,6 +149,7 @@ const float kFirstAside = 0.3;
 const float kNextAside = 0.6;
 const float kLastAside = 0.02;
 const float kLongSteps = 4.0; // where only the density varies
+const float kLeastShadowed = 0.004; // part of a pixel: its shadows are less than a level of 255
 const float kLeastLit = 1e-4; // opacity of soft tissue below which nobody sees how it is lit
 
 #ifdef PETROUS_COUNT

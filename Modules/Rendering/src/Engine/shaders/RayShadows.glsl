@@ -22,6 +22,12 @@ uniform vec3 mmPerVoxel; // between the planes of voxels
 uniform vec4 toolBall;   // centre, voxels, and radius, mm; radius 0: no tool
 uniform mat3 toolFromVoxel; // mm; z along the shaft
 uniform vec4 toolParts; // radius and end of the shaft, radius (0: none) and end of the handpiece, mm
+#ifdef PETROUS_INSTRUMENT
+uniform bool hasInstrument;
+uniform sampler3D instrumentTexture; // R32F: InstrumentDistance, mm
+uniform vec3 instrumentLower, instrumentUpper; // centres of its outer texels, mm from the tip
+uniform vec3 instrumentScale, instrumentOffset; // mm -> texture coordinate
+#endif
 
 // Four cones around one along the normal, each 60 degrees wide, for the hemisphere; sin^2 30 of its
 // light, weighted by the cosine, comes from the middle one.
@@ -77,6 +83,16 @@ float cylinderAt(vec2 at, float radius, float first, float last)
 float toolAt(vec3 v)
 {
   vec3 at = toolFromVoxel * (v - toolBall.xyz);
+#ifdef PETROUS_INSTRUMENT
+  if (hasInstrument)
+  {
+    COUNT(1);
+    vec3 inside = clamp(at, instrumentLower, instrumentUpper);
+    float own = textureLod(instrumentTexture, inside * instrumentScale + instrumentOffset, 0.0).r;
+    float beyond = length(at - inside);
+    return beyond > 0.0 ? length(vec2(beyond, own)) : own; // there `own` is not negative
+  }
+#endif
   vec2 aside = vec2(length(at.xy), at.z);
   float distance = min(length(at) - toolBall.w, cylinderAt(aside, toolParts.x, 0.0, toolParts.y));
   if (toolParts.z > 0.0)

@@ -72,6 +72,7 @@ struct LightView
   bool shadows = false;   ///< ambient occlusion, and the lamp's shadow
   double exposure = 0.0;  ///< EV, -kMaxExposure to kMaxExposure
   bool toneCurve = false; ///< highlights roll off instead of being clipped
+  double edges = 0.0;     ///< opacity of translucent surfaces from the side, 0 to 1
   static constexpr double kMaxExposure = 4.0;
 };
 

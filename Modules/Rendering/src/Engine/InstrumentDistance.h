@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "petrous/Core/GridGeometry.h"
+#include "petrous/Core/TriangleMesh.h"
+
+namespace petrous::rendering
+{
+
+/// Signed distance to an instrument's surface, negative inside, sampled around its front part in
+/// its own frame: the tip at the origin, +z to the hand, mm. Of a surface that is not closed the
+/// distance is positive everywhere.
+struct InstrumentDistance
+{
+  static constexpr double kPart = 60.0;   ///< mm from the tip; what is farther back is not in it
+  static constexpr double kMargin = 3.0;  ///< mm, around
+  static constexpr double kFinest = 0.25; ///< mm, between samples
+  static constexpr double kMostSamples = 1 << 18;
+
+  Eigen::Vector3d lower{0.0, 0.0, 0.0}; ///< the first sample
+  double edge = kFinest;                ///< mm from sample to sample
+  core::Index3 dims{0, 0, 0};           ///< 0: nothing there
+  std::vector<float> distances;         ///< mm, first axis fastest
+
+  /// Throws InvalidParameter for vertices that do not exist or are not finite.
+  static InstrumentDistance of(const core::TriangleMesh& instrument);
+
+  Eigen::Vector3d upper() const ///< the last sample
+  {
+    return lower + edge * Eigen::Vector3d(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0);
+  }
+};
+
+} // namespace petrous::rendering

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -103,6 +104,32 @@ TEST(NearbyStructures, WarnWithinTheDistanceAndTellOfATouch)
   EXPECT_EQ(alone(kRadius + 1.0 - 0.3), 1U);
   value.labels[0].structures[0].look.warning = 0.0; // the case's current value is used
   EXPECT_EQ(stateAt(kRadius + 1.0 + 0.2), State::Clear) << "without one nothing is warned of";
+}
+
+// Of a structure without a warning distance, too, and between the points that are felt.
+TEST(NearbyStructures, WarnOfWhatAnInstrumentMayReach)
+{
+  const scene::Case value = balls();
+  NearbyStructures nearby(value);
+  nearby.surfaces();
+  haptics::PointShell needle; // across the vessel, a point 1 mm before and behind its middle
+  for (int n = -5; n < 5; ++n)
+    needle.points.emplace_back(0.0, 0.0, 2.0 * n + 1.0);
+  needle.burrSpacing = needle.spacing = 1.0;
+  needle.reach = 10.0;
+  const MeasuredTool tool(needle);
+  const auto stateAt = [&](double aside) -> std::optional<State>
+  {
+    const haptics::Pose pose{kVessel + Vector3d(0.0, aside, 0.0), Eigen::Quaterniond::Identity()};
+    for (const NearbyStructure& near : nearby.around(value, tool, pose, 0.0))
+      if (near.name == "carotid")
+        return near.state;
+    return std::nullopt;
+  };
+  EXPECT_EQ(stateAt(0.0), State::Touched);
+  EXPECT_EQ(stateAt(kRadius - 0.1), State::Warned); // pierces it between two points
+  EXPECT_EQ(stateAt(kRadius + 0.3), State::Warned);
+  EXPECT_EQ(stateAt(kRadius + 2.0), std::nullopt);
 }
 
 TEST(NearbyStructures, WarnOfWhatARegistrationMayHaveDisplaced)

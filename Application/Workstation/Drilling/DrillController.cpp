@@ -643,11 +643,13 @@ void DrillController::showFault(const session::TouchSession::News& news)
   const TickRecord& record = *news.record;
   m_stall.see(record);
   QString fault = whyStalled(record);
-  // A device just taken up has no reading for some ticks, and the mouse none before it moves; not a
-  // fault.
+  // A device just taken up has no reading for some ticks, and the mouse none before it moves and
+  // while a picture takes long (PointerDevice); not a fault.
+  const auto verdict = static_cast<DeviceVerdict>(record.verdict);
   const bool waits = m_driver.byMouse() &&
                      static_cast<ServoFault>(record.fault) == ServoFault::Device &&
-                     static_cast<DeviceVerdict>(record.verdict) == DeviceVerdict::NotReady;
+                     (verdict == DeviceVerdict::NotReady || verdict == DeviceVerdict::Stale ||
+                      verdict == DeviceVerdict::Settling);
   if (!news.fault.empty() && !waits && m_sinceTaken.elapsed() > kStart)
   {
     fault = phrase(news.fault);

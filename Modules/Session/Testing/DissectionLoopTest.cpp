@@ -167,6 +167,7 @@ TEST(DissectionLoop, AFaultWhileTheDrillIsHeldDoesNotDivideTheStroke)
     EXPECT_TRUE(scene.work.strokeOpen()) << n;
   }
   EXPECT_TRUE(cuts);
+  EXPECT_TRUE(scene.work.strokes().empty()); // the first one is still open
   // On its way back to the pointer the tool does not drill, and the stroke goes on afterwards.
   TickRecord onTheWay = pressed(time += 0.001, {0.0, 0.0, -1.0}, 1.0, false);
   onTheWay.input.parameters.drillButtons = 2;
@@ -177,6 +178,7 @@ TEST(DissectionLoop, AFaultWhileTheDrillIsHeldDoesNotDivideTheStroke)
   onTheWay.input.parameters.clutch = 1; // the user holds the tool: that ends it
   EXPECT_FALSE(loop.step(onTheWay));
   EXPECT_FALSE(scene.work.strokeOpen());
+  EXPECT_EQ(scene.work.strokes().size(), 1u);
   drill(ServoFault::None, true);
   drill(ServoFault::Stalled, false);
   EXPECT_FALSE(scene.work.strokeOpen());

@@ -139,8 +139,7 @@ TEST(Servo, ThePedalsPressureIsTheFractionOfTheSpeed)
   input.parameters.drill = ServoParameters::kPedalSpeed;
   EXPECT_TRUE(input.parameters.valid());
   EXPECT_EQ(spindle(0.0), 0.0);
-  EXPECT_EQ(spindle(0.049), 0.0); // a foot that rests on it
-  EXPECT_EQ(spindle(0.05), 0.05);
+  EXPECT_EQ(spindle(0.05), 0.0);
   EXPECT_EQ(spindle(0.37), 0.37);
   EXPECT_EQ(spindle(1.0), 1.0);
   EXPECT_EQ(spindle(0.37, 1), 0.37);
@@ -149,6 +148,28 @@ TEST(Servo, ThePedalsPressureIsTheFractionOfTheSpeed)
   EXPECT_EQ(spindle(0.37), 1.0);
   input.parameters.drill = 4;
   EXPECT_FALSE(input.parameters.valid());
+}
+
+TEST(Servo, AFootThatTremblesDoesNotSwitchTheDrill)
+{
+  Session session;
+  session.parameters.drill = ServoParameters::kPedalSpeed;
+  settle(session);
+  int switches = 0;
+  bool on = false;
+  for (int n = 0; n <= 4000; ++n) // up to 0.2 and down again, with noise
+  {
+    session.pedal = 0.2 - 0.0001 * std::abs(n - 2000) + (n % 2 ? 0.01 : -0.01);
+    const TickRecord& record = session.tick(kDevicePose);
+    EXPECT_EQ(record.drill != 0, record.input.spindle() > 0.0);
+    switches += (record.drill != 0) != on;
+    on = record.drill != 0;
+    if (on)
+    {
+      EXPECT_EQ(record.input.spindle(), session.pedal);
+    }
+  }
+  EXPECT_EQ(switches, 2);
 }
 
 // A mouse leaps and is pressed at once: the burr drills where it is pressed, not on its way there.

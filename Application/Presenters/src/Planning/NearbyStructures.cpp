@@ -14,6 +14,8 @@ namespace petrous::presenters
 namespace
 {
 
+constexpr double kSlack = 1e-3; // mm; what is as far as the search goes is left out
+
 const appearance::StructureAppearance* lookOf(const scene::Case& value, const std::string& name)
 {
   if (const auto* structure = scene::findStructure(value, name))
@@ -240,10 +242,11 @@ std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
     const double unsure = structure.uncertainty.millimetres();
     const auto taken = injured.find(structure.name);
     structure.injured = taken == injured.end() ? 0.0 : taken->second;
+    const double warnedFrom = look->warning > 0.0 ? look->warning + unsure : 0.0;
     const double most =
         structure.injured > 0.0
             ? StructureSurfaces::kFar
-            : std::max(reach, look->warning > 0.0 ? look->warning + unsure + tool.sampling() : 0.0);
+            : std::max(reach, warnedFrom + (tool.isInstrument() ? tool.sampling() + kSlack : 0.0));
     const MeasuredTool::Distance away = tool.distance(
         pose,
         [&](const Eigen::Vector3d& patient, double far)
@@ -260,7 +263,9 @@ std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
         : away.millimetres <= 0.0             ? NearbyStructure::State::Touched
         : look->warning > 0.0 && structure.distance - structure.unsure() < look->warning
             ? NearbyStructure::State::Warned
-            : NearbyStructure::State::Clear;
+        // It may be reached between the points that are measured.
+        : structure.distance - structure.sampling <= 0.0 ? NearbyStructure::State::Warned
+                                                         : NearbyStructure::State::Clear;
     if (!look->shown && structure.state == NearbyStructure::State::Clear &&
         !(structure.injured > 0.0))
       continue;

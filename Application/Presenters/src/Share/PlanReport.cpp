@@ -690,7 +690,7 @@ private:
     if (line.empty())
       return;
     ReportSection& table = section("strokes", say("Strokes") + ": " + m_approach);
-    table.table.columns = {say("Stroke"), say("Burr"),    say("Speed"),
+    table.table.columns = {say("Stroke"), say("Burr"),    say("Set speed"),
                            say("Time"),   say("Removed"), say("Of structures")};
     for (const std::size_t n : line)
     {

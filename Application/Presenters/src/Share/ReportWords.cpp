@@ -97,7 +97,7 @@ const std::map<std::string, std::string>& germanTexts()
       {"Burr", "Fräse"},
       {"cutting", "schneidend"},
       {"diamond", "Diamant"},
-      {"Speed", "Drehzahl"},
+      {"Set speed", "Eingestellte Drehzahl"},
       {"Time", "Zeit"},
       {"All together", "Zusammen"},
       {"Measurements and marks", "Messungen und Marken"},

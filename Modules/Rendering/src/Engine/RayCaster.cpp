@@ -536,12 +536,13 @@ void RayCaster::uploadInstrument(const Frame& frame)
       frame.tool->instrument == m_instrument.mesh)
     return;
   m_instrument.texture.release();
-  m_instrument.mesh = frame.tool->instrument;
-  m_instrument.place = InstrumentDistance::of(*m_instrument.mesh);
+  m_instrument.mesh.reset(); // until all is there: what fails is tried and told again
+  m_instrument.place = InstrumentDistance::of(*frame.tool->instrument);
   std::vector<float> distances = std::move(m_instrument.place.distances);
   if (!distances.empty())
     m_instrument.texture.create(texel::kFloat, m_instrument.place.dims, distances.data(),
                                 GL_LINEAR);
+  m_instrument.mesh = frame.tool->instrument;
 }
 
 void RayCaster::prepareShadows(const Frame& frame)

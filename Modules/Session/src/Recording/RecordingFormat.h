@@ -14,11 +14,13 @@ namespace petrous::session
 //           the ticks (RecordCodec.h), the edits (EditCodec.h), each zstd with checksum
 //   at the end of a complete file: u32 kEndMark  u64 total ticks  u64 total edits
 //
-// The mask state of a tick results from edits of its block or of previous ones. Format 1 had no
-// edits, and its ticks did not record their mask state.
+// The mask state of a tick results from edits of its block or of previous ones. In format 2 a pedal
+// was a switch: ServoParameters::kPedalSpeed, which its readers would take for a drill that is on.
+// Format 1 had no edits, and its ticks did not record their mask state.
 constexpr char kMagic[] = "PTRTICK\n"; // 8 bytes without the terminating zero
 constexpr std::size_t kMagicBytes = 8;
-constexpr std::uint32_t kFormatVersion = 2;
+constexpr std::uint32_t kFormatVersion = 3;
+constexpr std::uint32_t kOldestVersion = 2;      // that is read
 constexpr std::uint32_t kBlockMark = 0x4B434C42; // "BLCK"
 constexpr std::uint32_t kEndMark = 0x21444E45;   // "END!"
 constexpr std::uint32_t kMaxTicks = 100000;      // per block

@@ -34,14 +34,15 @@ RecordingReader::RecordingReader(const std::filesystem::path& file)
     throw RecordingError(Reason::NewerVersion,
                          m_name + ": written by format " + std::to_string(version) +
                              "; this program reads up to " + std::to_string(kFormatVersion));
-  if (version == 1)
+  if (version != 0 && version < kOldestVersion)
     throw RecordingError(Reason::OlderVersion,
                          m_name +
                              ": written by format 1, which does not say what was cut; this "
                              "program plays format " +
+                             std::to_string(kOldestVersion) + " to " +
                              std::to_string(kFormatVersion) + ": record it again");
   const std::uint32_t size = getU32(&head[8]);
-  if (version != kFormatVersion || getU32(&head[4]) != sizeof(TickRecord) || size > 2 * kMaxSetup)
+  if (version == 0 || getU32(&head[4]) != sizeof(TickRecord) || size > 2 * kMaxSetup)
     corrupt("its head is damaged");
   std::vector<std::uint8_t> json;
   if (!read(head, size) || !unpack(head, kMaxSetup, json))

@@ -319,6 +319,14 @@ const TickRecord& Servo::tick(const TickInput& input) noexcept
   m_record = TickRecord();
   m_record.number = m_number++;
   m_record.input = input;
+  if ((p.drill & ServoParameters::kPedalSpeed) != 0)
+  {
+    // With hysteresis: a foot that trembles does not divide a stroke. A replay gives the same.
+    const double on = m_pedalOn ? ServoParameters::kOffPressure : ServoParameters::kOnPressure;
+    m_pedalOn = input.pedal >= on; // false for NaN
+    if (!m_pedalOn)
+      m_record.input.pedal = 0.0;
+  }
 
   Step step = judge(input);
   bool anew = m_record.fault == static_cast<std::uint8_t>(ServoFault::Stalled) ||
@@ -366,7 +374,7 @@ const TickRecord& Servo::tick(const TickInput& input) noexcept
   m_record.fault = static_cast<std::uint8_t>(fault);
 
   giveForce(step, m_record.wrench.wrench(), anew);
-  const bool wanted = input.drillWanted();
+  const bool wanted = m_record.input.drillWanted();
   awaitArrival(step, wanted, tick.pose.position - before);
   const bool waits = step.pointer && !m_arrived;
   m_record.drill = wanted && !waits && m_giving && !step.clutch && fault == ServoFault::None;

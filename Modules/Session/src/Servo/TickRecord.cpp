@@ -55,7 +55,7 @@ bool isSpeed(const TickInput& input) noexcept
 bool TickInput::pedalDown() const noexcept
 {
   constexpr double kSwitched = 0.5;
-  return pedal >= (isSpeed(*this) ? ServoParameters::kLeastPressure : kSwitched);
+  return pedal >= (isSpeed(*this) ? ServoParameters::kOffPressure : kSwitched);
 }
 
 bool TickInput::drillWanted() const noexcept

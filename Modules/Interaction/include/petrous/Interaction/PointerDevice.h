@@ -19,8 +19,8 @@ namespace petrous::interaction
 /// smoothly and never faster than `Limits`, so that a jump of the pointer is not a jump of the
 /// device (haptics::DeviceGuard). A drill that is pressed before the pose has arrived is reported
 /// when it has, since it must not drill on the way. A window that is silent for longer than
-/// `Limits::silence`, as during a slow frame, makes the device stale: nothing is drilled unseen,
-/// and with the drill still held the stroke goes on afterwards (DissectionLoop).
+/// `Limits::silence`, as during a slow frame, makes the device stale: from then on nothing is
+/// drilled, and with the drill still held the stroke goes on afterwards (DissectionLoop).
 ///
 /// The servo may re-anchor the tool where it is (clutch, restored tissue, a stall); `see` detects
 /// this from its records, so that the tool returns under the pointer.

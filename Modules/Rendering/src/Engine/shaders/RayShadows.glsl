@@ -90,7 +90,8 @@ float toolAt(vec3 v)
     vec3 inside = clamp(at, instrumentLower, instrumentUpper);
     float own = textureLod(instrumentTexture, inside * instrumentScale + instrumentOffset, 0.0).r;
     float beyond = length(at - inside);
-    return beyond > 0.0 ? length(vec2(beyond, own)) : own; // there `own` is not negative
+    // Within the handle, where the field ends, what is in it is as near as that end.
+    return beyond > 0.0 ? length(vec2(beyond, max(own, 0.0))) : own;
   }
 #endif
   vec2 aside = vec2(length(at.xy), at.z);

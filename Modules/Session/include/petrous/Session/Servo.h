@@ -101,6 +101,7 @@ private:
   bool m_wasUsable = false;
   bool m_touches = false; ///< at the last tick
   bool m_inside = false;  ///< at the last tick
+  bool m_pedalOn = false; ///< ServoParameters::kPedalSpeed
   bool m_arrived = false; ///< the pressed tool has been where it was pressed
   double m_back = 0.0;    ///< mm from its target towards the camera, tried next
   int m_rest = 0;         ///< ticks until the next search for another position

@@ -37,10 +37,12 @@ struct ServoParameters
 
   /// The drill is on, at full speed, by other means than the device's buttons and pedal.
   static constexpr std::uint8_t kDrill = 1;
-  /// The pedal's pressure is the fraction of the spindle's speed, as with a surgical drill: on from
-  /// kLeastPressure. Without this bit, as in recordings of earlier versions, a pedal is a switch.
+  /// The pedal's pressure is the fraction of the spindle's speed, as with a surgical drill. The
+  /// servo takes it as on from kOnPressure until it falls below kOffPressure, and else as 0.
+  /// Without this bit, as in recordings of format 2, a pedal is a switch.
   static constexpr std::uint8_t kPedalSpeed = 2;
-  static constexpr double kLeastPressure = 0.05;
+  static constexpr double kOnPressure = 0.1;
+  static constexpr double kOffPressure = 0.06;
 
   /// The device provides a pose only; the tool is pressed there with `thrust`.
   static constexpr std::uint8_t kPressed = 1;

@@ -27,7 +27,7 @@ struct TickInput
   haptics::DeviceReading reading() const noexcept;
   /// By parameter, pedal or button, whether or not the burr may cut in this tick.
   bool drillWanted() const noexcept;
-  bool pedalDown() const noexcept;
+  bool pedalDown() const noexcept; ///< of a tick: the servo sets a pedal that is not on to 0
   /// Fraction of the spindle's speed that is wanted, 0 to 1 (ServoParameters::kPedalSpeed).
   double spindle() const noexcept;
   /// The tool is held in place, by parameter or button.

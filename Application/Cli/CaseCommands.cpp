@@ -278,7 +278,8 @@ void printCase(const Context& context, const scene::Case& value, const CaseFacts
                   measure + placeText(value, place) + errorText(mesh.name) +
                   (refusal.empty() ? "" : ", not touchable: " + refusal));
   }
-  context.print("  " + std::to_string(value.applied()) + " strokes done, " +
+  context.print("  " + std::to_string(value.applied()) +
+                (value.applied() == 1 ? " stroke done, " : " strokes done, ") +
                 std::to_string(value.dissection.history().ahead()) + " to redo, " +
                 fixed(value.removedVolume(), 1) + " mm3 removed");
 }
@@ -358,7 +359,8 @@ void warnNotes(const Context& context, const scene::Case& value, const PartCount
 }
 
 // Structures and meshes that lie with the slices of the CT and were not given.
-void warnOfParts(const Context& context, const presenters::CaseSources& sources)
+void warnOfParts(const Context& context, const presenters::CaseSources& sources,
+                 const scene::Case& value)
 {
   if (!std::filesystem::is_directory(sources.ct))
     return;
@@ -378,7 +380,11 @@ void warnOfParts(const Context& context, const presenters::CaseSources& sources)
                          [&](const auto& one)
                          { return one == canonical || one.parent_path() == canonical; });
     };
-    if (!std::any_of(files.paths.begin(), files.paths.end(), isGiven))
+    // The same structures in another form, each a file of its name.
+    const auto isTaken = [&value](const std::filesystem::path& path)
+    { return scene::kindOfPart(value, imaging::baseName(path)) != nullptr; };
+    if (!std::any_of(files.paths.begin(), files.paths.end(), isGiven) &&
+        !std::all_of(files.paths.begin(), files.paths.end(), isTaken))
       text += (text.empty() ? "" : "; ") +
               core::printable(files.paths.size() == 1 ? files.paths.front()
                                                       : files.paths.front().parent_path()) +
@@ -432,7 +438,7 @@ void addNew(CLI::App& app, Context& context)
             presenters::buildCase(options->name, sources, progress.part(0.0, 0.8), &structures);
         library.save(value, progress.part(0.8, 1.0));
         warnNotes(context, value);
-        warnOfParts(context, sources);
+        warnOfParts(context, sources, value);
         const CaseFacts facts = factsOf(value);
         printCase(context, value, facts);
         nlohmann::json info = infoJson(value, facts);

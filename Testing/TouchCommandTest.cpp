@@ -397,6 +397,7 @@ TEST_F(TouchCommand, SaysThatThePathBeginsInTissueAndMeasuresWhatIsSweptWithAndW
   const auto logged =
       json(drill(m_folder / "inside.csv", " --log " + quoted(m_folder / "log.csv")));
   EXPECT_GT(plain["swept_mm3"], 1.0);
+  EXPECT_NE(run("info plane").out.find("1 stroke done"), std::string::npos);
   EXPECT_NEAR(plain["swept_mm3"].get<double>(), logged["swept_mm3"].get<double>(), 1e-3);
 }
 

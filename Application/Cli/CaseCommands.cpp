@@ -15,6 +15,7 @@
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Presenters/PartFiles.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Scene/ApplyRegistration.h"
@@ -257,12 +258,18 @@ void printCase(const Context& context, const scene::Case& value, const CaseFacts
     const auto found = facts.registrationErrors.find(structure);
     return found != facts.registrationErrors.end() ? ", " + toString(found->second) : std::string();
   };
+  const auto drilled = presenters::injuredVolumes(value);
+  const auto drilledText = [&drilled](const std::string& structure)
+  {
+    const auto found = drilled.find(structure);
+    return found != drilled.end() ? ", " + fixed(found->second, 2) + " mm3 drilled" : std::string();
+  };
   for (const auto& part : value.labels)
     for (const auto& s : part.structures)
     {
-      context.print("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " +
-                    s.look.preset + placeText(value, scene::placementOf(value, part)) +
-                    errorText(s.name));
+      context.print("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3" +
+                    drilledText(s.name) + ", " + s.look.preset +
+                    placeText(value, scene::placementOf(value, part)) + errorText(s.name));
       printProvenance(part);
     }
   for (std::size_t n = 0; n < value.meshes.size(); ++n)
@@ -275,8 +282,8 @@ void printCase(const Context& context, const scene::Case& value, const CaseFacts
       measure = measured->volume ? ", " + fixed(*measured->volume, 1) + " mm3"
                                  : ", open, " + std::to_string(measured->openEdges) + " edges";
     context.print("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
-                  measure + placeText(value, place) + errorText(mesh.name) +
-                  (refusal.empty() ? "" : ", not touchable: " + refusal));
+                  measure + drilledText(mesh.name) + placeText(value, place) +
+                  errorText(mesh.name) + (refusal.empty() ? "" : ", not touchable: " + refusal));
   }
   context.print("  " + std::to_string(value.applied()) +
                 (value.applied() == 1 ? " stroke done, " : " strokes done, ") +

@@ -1131,6 +1131,11 @@ TEST_F(CommandLine, SaysWhichStructuresLieWithTheSlices)
   const Outcome without = run("new ear --ct " + quoted(patient / "ct"));
   EXPECT_EQ(without.code, 0) << without.err;
   EXPECT_NE(without.err.find("labels.seg.nrrd"), std::string::npos) << without.err;
+  const Outcome same = run("new same --ct " + quoted(patient / "ct") + " --labels " +
+                           quoted(patient / "labels.seg.nrrd"));
+  EXPECT_EQ(same.code, 0) << same.err;
+  EXPECT_EQ(same.err.find("were not taken"), std::string::npos)
+      << "the masks and meshes are the same structures: " << same.err;
   std::string options = " --labels x=" + quoted(patient / "labels") +
                         " --labels y=" + quoted(patient / "labels.seg.nrrd");
   for (const auto& mesh : std::filesystem::directory_iterator(patient / "meshes"))

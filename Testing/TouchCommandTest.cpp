@@ -381,6 +381,26 @@ TEST_F(TouchCommand, ABurrThatStandsStillRemovesNothing)
   EXPECT_EQ(turning["predicted_mm3"], 0.0);
 }
 
+TEST_F(TouchCommand, SaysThatThePathBeginsInTissueAndMeasuresWhatIsSweptWithAndWithoutALog)
+{
+  std::ofstream inside(m_folder / "inside.csv");
+  inside
+      << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n0,0.3,0.2,-2,1,0,0,0,1\n0.2,0.5,0.2,-2,1,0,0,0,1\n";
+  inside.close();
+  const auto outcome = run(drill(m_folder / "inside.csv", ""));
+  EXPECT_NE(outcome.err.find("the path begins in tissue"), std::string::npos) << outcome.err;
+  EXPECT_LT(outcome.err.find("the path begins in tissue"), outcome.err.find("the tool stood in"));
+  EXPECT_EQ(run(drill(press(2.2, true), "")).err.find("begins in tissue"), std::string::npos);
+  json("undo plane");
+  const auto plain = json(drill(m_folder / "inside.csv", ""));
+  json("undo plane");
+  const auto logged =
+      json(drill(m_folder / "inside.csv", " --log " + quoted(m_folder / "log.csv")));
+  EXPECT_GT(plain["swept_mm3"], 1.0);
+  EXPECT_NE(run("info plane").out.find("1 stroke done"), std::string::npos);
+  EXPECT_NEAR(plain["swept_mm3"].get<double>(), logged["swept_mm3"].get<double>(), 1e-3);
+}
+
 TEST_F(TouchCommand, RefusesMaterialsThatNoLawHoldsFor)
 {
   const auto materials = [this](const std::string& energy, const std::string& friction)

@@ -15,6 +15,7 @@
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Presenters/PartFiles.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Scene/ApplyRegistration.h"
@@ -257,12 +258,18 @@ void printCase(const Context& context, const scene::Case& value, const CaseFacts
     const auto found = facts.registrationErrors.find(structure);
     return found != facts.registrationErrors.end() ? ", " + toString(found->second) : std::string();
   };
+  const auto drilled = presenters::injuredVolumes(value);
+  const auto drilledText = [&drilled](const std::string& structure)
+  {
+    const auto found = drilled.find(structure);
+    return found != drilled.end() ? ", " + fixed(found->second, 2) + " mm3 drilled" : std::string();
+  };
   for (const auto& part : value.labels)
     for (const auto& s : part.structures)
     {
-      context.print("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " +
-                    s.look.preset + placeText(value, scene::placementOf(value, part)) +
-                    errorText(s.name));
+      context.print("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3" +
+                    drilledText(s.name) + ", " + s.look.preset +
+                    placeText(value, scene::placementOf(value, part)) + errorText(s.name));
       printProvenance(part);
     }
   for (std::size_t n = 0; n < value.meshes.size(); ++n)
@@ -275,10 +282,11 @@ void printCase(const Context& context, const scene::Case& value, const CaseFacts
       measure = measured->volume ? ", " + fixed(*measured->volume, 1) + " mm3"
                                  : ", open, " + std::to_string(measured->openEdges) + " edges";
     context.print("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
-                  measure + placeText(value, place) + errorText(mesh.name) +
-                  (refusal.empty() ? "" : ", not touchable: " + refusal));
+                  measure + drilledText(mesh.name) + placeText(value, place) +
+                  errorText(mesh.name) + (refusal.empty() ? "" : ", not touchable: " + refusal));
   }
-  context.print("  " + std::to_string(value.applied()) + " strokes done, " +
+  context.print("  " + std::to_string(value.applied()) +
+                (value.applied() == 1 ? " stroke done, " : " strokes done, ") +
                 std::to_string(value.dissection.history().ahead()) + " to redo, " +
                 fixed(value.removedVolume(), 1) + " mm3 removed");
 }
@@ -358,7 +366,8 @@ void warnNotes(const Context& context, const scene::Case& value, const PartCount
 }
 
 // Structures and meshes that lie with the slices of the CT and were not given.
-void warnOfParts(const Context& context, const presenters::CaseSources& sources)
+void warnOfParts(const Context& context, const presenters::CaseSources& sources,
+                 const scene::Case& value)
 {
   if (!std::filesystem::is_directory(sources.ct))
     return;
@@ -378,7 +387,11 @@ void warnOfParts(const Context& context, const presenters::CaseSources& sources)
                          [&](const auto& one)
                          { return one == canonical || one.parent_path() == canonical; });
     };
-    if (!std::any_of(files.paths.begin(), files.paths.end(), isGiven))
+    // The same structures in another form, each a file of its name.
+    const auto isTaken = [&value](const std::filesystem::path& path)
+    { return scene::kindOfPart(value, imaging::baseName(path)) != nullptr; };
+    if (!std::any_of(files.paths.begin(), files.paths.end(), isGiven) &&
+        !std::all_of(files.paths.begin(), files.paths.end(), isTaken))
       text += (text.empty() ? "" : "; ") +
               core::printable(files.paths.size() == 1 ? files.paths.front()
                                                       : files.paths.front().parent_path()) +
@@ -432,7 +445,7 @@ void addNew(CLI::App& app, Context& context)
             presenters::buildCase(options->name, sources, progress.part(0.0, 0.8), &structures);
         library.save(value, progress.part(0.8, 1.0));
         warnNotes(context, value);
-        warnOfParts(context, sources);
+        warnOfParts(context, sources, value);
         const CaseFacts facts = factsOf(value);
         printCase(context, value, facts);
         nlohmann::json info = infoJson(value, facts);

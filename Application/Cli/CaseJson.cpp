@@ -3,6 +3,7 @@
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/CaseField.h"
@@ -314,6 +315,12 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
     part["registration"] = registrationJson(image);
     mr.push_back(std::move(part));
   }
+  const auto injured = presenters::injuredVolumes(value);
+  const auto drilled = [&injured](const std::string& name)
+  {
+    const auto found = injured.find(name);
+    return found != injured.end() ? found->second : 0.0;
+  };
   json labels = json::array();
   for (const auto& part : value.labels)
   {
@@ -324,6 +331,7 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
                         {"index", s.index},
                         {"voxels", s.voxels},
                         {"volume_mm3", s.volume},
+                        {"drilled_mm3", drilled(s.name)},
                         {"color", s.look.color},
                         {"preset", s.look.preset},
                         {"flags", appearance::flagsOf(s.look)},
@@ -344,6 +352,7 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
                       {"triangles", mesh.triangles},
                       {"flags", appearance::flagsOf(mesh.look)},
                       {"solid", mesh.look.solid},
+                      {"drilled_mm3", drilled(mesh.name)},
                       {"touchable", refusal.empty()}});
     if (const auto& measured = facts.meshes[n].measure)
     {

@@ -139,7 +139,7 @@ nlohmann::json instrumentJson(const session::Instrument& instrument)
           {"length_mm", static_cast<double>(bounds[1].z() - bounds[0].z())}};
 }
 
-void printBalance(const Context& context, const session::PathDrill& session, nlohmann::json& answer)
+void printBalance(const Context& context, session::PathDrill& session, nlohmann::json& answer)
 {
   const session::RemovalBalance balance = session.removal().balance();
   context.print("the laws predict " + fixed(balance.predicted, 2) +
@@ -207,17 +207,25 @@ void play(const Context& context, const Options& options)
       options.rate,
       [&](const dissection::ToolSample& tick)
       {
+        const bool isFirst = ticks == 0;
         if (ticks++ % 256 == 0)
           progress.report(0.9 * (tick.time - start) / length, instrument ? "feeling" : "drilling");
         const session::TickRecord& record =
             report.feel([&]() -> const session::TickRecord& { return session.feel(tick); });
+        if (isFirst && record.status == static_cast<std::uint8_t>(haptics::ProxyStatus::Inside))
+          context.warn(instrument ? "the path begins in tissue: nothing is felt until the tool is "
+                                    "out of it"
+                                  : "the path begins in tissue: nothing is felt until the tool is "
+                                    "out of it, and the drill takes what the burr sweeps");
         session.cut(tick);
         journal->follow(value.dissection);
         const session::RemovalBalance balance = session.removal().balance();
         const double arm = instrument            ? std::numeric_limits<double>::quiet_NaN()
                            : record.thrust > 0.0 ? armAt(session, record)
                                                  : 0.0;
-        report.add(record, TickRemoval{arm, balance.removed + session.swept(), balance.predicted});
+        // Of what is swept each tick is measured for the log alone.
+        const double swept = options.log.empty() ? 0.0 : session.swept();
+        report.add(record, TickRemoval{arm, balance.removed + swept, balance.predicted});
       });
   session.end();
   journal->follow(value.dissection);

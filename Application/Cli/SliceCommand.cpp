@@ -300,7 +300,10 @@ void slice(const Context& context, SliceOptions options)
     library.loadDissection(value);
   nlohmann::json missing = leftOutJson(value, leftOut);
   if (options.noStructures)
+  {
     value.labels.clear();
+    value.meshes.clear();
+  }
   const auto overlay = overlayOf(options, mr);
   const presenters::SlicePresenter presenter(value);
 

@@ -617,6 +617,39 @@ TEST_F(WorkstationModelTest, ShowsTheCtUntilItsStructuresAreLoaded)
   EXPECT_TRUE(model.touching());
 }
 
+TEST_F(WorkstationModelTest, DrawsTheOtherMeshesOnWhenOneIsRemovedAndComesBack)
+{
+  WorkstationModel model{library::Library(folder)};
+  scene::Case value = block("block");
+  for (const char* name : {"incus", "sinus"})
+  {
+    auto solid = std::make_shared<core::TriangleMesh>();
+    solid->vertices = {{3, 3, 7}, {5, 3, 7}, {3, 5, 7}, {3, 3, 9}};
+    solid->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    scene::MeshPart mesh;
+    mesh.name = name;
+    mesh.triangles = 4;
+    mesh.mesh = std::shared_ptr<const core::TriangleMesh>(solid);
+    value.meshes.push_back(mesh);
+  }
+  model.adopt(value);
+  model.prepareNow();
+  const auto before = model.sceneContents();
+  ASSERT_EQ(before.meshes.size(), 2U);
+  model.removePart("incus");
+  EXPECT_FALSE(model.ready()) << "the tissue is another";
+  EXPECT_TRUE(model.drawable());
+  ASSERT_EQ(model.sceneContents().meshes.size(), 1U);
+  EXPECT_EQ(model.sceneContents().meshes[0].mesh, before.meshes[1].mesh);
+  EXPECT_EQ(model.presentable().meshes.size(), 1U);
+  model.restorePart();
+  EXPECT_TRUE(model.drawable());
+  EXPECT_EQ(model.sceneContents().meshes.size(), 2U);
+  EXPECT_FALSE(model.ready());
+  model.prepareNow();
+  EXPECT_TRUE(model.ready());
+}
+
 TEST_F(WorkstationModelTest, WhatWasPreparedForAnotherCaseIsDropped)
 {
   WorkstationModel model{library::Library(folder)};

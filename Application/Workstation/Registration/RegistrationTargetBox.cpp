@@ -87,6 +87,8 @@ void RegistrationTargetBox::addPlace()
                       tr("Where the error is stated. The middle ear: an ossicle, or else the "
                          "tympanic cavity or the inner ear; without these the centre of what both "
                          "images show"));
+  m_place->setMaxVisibleItems(12);
+  m_place->setStyleSheet("QComboBox { combobox-popup: 0; }"); // else some styles show all of them
   addChoice(tr("Error &at"), m_place);
   m_placeNote = new QLabel;
   m_placeNote->setObjectName("registrationPlaceNote");
@@ -119,6 +121,9 @@ void RegistrationTargetBox::fillPlaces()
   QStringList names;
   for (const std::string& name : m_session.placeNames())
     names << words(name);
+  std::sort(names.begin(), names.end(),
+            [](const QString& a, const QString& b)
+            { return QString::localeAwareCompare(shownName(bytes(a)), shownName(bytes(b))) < 0; });
   QStringList shown;
   for (int n = kFirstStructure; n < m_place->count(); ++n)
     shown << m_place->itemData(n).toString();

@@ -15,6 +15,7 @@
 #include <QSlider>
 #include <QSpinBox>
 
+#include "AppearancePanel.h"
 #include "ColorChooser.h"
 #include "StructuresModel.h"
 #include "Theme.h"
@@ -223,7 +224,7 @@ QComboBox* StructureEditor::addPresets()
                                       "structure; marks stay as they are"));
   const auto presets = appearance::StructurePresets::builtIn();
   for (const auto& look : presets.all())
-    box->addItem(words(look.preset), words(look.preset));
+    box->addItem(AppearancePanel::tr(look.preset.c_str()), words(look.preset));
   connect(box, qOverload<int>(&QComboBox::activated), this,
           [this, box, &property](int row)
           {

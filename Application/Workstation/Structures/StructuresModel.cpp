@@ -14,6 +14,7 @@
 #include "WindowTexts.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
@@ -531,7 +532,14 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
     if (role == Qt::TextAlignmentRole)
       return int(Qt::AlignRight | Qt::AlignVCenter);
     if (role == Qt::ToolTipRole)
-      return tr("Volume, mm³");
+    {
+      const auto drilled = presenters::injuredVolumes(m_model.value());
+      const auto found = drilled.find(row.row.part);
+      return found == drilled.end()
+                 ? tr("Volume, mm³")
+                 : tr("Volume, mm³") + '\n' +
+                       tr("Drilled: %1").arg(words(presenters::cubicMillimetres(found->second)));
+    }
     return {};
   default:
     return propertyData(row, propertyAt(index.column()), role);

@@ -216,10 +216,17 @@ void WorkstationModel::recordAddition(const std::vector<std::string>& names)
 }
 
 // The case's parts are others; what was derived from its tissue is gone.
-void WorkstationModel::partsMoved()
+void WorkstationModel::partsMoved(Drawn drawn)
 {
   m_nearby.reset();
+  const bool wasLoaded = m_loaded;
+  const bool wasDrawable = m_drawable;
   waitForParts();
+  if (drawn != Drawn::Nothing && wasLoaded && !m_loaded)
+  {
+    m_loaded = true;
+    m_drawable = wasDrawable && drawn == Drawn::Still;
+  }
   notify(events.partsChanged);
   setUnsaved(true);
   notify(events.preparationWanted);
@@ -266,6 +273,7 @@ void WorkstationModel::takeOut(const std::string& name, std::uint64_t removal)
   if (const std::size_t at = indexOf(next.meshes, name); at < next.meshes.size())
     removed.mesh = {at, next.meshes[at]};
   const std::vector<scene::Measurement> before = next.measurements;
+  const bool areLabelsChanged = removed.labels.has_value();
   scene::removePart(next, name);
   for (std::size_t n = 0; n < before.size(); ++n)
     if (before[n] != next.measurements[n])
@@ -288,7 +296,7 @@ void WorkstationModel::takeOut(const std::string& name, std::uint64_t removal)
   m_partsMoved = true;
   if (m_assembly.thicknessOver() == name)
     m_assembly.showThickness({});
-  partsMoved();
+  partsMoved(areLabelsChanged ? Drawn::UntilPrepared : Drawn::Still);
   setMeasurements(std::move(next.measurements));
 }
 
@@ -342,6 +350,9 @@ void WorkstationModel::bringBack(std::uint64_t removal)
       throw core::InvalidParameter("'" + removed.name + "' cannot come back: the MR '" + mr +
                                    "' on which it was drawn is not in the case any more");
   forgetTissue();
+  const bool isLabel = removed.labels.has_value();
+  const bool isRead = (!removed.labels || removed.labels->part.labels.peek()) &&
+                      (!removed.mesh || removed.mesh->part.mesh.peek());
   if (removed.mr)
   {
     putBack(m_case->mr, *removed.mr);
@@ -395,7 +406,7 @@ void WorkstationModel::bringBack(std::uint64_t removal)
   scene::recallStructure(measurements, removed.name, removed.measured);
   m_removed.erase(found);
   m_partsMoved = true;
-  partsMoved();
+  partsMoved(!isRead ? Drawn::Nothing : isLabel ? Drawn::UntilPrepared : Drawn::Still);
   setMeasurements(std::move(measurements));
 }
 

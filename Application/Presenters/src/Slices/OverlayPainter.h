@@ -9,6 +9,10 @@ namespace petrous::presenters
 /// Colour outside the MR if only the MR is shown.
 constexpr std::array<std::uint8_t, 3> kOutsideMr{22, 26, 33};
 
+/// Shares of a structure's colour, inside and at its outline.
+constexpr float kStructureTint = 0.30F;
+constexpr float kStructureOutline = 0.95F;
+
 /// Grey of a value, 0 to 255. Minus infinity is black.
 std::uint8_t greyOf(float value, const GreyWindow& window);
 

@@ -6,6 +6,7 @@
 
 #include "OverlayPainter.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/MeshSection.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::presenters
@@ -13,8 +14,11 @@ namespace petrous::presenters
 
 namespace
 {
-constexpr float kTint = 0.30F;
-constexpr float kOutline = 0.95F;
+std::array<float, 3> bytesOf(const std::array<float, 3>& color)
+{
+  return {255.0F * color[0], 255.0F * color[1], 255.0F * color[2]};
+}
+
 constexpr int kHatchPeriod = 7; // pixels
 constexpr int kHatchWidth = 2;
 constexpr std::array<float, 3> kCutColor{150.0F, 28.0F, 24.0F};
@@ -72,7 +76,8 @@ void tint(const SliceGeometry& slice, const core::GridGeometry& grid, const Inde
           (row > 0 && found[pixel - static_cast<std::size_t>(width)] != index) ||
           (row + 1 < slice.height() && found[pixel + static_cast<std::size_t>(width)] != index);
       const bool line = index == hatched && (column + row) % kHatchPeriod < kHatchWidth;
-      blend(&pixels.rgb[3 * pixel], colors[index], border || line ? kOutline : kTint);
+      blend(&pixels.rgb[3 * pixel], colors[index],
+            border || line ? kStructureOutline : kStructureTint);
     }
 }
 } // namespace
@@ -94,8 +99,7 @@ SlicePresenter::SlicePresenter(const scene::Case& value,
       layer.shown.resize(size, false);
       layer.colors.resize(size);
       layer.shown[structure.index] = true;
-      for (std::size_t c = 0; c < 3; ++c)
-        layer.colors[structure.index][c] = 255.0F * structure.look.color[c];
+      layer.colors[structure.index] = bytesOf(structure.look.color);
     }
     if (layer.shown.empty())
       continue;
@@ -103,16 +107,24 @@ SlicePresenter::SlicePresenter(const scene::Case& value,
     if (layer.labels)
       m_layers.push_back(std::move(layer));
   }
+  for (const scene::MeshPart& part : value.meshes)
+    if (part.look.shown && !scene::findStructure(value, part.name))
+      if (auto mesh = scene::meshOnCt(value, part))
+        m_meshes.push_back({std::move(mesh), bytesOf(part.look.color)});
 }
 
 bool SlicePresenter::drawsAs(const SlicePresenter& other) const
 {
   const auto same = [](const Layer& a, const Layer& b)
   { return a.labels == b.labels && a.colors == b.colors && a.shown == b.shown; };
+  const auto sameMesh = [](const Mesh& a, const Mesh& b)
+  { return a.mesh == b.mesh && a.color == b.color; };
   return m_ct == other.m_ct && m_mask == other.m_mask && m_edges.bone == other.m_edges.bone &&
          m_edges.skin == other.m_edges.skin && m_edges.slope == other.m_edges.slope &&
          std::equal(m_layers.begin(), m_layers.end(), other.m_layers.begin(), other.m_layers.end(),
-                    same);
+                    same) &&
+         std::equal(m_meshes.begin(), m_meshes.end(), other.m_meshes.begin(), other.m_meshes.end(),
+                    sameMesh);
 }
 
 SliceSamples SlicePresenter::sample(const SliceGeometry& slice, const SliceOverlay* overlay,
@@ -153,6 +165,8 @@ SlicePixels SlicePresenter::draw(const SliceGeometry& slice, const GreyWindow& w
     paintOverlay(*overlay, slice, *samples.mr, pixels);
   for (const Layer& layer : m_layers)
     drawLayer(layer, slice, pixels);
+  for (const Mesh& mesh : m_meshes)
+    sectionOf(*mesh.mesh, slice).paint(mesh.color, pixels);
   if (m_mask && !m_mask->untouched())
     drawCut(slice, pixels);
   if (overlay && overlay->mr && overlay->mode == OverlayMode::Edges)

@@ -50,8 +50,6 @@ PathDrill::PathDrill(scene::Case& value, TouchScene& scene, const Options& optio
 DissectionLoop::Hooks PathDrill::hooks(TouchScene& scene, const Options& options)
 {
   auto hooks = scene.hooksOf(options.tool.burr, [camera = options.camera] { return camera; });
-  hooks.changed = [this](const std::vector<std::size_t>& bricks)
-  { m_changed.insert(m_changed.end(), bricks.begin(), bricks.end()); };
   if (m_recording)
     hooks.edited = [this](const MaskEdit& edit) { m_recording->add(edit); };
   return hooks;
@@ -89,7 +87,7 @@ void PathDrill::cut(const dissection::ToolSample& sample)
   if (!inside || !sample.drill || !m_turns || !m_cuts)
   {
     m_swept.reset();
-    m_changed.clear();
+    measureSwept(); // what the removal laws take does not count
     m_loop.step(m_record);
     approach(sample.pose.translation());
     return;
@@ -100,12 +98,28 @@ void PathDrill::cut(const dissection::ToolSample& sample)
 
 void PathDrill::sweep(const Eigen::Vector3d& at)
 {
-  const volume::CutMask before = m_dissection.mask();
-  m_changed.clear();
+  if (!m_unmeasured)
+    m_unmeasured = m_dissection.mask();
   m_loop.sweep(m_record, {m_swept.value_or(at), at, m_radius});
   m_swept = at;
-  m_sweptVolume +=
-      dissection::measureRemoved(m_tissue, before, m_dissection.mask(), m_changed, {}).total;
+}
+
+// Once for many ticks: it costs far more than the sweeps themselves.
+void PathDrill::measureSwept()
+{
+  if (!m_unmeasured)
+    return;
+  const volume::CutMask& now = m_dissection.mask();
+  m_sweptVolume += dissection::measureRemoved(m_tissue, *m_unmeasured, now,
+                                              dissection::changedBricks(*m_unmeasured, now), {})
+                       .total;
+  m_unmeasured.reset();
+}
+
+double PathDrill::swept()
+{
+  measureSwept();
+  return m_sweptVolume;
 }
 
 void PathDrill::end()

@@ -26,13 +26,14 @@ struct SliceSamples
 /// Draws slices of a case's CT with its structures and what was removed. CPU only.
 ///
 /// The CT is grey, sampled trilinearly; nothing is drawn outside the hull of its voxel centres.
-/// Visible structures are tinted, with an outline in their full colour. Where less than half is
-/// left the picture is red and hatched.
+/// Visible structures are tinted, with an outline in their full colour; of a mesh its exact section
+/// (MeshSection.h), unless a label has its name. Where less than half is left the picture is red
+/// and hatched.
 class SlicePresenter
 {
 public:
-  /// Copies what a slice shows of the case; voxels are shared. Loads the CT, and label maps if a
-  /// structure is visible.
+  /// Copies what a slice shows of the case; voxels are shared. Loads the CT, label maps if a
+  /// structure is visible, and visible meshes.
   explicit SlicePresenter(const scene::Case& value)
     : SlicePresenter(value, value.dissection.sharedMask())
   {
@@ -63,6 +64,11 @@ private:
     std::vector<std::array<float, 3>> colors; ///< 0 to 255, by index
     std::vector<bool> shown;                  ///< by index
   };
+  struct Mesh
+  {
+    std::shared_ptr<const core::TriangleMesh> mesh;
+    std::array<float, 3> color; ///< 0 to 255
+  };
   void drawLayer(const Layer& layer, const SliceGeometry& slice, SlicePixels& pixels) const;
   void drawCut(const SliceGeometry& slice, SlicePixels& pixels) const;
 
@@ -70,6 +76,7 @@ private:
   EdgeLevels m_edges;
   std::shared_ptr<const volume::CutMask> m_mask;
   std::vector<Layer> m_layers;
+  std::vector<Mesh> m_meshes;
 };
 
 /// Voxels that are being segmented, drawn over a slice as a visible structure is.

@@ -212,9 +212,11 @@ public:
   void saveElsewhere(const std::filesystem::path& folder, const std::string& name);
 
   /// State of the preparation (requested by Events::preparationWanted) until `prepared`:
-  /// loaded   false after another case or parts were added: only the CT is shown
-  /// drawable also false after a structure was shown or hidden: its label field is outdated
-  /// ready    also false after a change of what is tissue: no surface can be touched yet; and while
+  /// loaded   false after another case or parts were added: only the CT is shown; removing a part
+  ///          leaves the others as they are
+  /// drawable also false after a structure was shown, hidden or removed: its label field is
+  /// outdated ready    also false after a change of what is tissue: no surface can be touched yet;
+  /// and while
   ///          the CT of the library was not checked against its hash
   bool loaded() const noexcept { return m_loaded; }
   bool drawable() const noexcept { return m_loaded && m_drawable; }
@@ -413,7 +415,14 @@ private:
   };
   session::DrillSession& session();
   Eigen::Vector3d clampedToCt(const Eigen::Vector3d& patient) const;
-  void partsMoved();
+  /// What of the structures is drawn until they are prepared.
+  enum class Drawn
+  {
+    Nothing,       ///< they may have to be read first
+    UntilPrepared, ///< as they were: the label field is outdated
+    Still          ///< no label changed
+  };
+  void partsMoved(Drawn drawn = Drawn::Nothing);
   bool measureNearby(); ///< true when done
   void listen();
   void show(std::unique_ptr<scene::Case> next, bool unsaved);

@@ -53,7 +53,8 @@ public:
   double radius() const noexcept { return m_radius; } ///< mm, of the burr
 
   /// mm^3 removed by sweeping while the tool was embedded in tissue, outside the removal laws.
-  double swept() const noexcept { return m_sweptVolume; }
+  /// Measured here, of all sweeps since it was last asked for: some milliseconds.
+  double swept();
 
   /// nullptr if nothing is recorded.
   const RecordingWriter* recording() const noexcept { return m_recording.get(); }
@@ -61,6 +62,7 @@ public:
 private:
   DissectionLoop::Hooks hooks(TouchScene& scene, const Options& options);
   void sweep(const Eigen::Vector3d& at);
+  void measureSwept();
   void approach(const Eigen::Vector3d& place);
 
   const dissection::Dissection& m_dissection;
@@ -77,9 +79,9 @@ private:
   SurfaceApproach m_approach;
   std::uint64_t m_approached = 0; // the mask's state at the last approach
   TickRecord m_record;
-  std::optional<Eigen::Vector3d> m_swept; // where the drill was last embedded in tissue, mm
-  std::vector<std::size_t> m_changed;     // bricks, while it sweeps
-  double m_sweptVolume = 0.0;             // mm^3
+  std::optional<Eigen::Vector3d> m_swept;      // where the drill was last embedded in tissue, mm
+  std::optional<volume::CutMask> m_unmeasured; // before the sweeps that were not measured yet
+  double m_sweptVolume = 0.0;                  // mm^3, of those that were
 };
 
 } // namespace petrous::session

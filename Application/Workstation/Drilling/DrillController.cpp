@@ -80,7 +80,7 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
   connect(&m_reading, &BackgroundWork::failed, this,
           [this](const QString& why)
           {
-            const QString file = std::exchange(m_fileRead, {});
+            const QString file = m_fileRead;
             if (file == m_instrumentFile)
               m_instrumentFile.clear(); // the user is asked next time
             emit statusMessage({});
@@ -264,8 +264,9 @@ void DrillController::chooseInstrument()
   dialog.setObjectName("openInstrument");
   dialog.setFileMode(QFileDialog::ExistingFile);
   dialog.setNameFilters({tr("Surfaces (%1)").arg(patternsOf(imaging::kMesh)), tr("All files (*)")});
-  if (!m_instrumentFile.isEmpty())
-    dialog.setDirectory(QFileInfo(m_instrumentFile).absolutePath());
+  const QString last = m_instrumentFile.isEmpty() ? m_fileRead : m_instrumentFile;
+  if (!last.isEmpty())
+    dialog.setDirectory(QFileInfo(last).absolutePath());
   if (dialog.exec() != QDialog::Accepted)
     return;
   readSurface(dialog.selectedFiles().first());
@@ -298,9 +299,10 @@ void DrillController::askAxis(const QString& file, presenters::InstrumentSurface
     const auto lies = presenters::placementOf(surface.mesh, axis);
     if (proposed == axis)
       row = ways.size();
-    ways += tr("%1: %2 × %3 mm, the tip at %4 = %5 mm")
-                .arg(axis, numberText(lies.length, 1), numberText(lies.width, 1),
-                     QString(QLatin1Char(axis[0])), numberText(lies.tip, 1));
+    ways +=
+        tr("%1: %2 × %3 mm, the tip at %4 = %5 mm")
+            .arg(QString(QLatin1String(axis)), numberText(lies.length, 1),
+                 numberText(lies.width, 1), QString(QLatin1Char(axis[0])), numberText(lies.tip, 1));
   }
   bool isChosen = false;
   const QString way = QInputDialog::getItem(

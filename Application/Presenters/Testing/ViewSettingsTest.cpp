@@ -67,7 +67,7 @@ TEST(ViewSettings, HoldsValuesWithinTheirLimits)
 TEST(ViewSettings, NamesWhatChangedOfTheLight)
 {
   using petrous::presenters::lightEdit;
-  const petrous::scene::ViewState::Light before;
+  const petrous::scene::ViewState::Light before{};
   auto after = before;
   after.exposure = 1.0;
   EXPECT_EQ(lightEdit(before, after).what, "exposure");

@@ -443,27 +443,27 @@ TEST_F(InstrumentWindow, SoftTissueIsLeftOutWhileAnyToolIsInTheHand)
   const QString leftOut = "Soft tissue is left out while a tool is in the hand";
   const auto isShown = [&] { return !note->isHidden() && note->text().contains(leftOut); };
   const auto isDrawn = [this] { return view().display().contents().softTissue.has_value(); };
-  for (const char* tool : {"Drill", "Pointer", "Instrument"})
+  for (const char* held : {"Drill", "Pointer", "Instrument"})
   {
-    SCOPED_TRACE(tool);
+    SCOPED_TRACE(held);
     soft->setChecked(true);
     EXPECT_TRUE(isDrawn());
     EXPECT_FALSE(isShown());
-    action(tool)->trigger();
-    ASSERT_TRUE(action(tool)->isChecked());
+    action(held)->trigger();
+    ASSERT_TRUE(action(held)->isChecked());
     EXPECT_FALSE(isDrawn());
     EXPECT_TRUE(isShown());
-    action(tool)->trigger();
+    action(held)->trigger();
     EXPECT_TRUE(isDrawn());
     EXPECT_FALSE(isShown());
 
     soft->setChecked(false);
-    action(tool)->trigger();
+    action(held)->trigger();
     EXPECT_FALSE(isShown());
     soft->setChecked(true); // with the tool in the hand
     EXPECT_FALSE(isDrawn());
     EXPECT_TRUE(isShown());
-    action(tool)->trigger();
+    action(held)->trigger();
     EXPECT_TRUE(soft->isChecked());
     EXPECT_TRUE(isDrawn());
     EXPECT_FALSE(isShown());

@@ -170,6 +170,17 @@ TEST_F(TouchCommand, AnInstrumentFromAMeshIsFeltAtItsTipAndRemovesNothing)
   const std::string lying = " --tool " + quoted(m_folder / "lying.obj") + " --tool-axis x+";
   EXPECT_NEAR(json(drill(press(kTop - 1.0, false), lying))["instrument"]["length_mm"], 60.0, 1e-4);
   EXPECT_NEAR(log("log.csv").back().at("pz_mm"), kTop, 0.05 * 0.4);
+  // Without its axis it would be 2 mm long and 60 mm wide.
+  const std::string assumed = " --tool " + quoted(m_folder / "lying.obj");
+  const Outcome across = run(drill(press(1.0, false), assumed));
+  EXPECT_NE(across.code, 0);
+  EXPECT_NE(across.err.find("--tool-axis x+ (60 mm long, the tip at x = 0.0 mm)"),
+            std::string::npos)
+      << across.err;
+  EXPECT_NEAR(
+      json(drill(press(1.0, false), assumed + " --tool-axis z+"))["instrument"]["length_mm"], 2.0,
+      1e-4)
+      << "as the user says";
 
   // Pressed with a set thrust onto the bone from above.
   json(drill(press(kTop + 0.5, true), tool + " --thrust 2"));

@@ -7,9 +7,11 @@
 #include "DrillReport.h"
 #include "Numbers.h"
 #include "petrous/Core/InputFile.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Dissection/ToolPath.h"
 #include "petrous/Library/Journal.h"
+#include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/InstrumentFile.h"
 #include "petrous/Presenters/RecordingPlayer.h"
@@ -28,7 +30,7 @@ struct Options
   double rpm = 60000.0;
   double rate = 1000.0;
   std::string mode = "6dof", log, record, replay, materials, burrs;
-  std::string tool, toolAxis = presenters::kInstrumentAxes[0];
+  std::string tool, toolAxis; // empty: not given
   std::optional<double> thrust;
   bool withoutDamaged = false;
   const CLI::App* command = nullptr;
@@ -168,6 +170,28 @@ std::unique_ptr<library::Journal> journalOf(const library::Library& library,
   return journal;
 }
 
+// An axis that is assumed must not make a tool that is wider than long.
+presenters::LoadedInstrument readTool(const Options& options, const core::Progress& progress)
+{
+  presenters::InstrumentSurface surface =
+      presenters::readInstrumentSurface(options.tool, progress.part(0.0, 0.5));
+  const std::string axis =
+      options.toolAxis.empty() ? presenters::kInstrumentAxes[0] : options.toolAxis;
+  const auto assumed = presenters::placementOf(surface.mesh, axis);
+  if (options.toolAxis.empty() && assumed.isAcross())
+  {
+    const std::string likely = presenters::likelyAxis(surface.mesh);
+    const auto better = presenters::placementOf(surface.mesh, likely);
+    throw core::InvalidParameter(
+        options.tool + ": is " + presenters::lengthText(assumed.length) + " mm long along z and " +
+        presenters::lengthText(assumed.width) +
+        " mm across, so it seems to lie along another axis of its file; say --tool-axis " + likely +
+        " (" + presenters::lengthText(better.length) + " mm long, the tip at " + likely[0] + " = " +
+        core::fixedText(better.tip, 1) + " mm), or --tool-axis " + axis + " if it is so");
+  }
+  return presenters::makeInstrument(std::move(surface), axis, progress);
+}
+
 void play(const Context& context, const Options& options)
 {
   session::PathDrill::Options tool = toolFrom(options);
@@ -176,8 +200,7 @@ void play(const Context& context, const Options& options)
   const core::Progress progress = context.progress();
   if (!options.tool.empty())
   {
-    presenters::LoadedInstrument loaded =
-        presenters::readInstrument(options.tool, options.toolAxis, progress);
+    presenters::LoadedInstrument loaded = readTool(options, progress);
     for (const std::string& note : loaded.notes)
       context.warn(options.tool + ": " + note);
     tool.tool.instrument = std::move(loaded.instrument);
@@ -349,9 +372,9 @@ void addDrillCommand(CLI::App& app, Context& context)
           ->type_name("FILE")
           ->excludes(replayed);
   command
-      ->add_option(
-          "--tool-axis", options->toolAxis,
-          "Along which axis of its file the instrument lies, from the tip to the hand (z+)")
+      ->add_option("--tool-axis", options->toolAxis,
+                   "Along which axis of its file the instrument lies, from the tip to the hand "
+                   "(z+, if it is long that way)")
       ->check(oneOf({presenters::kInstrumentAxes.begin(), presenters::kInstrumentAxes.end()}))
       ->needs(instrument);
   command

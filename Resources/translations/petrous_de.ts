@@ -2297,6 +2297,14 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>“%1” is not possible here; the number is as it was. %2.</source>
         <translation>„%1“ ist hier nicht möglich; die Zahl ist wie zuvor. %2.</translation>
     </message>
+    <message>
+        <source>%1 is above the most, %2</source>
+        <translation>%1 liegt über dem Höchstwert %2</translation>
+    </message>
+    <message>
+        <source>%1 is below the least, %2</source>
+        <translation>%1 liegt unter dem Mindestwert %2</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::DeidentifyDialog</name>
@@ -2767,10 +2775,6 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <translation>I&amp;nstrument</translation>
     </message>
     <message>
-        <source>Pick, dissector or curette from a file: the left button, or Space, presses it on the tissue, and it removes nothing</source>
-        <translation>Häkchen, Dissektor oder Kürette aus einer Datei: Die linke Taste oder die Leertaste drückt es auf das Gewebe, und es trägt nichts ab</translation>
-    </message>
-    <message>
         <source>Kind of the burr: a cutting burr takes some six times as much in the same time as a diamond one. More burrs: Drill &gt; Materials and burrs…</source>
         <translation>Art der Fräse: Eine schneidende trägt in derselben Zeit etwa sechsmal so viel ab wie eine Diamantfräse. Weitere Fräsen: Bohren &gt; Materialien und Fräsen…</translation>
     </message>
@@ -2781,6 +2785,14 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>Cutting burr</source>
         <translation>Schneidende Fräse</translation>
+    </message>
+    <message>
+        <source>Instrument</source>
+        <translation>Instrument</translation>
+    </message>
+    <message>
+        <source>Pick, dissector or curette from a file (I): the left button, or Space, presses it on the tissue, and it removes nothing</source>
+        <translation>Häkchen, Dissektor oder Kürette aus einer Datei (I): Die linke Taste oder die Leertaste drückt es auf das Gewebe; es trägt nichts ab</translation>
     </message>
 </context>
 <context>
@@ -2882,10 +2894,6 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <translation>Alle Dateien (*)</translation>
     </message>
     <message>
-        <source>From its tip to the hand the instrument lies along this axis of its file:</source>
-        <translation>Von der Spitze zur Hand liegt das Instrument entlang dieser Achse seiner Datei:</translation>
-    </message>
-    <message>
         <source>Reading the instrument…</source>
         <translation>Das Instrument wird gelesen…</translation>
     </message>
@@ -2900,6 +2908,26 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>distances to structures: being measured…</source>
         <translation>Abstände zu Strukturen: werden gemessen…</translation>
+    </message>
+    <message>
+        <source>The instrument&apos;s file is not there any more, under this name at least:
+%1</source>
+        <translation>Die Datei des Instruments ist nicht mehr da, jedenfalls nicht unter diesem Namen:
+%1</translation>
+    </message>
+    <message>
+        <source>Reading the instrument… %1 %</source>
+        <translation>Das Instrument wird gelesen… %1 %</translation>
+    </message>
+    <message>
+        <source>%1: %2 × %3 mm, the tip at %4 = %5 mm</source>
+        <translation>%1: %2 × %3 mm, die Spitze bei %4 = %5 mm</translation>
+    </message>
+    <message>
+        <source>From its tip to the hand the instrument lies along this axis of its file
+(length × width, and where its tip is then):</source>
+        <translation>Von der Spitze zur Hand liegt das Instrument entlang dieser Achse seiner Datei
+(Länge × Breite, und wo die Spitze dann ist):</translation>
     </message>
 </context>
 <context>
@@ -4141,6 +4169,30 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <source>Instrument from a file</source>
         <translation>Instrument aus einer Datei</translation>
     </message>
+    <message>
+        <source>Choose a &amp;file…</source>
+        <translation>&amp;Datei wählen…</translation>
+    </message>
+    <message>
+        <source>An instrument is in the hand, not the burr</source>
+        <translation>In der Hand ist ein Instrument, nicht die Fräse</translation>
+    </message>
+    <message>
+        <source>Rename “%1”…</source>
+        <translation>„%1“ umbenennen…</translation>
+    </message>
+    <message>
+        <source>Remove “%1”</source>
+        <translation>„%1“ entfernen</translation>
+    </message>
+    <message>
+        <source>Remove the %1 selected</source>
+        <translation>Die %1 ausgewählten entfernen</translation>
+    </message>
+    <message>
+        <source>Takes what is selected in the list of structures out of the case; Ctrl+Z brings it back</source>
+        <translation>Nimmt, was in der Liste der Strukturen ausgewählt ist, aus dem Fall; Strg+Z holt es zurück</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::MeasureController</name>
@@ -4785,6 +4837,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Preparing the picture…</source>
         <translation>Das Bild wird vorbereitet…</translation>
+    </message>
+    <message>
+        <source>Soft tissue is not drawn: %1</source>
+        <translation>Weichgewebe wird nicht gezeichnet: %1</translation>
     </message>
 </context>
 <context>
@@ -8851,10 +8907,6 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Schichten &amp;folgen der Fräse</translation>
     </message>
     <message>
-        <source>The crosshair goes along while the drill is on</source>
-        <translation>Das Fadenkreuz geht mit, während das Bohren an ist</translation>
-    </message>
-    <message>
         <source>&amp;Record session…</source>
         <translation>Sitzung &amp;aufzeichnen…</translation>
     </message>
@@ -9225,6 +9277,10 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>Next &amp;kind of burr</source>
         <translation>Nächste Fräsen&amp;art</translation>
+    </message>
+    <message>
+        <source>The crosshair goes along while the drill is on, and with the tip of the pointer or the instrument</source>
+        <translation>Das Fadenkreuz geht mit, während gebohrt wird, und mit der Spitze von Zeiger oder Instrument</translation>
     </message>
 </context>
 </TS>

@@ -1360,6 +1360,14 @@
         <translation>keine</translation>
     </message>
     <message>
+        <source>light falloff</source>
+        <translation>Lichtabfall</translation>
+    </message>
+    <message>
+        <source>soft highlights</source>
+        <translation>weiche Glanzlichter</translation>
+    </message>
+    <message>
         <source>color</source>
         <translation>Farbe</translation>
     </message>

@@ -123,6 +123,29 @@ TEST_F(InstrumentFileTest, IsTurnedSoThatItsShaftLeadsToTheHand)
   EXPECT_NE(loaded.notes.front().find("across the shaft"), std::string::npos);
 }
 
+TEST_F(InstrumentFileTest, ProposesTheLongestAxisWithTheTipAtTheOriginOrTheNarrowEnd)
+{
+  for (const char* axis : kInstrumentAxes)
+  {
+    SCOPED_TRACE(axis);
+    const double sign = axis[1] == '-' ? -1.0 : 1.0;
+    const Vector3d toHand = sign * Vector3d::Unit(axis[0] - 'x');
+    EXPECT_EQ(likelyAxis(pick(40.0, Vector3d::Zero(), toHand)), axis) << "tip at the origin";
+    const core::TriangleMesh away = pick(40.0, Vector3d(70.0, -90.0, 55.0), toHand);
+    EXPECT_EQ(likelyAxis(away), axis) << "tip at the narrow end";
+    const InstrumentPlacement lies = placementOf(away, axis);
+    EXPECT_NEAR(lies.length, 40.0, 1e-4);
+    EXPECT_NEAR(lies.tip, Vector3d(70.0, -90.0, 55.0)[axis[0] - 'x'], 1e-4);
+    EXPECT_FALSE(lies.isAcross());
+    // The origin counts more than the shape: a mallet's broad end.
+    EXPECT_EQ(likelyAxis(pick(40.0, Vector3d(40.0 * toHand), Vector3d(-toHand))), axis);
+  }
+  const InstrumentPlacement across =
+      placementOf(pick(40.0, Vector3d::Zero(), Vector3d::UnitX()), "z+");
+  EXPECT_NEAR(across.width, 40.0, 1e-4);
+  EXPECT_TRUE(across.isAcross());
+}
+
 TEST_F(InstrumentFileTest, TakesThePointFarthestFromTheHandForTheTipAndSaysSo)
 {
   const LoadedInstrument loaded =

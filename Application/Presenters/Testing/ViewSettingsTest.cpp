@@ -68,3 +68,20 @@ TEST(ViewSettings, HoldsValuesWithinTheirLimits)
   settings.setConvergence(0.0);
   EXPECT_EQ(settings.rig().convergence, 1.0);
 }
+
+TEST(ViewSettings, NamesWhatChangedOfTheLight)
+{
+  using petrous::presenters::lightEdit;
+  const petrous::scene::ViewState::Light before{};
+  auto after = before;
+  after.exposure = 1.0;
+  EXPECT_EQ(lightEdit(before, after).what, "exposure");
+  EXPECT_TRUE(lightEdit(before, after).isContinuous);
+  after = before;
+  after.shadows = !before.shadows;
+  EXPECT_EQ(lightEdit(before, after).what, "shadows");
+  EXPECT_FALSE(lightEdit(before, after).isContinuous) << "each click is a step";
+  after.wetness = 0.5;
+  EXPECT_EQ(lightEdit(before, after).what, "light");
+  EXPECT_FALSE(lightEdit(before, after).isContinuous);
+}

@@ -1,6 +1,7 @@
 #include "DrillBar.h"
 
 #include <cmath>
+#include <initializer_list>
 
 #include <QAction>
 #include <QComboBox>
@@ -18,6 +19,11 @@
 
 namespace petrous::workstation
 {
+
+namespace
+{
+constexpr int kNameWidth = 160; // px
+} // namespace
 
 DrillBar::DrillBar(QWidget* parent)
   : QToolBar(tr("Drill"), parent)
@@ -53,9 +59,14 @@ DrillBar::DrillBar(QWidget* parent)
   widgetForAction(m_pointer)->setObjectName("pointerButton");
 
   m_instrument->setCheckable(true);
-  m_instrument->setToolTip(
-      tr("Pick, dissector or curette from a file: the left button, or Space, presses it on the "
-         "tissue, and it removes nothing"));
+  m_instrument->setShortcut(Qt::Key_I);
+  m_instrument->setIconText(tr("Instrument"));
+  m_instrumentTip =
+      tr("Pick, dissector or curette from a file (I): the left button, or Space, presses it on the "
+         "tissue, and it removes nothing");
+  m_instrument->setToolTip(m_instrumentTip);
+  addAction(m_instrument);
+  widgetForAction(m_instrument)->setObjectName("instrumentButton");
 
   m_diameter->setSuffix(tr(" mm"));
   m_diameter->setObjectName("burrDiameter");
@@ -193,6 +204,16 @@ void DrillBar::setBurr(const dissection::Burr& burr)
     m_speed->setValue(static_cast<int>(std::lround(burr.rpm / 1000.0)));
   }
   emit burrChanged();
+}
+
+void DrillBar::setInstrument(const QString& name)
+{
+  const QString shown =
+      fontMetrics().elidedText(name, Qt::ElideMiddle, kNameWidth).replace('&', "&&");
+  m_instrument->setIconText(name.isEmpty() ? tr("Instrument") : shown);
+  m_instrument->setToolTip(name.isEmpty() ? m_instrumentTip : name + '\n' + m_instrumentTip);
+  for (QWidget* widget : std::initializer_list<QWidget*>{m_diameter, m_kind, m_speed})
+    widget->setEnabled(name.isEmpty());
 }
 
 void DrillBar::setThrust(double newtons)

@@ -30,7 +30,7 @@ public:
   {
     return m_pointer;
   }
-  /// checked: an instrument is in use; it removes nothing. In the menu only.
+  /// checked: an instrument is in use; it removes nothing
   QAction* instrumentAction() const noexcept { return m_instrument; }
   void stepDiameter(int steps); ///< among those available
   void nextBurr();              ///< the next one of the catalogue, then the first
@@ -48,6 +48,10 @@ public:
   static constexpr double kUsualThrust = 1.0; ///< N
   double thrust() const;                      ///< N
   void setThrust(double newtons);
+
+  /// The file name of the instrument in use, which the bar shows in place of the burr's settings,
+  /// as they do not apply to it; empty: none.
+  void setInstrument(const QString& name);
 
   /// What the device makes use of.
   void setPresses(bool byWheel, bool byThrust);
@@ -71,6 +75,7 @@ private:
   QComboBox* m_kind;
   QSpinBox* m_speed;
   QDoubleSpinBox* m_thrust;
+  QString m_instrumentTip;
 };
 
 } // namespace petrous::workstation

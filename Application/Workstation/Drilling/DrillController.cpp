@@ -17,7 +17,6 @@
 #include "ThreeDView.h"
 #include "WindowTexts.h"
 #include "petrous/Imaging/FileFormats.h"
-#include "petrous/Presenters/InstrumentFile.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Case.h"
 
@@ -81,9 +80,20 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
   connect(&m_reading, &BackgroundWork::failed, this,
           [this](const QString& why)
           {
-            m_instrumentFile.clear(); // the user is asked next time
+            const QString file = m_fileRead;
+            if (file == m_instrumentFile)
+              m_instrumentFile.clear(); // the user is asked next time
             emit statusMessage({});
-            emit instrumentRefused(why);
+            emit instrumentRefused(
+                QFileInfo::exists(file)
+                    ? why
+                    : tr("The instrument's file is not there any more, under this name at least:\n"
+                         "%1")
+                          .arg(file));
+          });
+  connect(&m_reading, &BackgroundWork::progressed, this,
+          [this](double fraction) {
+            emit statusMessage(tr("Reading the instrument… %1 %").arg(100.0 * fraction, 0, 'f', 0));
           });
   m_frames.setInterval(kFrame);
   connect(&m_frames, &QTimer::timeout, this, &DrillController::frame);
@@ -254,49 +264,125 @@ void DrillController::chooseInstrument()
   dialog.setObjectName("openInstrument");
   dialog.setFileMode(QFileDialog::ExistingFile);
   dialog.setNameFilters({tr("Surfaces (%1)").arg(patternsOf(imaging::kMesh)), tr("All files (*)")});
-  if (!m_instrumentFile.isEmpty())
-    dialog.setDirectory(QFileInfo(m_instrumentFile).absolutePath());
+  const QString last = m_instrumentFile.isEmpty() ? m_fileRead : m_instrumentFile;
+  if (!last.isEmpty())
+    dialog.setDirectory(QFileInfo(last).absolutePath());
   if (dialog.exec() != QDialog::Accepted)
     return;
-  QStringList axes;
+  readSurface(dialog.selectedFiles().first());
+}
+
+void DrillController::readSurface(const QString& file)
+{
+  emit statusMessage(tr("Reading the instrument…"));
+  m_fileRead = file;
+  m_reading.replace(
+      [this, file](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        const auto read = std::make_shared<presenters::InstrumentSurface>(
+            presenters::readInstrumentSurface(pathOf(file), progress));
+        return [this, file, read] { askAxis(file, std::move(*read)); };
+      });
+}
+
+// The axis that it had, if it is the same file, else the likely one.
+void DrillController::askAxis(const QString& file, presenters::InstrumentSurface surface)
+{
+  emit statusMessage({});
+  const QString proposed = file == m_instrumentFile && !m_instrumentAxis.isEmpty()
+                               ? m_instrumentAxis
+                               : words(presenters::likelyAxis(surface.mesh));
+  QStringList ways;
+  int row = 0;
   for (const char* axis : presenters::kInstrumentAxes)
-    axes += axis;
+  {
+    const auto lies = presenters::placementOf(surface.mesh, axis);
+    if (proposed == axis)
+      row = ways.size();
+    ways +=
+        tr("%1: %2 × %3 mm, the tip at %4 = %5 mm")
+            .arg(QString(QLatin1String(axis)), numberText(lies.length, 1),
+                 numberText(lies.width, 1), QString(QLatin1Char(axis[0])), numberText(lies.tip, 1));
+  }
   bool isChosen = false;
-  const QString axis = QInputDialog::getItem(
+  const QString way = QInputDialog::getItem(
       m_view.window(), tr("Instrument from a file"),
-      tr("From its tip to the hand the instrument lies along this axis of its file:"), axes,
-      std::max(0, axes.indexOf(m_instrumentAxis)), false, &isChosen);
-  if (isChosen)
-    readInstrument(dialog.selectedFiles().first(), axis);
+      tr("From its tip to the hand the instrument lies along this axis of its file\n(length × "
+         "width, and where its tip is then):"),
+      ways, row, false, &isChosen);
+  const int chosen = ways.indexOf(way);
+  if (isChosen && chosen >= 0)
+    makeInstrument(file, presenters::kInstrumentAxes[static_cast<std::size_t>(chosen)],
+                   std::move(surface));
+}
+
+void DrillController::makeInstrument(const QString& file, const QString& axis,
+                                     presenters::InstrumentSurface surface)
+{
+  emit statusMessage(tr("Reading the instrument…"));
+  m_fileRead = file;
+  const auto taken = std::make_shared<presenters::InstrumentSurface>(std::move(surface));
+  m_reading.replace(
+      [this, file, axis, taken](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        const auto made = std::make_shared<presenters::LoadedInstrument>(
+            presenters::makeInstrument(std::move(*taken), bytes(axis), progress));
+        const auto measured =
+            std::make_shared<const presenters::MeasuredTool>(*made->instrument->shell);
+        return [this, file, axis, made, measured]
+        { instrumentCame(file, axis, std::move(*made), measured); };
+      });
 }
 
 void DrillController::readInstrument(const QString& file, const QString& axis)
 {
   emit statusMessage(tr("Reading the instrument…"));
+  m_fileRead = file;
   m_reading.replace(
       [this, file, axis](const core::Progress& progress) -> BackgroundWork::Reply
       {
-        const auto read = std::make_shared<const presenters::LoadedInstrument>(
+        const auto read = std::make_shared<presenters::LoadedInstrument>(
             presenters::readInstrument(pathOf(file), bytes(axis), progress));
         const auto measured =
             std::make_shared<const presenters::MeasuredTool>(*read->instrument->shell);
         return [this, file, axis, read, measured]
-        {
-          setInstrument(file, axis);
-          m_instrument = read->instrument;
-          m_measured = measured;
-          emit instrumentRead(file, axis);
-          const bool isTaken = !m_model.drilling(); // an open stroke goes on
-          if (isTaken)
-            m_tool == Tool::Instrument ? renewTool() : setTool(Tool::Instrument);
-          QStringList lines{phrase(presenters::toString(*m_instrument))};
-          for (const std::string& note : read->notes)
-            lines += windowText(phrase(note));
-          if (!isTaken)
-            lines += tr("Drill > Instrument takes it up when the stroke is done");
-          emit statusMessage(lines.join(". "));
-        };
+        { instrumentCame(file, axis, std::move(*read), measured); };
       });
+}
+
+void DrillController::instrumentCame(const QString& file, const QString& axis,
+                                     presenters::LoadedInstrument instrument,
+                                     std::shared_ptr<const presenters::MeasuredTool> measured)
+{
+  setInstrument(file, axis);
+  m_instrument = std::move(instrument.instrument);
+  m_measured = std::move(measured);
+  emit instrumentRead(file, axis);
+  const bool isTaken = !m_model.drilling(); // an open stroke goes on
+  if (isTaken && m_tool == Tool::Instrument)
+  {
+    renewTool();
+    showTool();
+  }
+  else if (isTaken)
+    setTool(Tool::Instrument);
+  QStringList lines{phrase(presenters::toString(*m_instrument))};
+  for (const std::string& note : instrument.notes)
+    lines += windowText(phrase(note));
+  if (!isTaken)
+    lines += tr("Drill > Instrument takes it up when the stroke is done");
+  emit statusMessage(lines.join(". "));
+}
+
+// In the bar and the menu.
+void DrillController::showTool()
+{
+  m_bar.drillAction()->setChecked(m_tool == Tool::Burr);
+  m_bar.pointerAction()->setChecked(m_tool == Tool::Pointer);
+  m_bar.instrumentAction()->setChecked(m_tool == Tool::Instrument);
+  const QString instrument = m_tool == Tool::Instrument ? words(m_instrument->name) : QString();
+  m_bar.setInstrument(instrument);
+  emit toolChanged(instrument);
 }
 
 bool DrillController::releaseTool()
@@ -334,9 +420,7 @@ void DrillController::setTool(Tool tool)
   m_tool = tool;
   m_view.tool().SetDrillMode(tool == Tool::Burr || tool == Tool::Instrument); // it is pressed
   m_view.tool().SetProbeMode(tool == Tool::Pointer);
-  m_bar.drillAction()->setChecked(tool == Tool::Burr);
-  m_bar.pointerAction()->setChecked(tool == Tool::Pointer);
-  m_bar.instrumentAction()->setChecked(tool == Tool::Instrument);
+  showTool();
   applyBar();
   if (tool != Tool::None && m_model.hasCase() && !m_model.ready())
     emit tissueWanted();
@@ -586,12 +670,22 @@ void DrillController::show(const session::TouchSession::News& news)
   if (m_tool == Tool::Burr && isPlaced(record))
     emit toolMoved(presenters::MeasuredTool(toolRadius()), pose);
   if (m_tool == Tool::Instrument && isPlaced(record))
+  {
     emit toolMoved(*m_measured, pose);
+    if (!m_tip || (*m_tip - pose.position).norm() >= kStill)
+      follow(pose.position);
+  }
   if (!m_model.drilling())
     return;
-  emit pointed(pose.position);
+  follow(pose.position);
+}
+
+void DrillController::follow(const Eigen::Vector3d& tip)
+{
+  m_tip = tip;
+  emit pointed(tip);
   if (m_slicesFollow)
-    m_model.setCrosshair(pose.position);
+    m_model.setCrosshair(tip);
 }
 
 void DrillController::read(const TickRecord& record)
@@ -603,15 +697,10 @@ void DrillController::read(const TickRecord& record)
   if (still && m_sinceRead.elapsed() < kReadAgain)
     return;
   m_sinceRead.start();
-  if (!still)
-    m_tip = tip;
   m_view.display().setReading(
-      textOf(m_model.readPlace(*m_tip), presenters::displayOf(m_model.value())));
-  if (still)
-    return;
-  emit pointed(tip);
-  if (m_slicesFollow)
-    m_model.setCrosshair(tip);
+      textOf(m_model.readPlace(still ? *m_tip : tip), presenters::displayOf(m_model.value())));
+  if (!still)
+    follow(tip);
 }
 
 bool DrillController::isLost(const TickRecord& record)

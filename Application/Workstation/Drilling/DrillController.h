@@ -10,6 +10,7 @@
 #include "BackgroundWork.h"
 #include "DrillSound.h"
 #include "ToolDriver.h"
+#include "petrous/Presenters/InstrumentFile.h"
 #include "petrous/Session/StallWatch.h"
 
 namespace petrous::workstation
@@ -32,7 +33,8 @@ public:
   DrillController(presenters::WorkstationModel& model, ThreeDView& view, DrillBar& bar,
                   ActiveDeviceController& devices, QObject* parent = nullptr);
 
-  void setSlicesFollow(bool follow); ///< the crosshair follows the burr while it drills
+  /// The crosshair follows the burr while it drills, and the tip of pointer and instrument.
+  void setSlicesFollow(bool follow);
   /// No tool: ends an open stroke and abandons what is read; whether one was in the hand.
   bool releaseTool();
   void renewTool();  ///< puts the tool away and takes it up again
@@ -44,7 +46,8 @@ public:
   /// Reads it in the background and takes it up, unless another tool or case came meanwhile
   /// (setTool, releaseTool) or a stroke is open. axis: of presenters::kInstrumentAxes.
   void readInstrument(const QString& file, const QString& axis);
-  void chooseInstrument(); ///< asks the user for file and axis
+  /// Asks the user for a file, reads it in the background, and then asks for the axis.
+  void chooseInstrument();
 
   DrillSound& sound() noexcept { return m_sound; }
 
@@ -70,6 +73,8 @@ signals:
   void statusMessage(const QString& line); ///< progress of slow operations, or errors
   void instrumentRead(const QString& file, const QString& axis);
   void instrumentRefused(const QString& why);
+  /// Which tool is in the hand changed; `instrument`: its file's name, empty for another or none.
+  void toolChanged(const QString& instrument);
   void faulted(const QString& line); ///< of the touch session; empty when it works again
 
 private:
@@ -84,7 +89,16 @@ private:
   void connectView();
   void connectDevices();
   void setTool(Tool tool);
+  void showTool();
   void abandonReading();
+  void readSurface(const QString& file);
+  void askAxis(const QString& file, presenters::InstrumentSurface surface);
+  void makeInstrument(const QString& file, const QString& axis,
+                      presenters::InstrumentSurface surface);
+  void instrumentCame(const QString& file, const QString& axis,
+                      presenters::LoadedInstrument instrument,
+                      std::shared_ptr<const presenters::MeasuredTool> measured);
+  void follow(const Eigen::Vector3d& tip);
   void hover(const interaction::PickRay& line);
   void press();
   bool takeTool(); // into use, unless it is
@@ -119,7 +133,8 @@ private:
   std::shared_ptr<const session::Instrument> m_instrument;
   std::shared_ptr<const presenters::MeasuredTool> m_measured; // it
   QString m_instrumentFile, m_instrumentAxis;
-  std::optional<Eigen::Vector3d> m_tip; // last one probed
+  QString m_fileRead;                   // the one being read
+  std::optional<Eigen::Vector3d> m_tip; // last one probed, or followed
   QTimer m_frames;
   QTimer m_anew;
   QElapsedTimer m_sinceFault;

@@ -21,6 +21,7 @@
 #include "petrous/Interaction/ToolInteraction.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/ProvenanceText.h"
+#include "petrous/Presenters/SceneAssembly.h"
 
 namespace petrous::workstation
 {
@@ -46,6 +47,7 @@ PictureController::PictureController(presenters::WorkstationModel& model, ThreeD
                          "resolution while something moves"));
   kept.restore(m_settings, quadBuffer);
   m_view.display().setLight(m_settings.light());
+  m_lightBefore = m_settings.lightState();
   applyStereo();
   m_panel->settingsChanged();
   const auto changed = [this](auto what)
@@ -58,8 +60,7 @@ PictureController::PictureController(presenters::WorkstationModel& model, ThreeD
         m_kept.keep(m_settings);
     };
   };
-  m_settings.events.lightChanged =
-      changed([this] { m_view.display().setLight(m_settings.light()); });
+  m_settings.events.lightChanged = changed([this] { lightChanged(); });
   m_settings.events.stereoChanged = changed([this] { applyStereo(); });
   connect(m_actions.stereo, &QActionGroup::triggered, this,
           [this](QAction* action)
@@ -70,7 +71,8 @@ PictureController::PictureController(presenters::WorkstationModel& model, ThreeD
   connect(&m_view, &ThreeDView::toolModeSet, this,
           [this]
           {
-            if (m_model.hasCase() && !m_model.value().view.clipping.empty())
+            if (m_model.hasCase() &&
+                (!m_model.value().view.clipping.empty() || m_model.value().softTissue.shown))
               showScene();
           });
   connect(&m_view.display(), &SceneDisplay::failed, this, &PictureController::fail);
@@ -122,6 +124,26 @@ void PictureController::showView(const scene::ViewState& view)
   m_settings.take(next);
 }
 
+// A step of undo, unless a case is being shown. Stereo is none: it is of the screen.
+void PictureController::lightChanged()
+{
+  m_view.display().setLight(m_settings.light());
+  const scene::ViewState::Light after = m_settings.lightState();
+  const scene::ViewState::Light before = std::exchange(m_lightBefore, after);
+  if (m_isShowing || m_isStepping || !m_model.hasCase())
+    return;
+  const auto set = [this](const scene::ViewState::Light& light)
+  {
+    const QScopedValueRollback<bool> stepping(m_isStepping, true);
+    m_settings.setLight(light);
+  };
+  const presenters::LightEdit edit = presenters::lightEdit(before, after);
+  m_model.edits().did({edit.what, edit.isContinuous ? "light\n" + edit.what : std::string(),
+                       [set, before] { set(before); }, [set, after] { set(after); }});
+  if (m_model.events.stateChanged)
+    m_model.events.stateChanged();
+}
+
 void PictureController::showScene()
 {
   if (m_model.loaded() && !m_model.drawable())
@@ -146,6 +168,10 @@ void PictureController::showScene()
       lines += phrase(line);
     if (isVeiled)
       lines += tr("Soft tissue is left out while a tool is in the hand");
+    if (const std::string why =
+            value.softTissue.shown ? presenters::softTissueMissing(value) : std::string();
+        !why.empty())
+      lines += tr("Soft tissue is not drawn: %1").arg(phrase(why));
     m_view.setNotes(lines);
   }
   catch (const core::Error& error) // too much to draw; the slices still show it

@@ -58,6 +58,7 @@ signals:
 
 private:
   void showScene();
+  void lightChanged();
   void openSurgeonWindow();
   void applyStereo();
   void showSpeed(double milliseconds, double scale, bool moving);
@@ -72,7 +73,9 @@ private:
   bool m_isShowing = false;   ///< a case's settings, which are not the user's
   bool m_isAnnounced = false; ///< a picture whose scene is not there yet
   bool m_isFirst = false;     ///< the picture that is drawn next, after it was announced
+  bool m_isStepping = false;  ///< undo or redo of a change of the light
   presenters::ViewSettings m_settings;
+  scene::ViewState::Light m_lightBefore; ///< as it was shown last
   PicturePanel* m_panel;
   QLabel* m_speed;
   QPointer<SurgeonWindow> m_surgeon;

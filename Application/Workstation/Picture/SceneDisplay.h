@@ -58,6 +58,7 @@ public:
 
   /// Keeps light and tool. Throws RenderingError BadContents.
   void setContents(const rendering::SceneContents& contents);
+  const rendering::SceneContents& contents() const noexcept { return m_contents; }
   void setLight(const rendering::LightSettings& light);
   void setTool(const std::optional<rendering::ToolPose>& tool);
   const std::optional<rendering::ToolPose>& tool() const noexcept { return m_contents.tool; }

@@ -1,6 +1,7 @@
 #include <clocale>
 
 #include <QDoubleSpinBox>
+#include <QStatusBar>
 #include <QTest>
 
 #include "GuiTest.h"
@@ -32,6 +33,30 @@ TEST_F(DecimalPointTest, WhatAFieldCannotTakeLeavesItsNumber)
   QTest::keyClick(&box, Qt::Key_Enter);
   EXPECT_EQ(box.value(), 1200.0);
   EXPECT_FALSE(box.property("refused").toBool());
+}
+
+TEST_F(DecimalPointTest, SaysWhyInTheStatusBarAndTheMarkGoes)
+{
+  openWindow();
+  auto* exposure = window().findChild<QDoubleSpinBox*>("exposure");
+  ASSERT_TRUE(exposure);
+  const auto type = [exposure](const char* text)
+  {
+    exposure->selectAll();
+    QTest::keyClicks(exposure, text);
+    QTest::keyClick(exposure, Qt::Key_Enter);
+  };
+  type("9");
+  EXPECT_EQ(exposure->value(), 0.0);
+  EXPECT_EQ(window().statusBar()->currentMessage(), "9 is above the most, 4 EV");
+  EXPECT_TRUE(exposure->property("refused").toBool()) << "though the field was left";
+  type("-77");
+  EXPECT_EQ(window().statusBar()->currentMessage(), "-7 is below the least, -4 EV");
+  type("1,2,3");
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("is not possible here"))
+      << window().statusBar()->currentMessage().toStdString();
+  EXPECT_TRUE(exposure->property("refused").toBool());
+  EXPECT_TRUE(waitFor([exposure] { return !exposure->property("refused").toBool(); }));
 }
 
 // Run once more under a locale with a decimal comma.

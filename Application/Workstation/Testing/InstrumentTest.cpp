@@ -3,10 +3,13 @@
 #include <cmath>
 #include <fstream>
 
+#include <QAbstractButton>
 #include <QFileDialog>
 #include <QInputDialog>
+#include <QLabel>
 #include <QLineEdit>
 #include <QSignalSpy>
+#include <QToolButton>
 
 #include "ActiveDeviceController.h"
 #include "DrillController.h"
@@ -30,6 +33,11 @@ protected:
       lies ? file << "v 60 " << u << ' ' << v << '\n' : file << "v " << u << ' ' << v << " 60\n";
     file << "f 1 3 2\nf 1 4 3\nf 1 5 4\nf 1 2 5\nf 2 3 4\nf 2 4 5\n";
     return QString::fromStdString((folder() / name).string());
+  }
+  static void choose(QFileDialog& dialog, const QString& file)
+  {
+    dialog.findChild<QLineEdit*>("fileNameEdit")->setText(file);
+    static_cast<QDialog&>(dialog).accept();
   }
   DrillController& drillController() { return *window().findChild<DrillController*>(); }
   const std::optional<rendering::ToolPose>& tool() { return view().display().tool(); }
@@ -242,21 +250,222 @@ TEST_F(InstrumentWindow, IsChosenWithItsAxis)
         if (auto* open = qobject_cast<QFileDialog*>(&dialog); open && !isFile)
         {
           isFile = true;
-          open->findChild<QLineEdit*>("fileNameEdit")->setText(file);
-          static_cast<QDialog&>(*open).accept();
+          choose(*open, file);
         }
         if (auto* ask = qobject_cast<QInputDialog*>(&dialog))
         {
           isAxis = true;
-          EXPECT_EQ(ask->textValue(), "z+") << "at first";
-          ask->setTextValue("x+");
+          // It lies along x, and its tip is at the origin.
+          EXPECT_EQ(ask->textValue(),
+                    QString::fromUtf8("x+: 60.0 × 2.0 mm, the tip at x = 0.0 mm"));
+          EXPECT_EQ(ask->comboBoxItems().size(), 6);
           ask->accept();
         }
         return isAxis;
       });
   action("Instrument from a file…")->trigger();
-  EXPECT_TRUE(isFile && isAxis);
   ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  EXPECT_TRUE(isFile && isAxis);
   ASSERT_TRUE(isHeld());
   EXPECT_NEAR(tool()->instrument->bounds()[1].z(), 60.0F, 1e-4F);
+
+  // The same file again: as it was chosen. Another one: as is likely.
+  const QString upright = writePick("upright.obj");
+  drillController().readInstrument(file, "z+");
+  ASSERT_TRUE(waitFor(
+      [this]
+      { return tool() && tool()->instrument && tool()->instrument->bounds()[1].z() < 3.0F; }));
+  const auto proposedFor = [this](const QString& chosen)
+  {
+    QString proposed;
+    bool isChosen = false;
+    onDialog(
+        [&](QDialog& dialog)
+        {
+          if (auto* open = qobject_cast<QFileDialog*>(&dialog); open && !isChosen)
+          {
+            isChosen = true;
+            choose(*open, chosen);
+          }
+          auto* ask = qobject_cast<QInputDialog*>(&dialog);
+          if (!ask)
+            return false;
+          proposed = ask->textValue().left(2);
+          ask->reject();
+          return true;
+        });
+    action("Instrument from a file…")->trigger();
+    EXPECT_TRUE(waitFor([&proposed] { return !proposed.isEmpty(); }));
+    return proposed;
+  };
+  EXPECT_EQ(proposedFor(file), "z+");
+  EXPECT_EQ(proposedFor(upright), "z+");
+  const QString other = writePick("other.obj", true);
+  EXPECT_EQ(proposedFor(other), "x+");
+}
+
+TEST_F(InstrumentWindow, IsRefusedBeforeAnythingIsAskedAboutIt)
+{
+  saveBall("ball");
+  openWindow();
+  std::ofstream(folder() / "open.obj") << "v 0 0 0\nv 1 1 60\nv -1 1 60\nf 1 2 3\n";
+  const QString file = QString::fromStdString((folder() / "open.obj").string());
+  bool isFile = false;
+  bool isAsked = false;
+  QString refusal;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (auto* open = qobject_cast<QFileDialog*>(&dialog); open && !isFile)
+        {
+          isFile = true;
+          choose(*open, file);
+        }
+        if (auto* ask = qobject_cast<QInputDialog*>(&dialog))
+        {
+          isAsked = true;
+          ask->reject();
+          return true;
+        }
+        if (auto* box = qobject_cast<QMessageBox*>(&dialog))
+        {
+          refusal = box->text();
+          box->reject();
+          return true;
+        }
+        return false;
+      });
+  action("Instrument from a file…")->trigger();
+  ASSERT_TRUE(waitFor([&] { return isAsked || !refusal.isEmpty(); }));
+  EXPECT_FALSE(isAsked);
+  EXPECT_TRUE(refusal.contains("not closed")) << refusal.toStdString();
+}
+
+// Nobody typed its name: a file can be chosen from the message.
+TEST_F(InstrumentWindow, OffersToChooseItsFileAgainWhereThatIsGone)
+{
+  saveBall("ball");
+  openWindow();
+  const QString file = writePick("pick.obj");
+  drillController().readInstrument(file, "z+");
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  closeWindow();
+  std::filesystem::rename(folder() / "pick.obj", folder() / "renamed.obj");
+  openWindow("ball");
+  QString text;
+  bool isOffered = false;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (auto* box = qobject_cast<QMessageBox*>(&dialog); box && text.isEmpty())
+        {
+          text = box->text();
+          for (QAbstractButton* button : box->buttons())
+            if (box->buttonRole(button) == QMessageBox::AcceptRole)
+              button->click();
+          return false;
+        }
+        auto* open = qobject_cast<QFileDialog*>(&dialog);
+        isOffered = open != nullptr;
+        if (isOffered)
+          static_cast<QDialog*>(open)->reject();
+        return isOffered;
+      });
+  action("Instrument")->trigger();
+  ASSERT_TRUE(waitFor([&] { return isOffered; }));
+  EXPECT_TRUE(text.contains("not there any more") && text.contains("pick.obj"))
+      << text.toStdString();
+  EXPECT_FALSE(text.contains("check the name")) << "nobody typed one";
+}
+
+TEST_F(InstrumentWindow, IsNamedInTheBarWhoseBurrDoesNotApplyToIt)
+{
+  saveBall("ball");
+  openWindow("ball");
+  auto* button = window().findChild<QToolButton*>("instrumentButton");
+  ASSERT_TRUE(button);
+  const auto burrIs = [this](bool enabled)
+  {
+    for (const char* name : {"burrDiameter", "burrKind", "spindleSpeed"})
+      EXPECT_EQ(window().findChild<QWidget*>(name)->isEnabled(), enabled) << name;
+    for (const char* name : {"Smaller burr", "Larger burr", "Next kind of burr"})
+      EXPECT_EQ(action(name)->isEnabled(), enabled) << name;
+  };
+  burrIs(true);
+  drillController().readInstrument(writePick("pick.obj"), "z+");
+  ASSERT_TRUE(waitFor([button] { return button->isChecked(); }));
+  EXPECT_EQ(button->text(), "pick.obj");
+  burrIs(false);
+  EXPECT_TRUE(window().findChild<QWidget*>("thrust")->isEnabled()) << "it is pressed";
+
+  QTest::keyClick(&view(), Qt::Key_I);
+  EXPECT_FALSE(button->isChecked());
+  EXPECT_EQ(button->text(), "Instrument");
+  burrIs(true);
+  QTest::keyClick(&view(), Qt::Key_I);
+  EXPECT_TRUE(button->isChecked());
+  QTest::keyClick(&view(), Qt::Key_D);
+  EXPECT_FALSE(button->isChecked());
+  burrIs(true);
+}
+
+TEST_F(InstrumentWindow, LeadsTheSlicesByItsTip)
+{
+  saveBall("ball");
+  openWindow("ball");
+  drillController().readInstrument(writePick("pick.obj"), "z+");
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  const auto apart = [this]
+  { return tool() ? (window().model().crosshair() - tool()->center).norm() : std::nan(""); };
+  ASSERT_TRUE(isHeld());
+  EXPECT_TRUE(waitFor([&] { return apart() < 0.1; })) << apart();
+  EXPECT_GT((window().model().crosshair() - kBallCenter).norm(), 0.5 * kBallRadius);
+  action("Slices follow the burr")->trigger();
+  const Eigen::Vector3d before = window().model().crosshair();
+  QTest::mouseMove(&view(), view().rect().center() + QPoint(40, 0));
+  EXPECT_TRUE(waitFor([&] { return apart() > 0.5; })) << "it moved, and the slices did not";
+  EXPECT_EQ(window().model().crosshair(), before);
+}
+
+// It is air to a tool, and what the tool lies on must be seen: whichever tool, and whatever came
+// first.
+TEST_F(InstrumentWindow, SoftTissueIsLeftOutWhileAnyToolIsInTheHand)
+{
+  saveBall("ball");
+  openWindow("ball");
+  drillController().readInstrument(writePick("pick.obj"), "z+");
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  drillController().releaseTool();
+  ASSERT_TRUE(settled() && waitFor([this] { return window().model().drawable(); }));
+  auto* soft = window().findChild<QAbstractButton*>("softTissue");
+  auto* note = view().findChild<QLabel*>("guessed");
+  ASSERT_TRUE(soft && note);
+  const QString leftOut = "Soft tissue is left out while a tool is in the hand";
+  const auto isShown = [&] { return !note->isHidden() && note->text().contains(leftOut); };
+  const auto isDrawn = [this] { return view().display().contents().softTissue.has_value(); };
+  for (const char* held : {"Drill", "Pointer", "Instrument"})
+  {
+    SCOPED_TRACE(held);
+    soft->setChecked(true);
+    EXPECT_TRUE(isDrawn());
+    EXPECT_FALSE(isShown());
+    action(held)->trigger();
+    ASSERT_TRUE(action(held)->isChecked());
+    EXPECT_FALSE(isDrawn());
+    EXPECT_TRUE(isShown());
+    action(held)->trigger();
+    EXPECT_TRUE(isDrawn());
+    EXPECT_FALSE(isShown());
+
+    soft->setChecked(false);
+    action(held)->trigger();
+    EXPECT_FALSE(isShown());
+    soft->setChecked(true); // with the tool in the hand
+    EXPECT_FALSE(isDrawn());
+    EXPECT_TRUE(isShown());
+    action(held)->trigger();
+    EXPECT_TRUE(soft->isChecked());
+    EXPECT_TRUE(isDrawn());
+    EXPECT_FALSE(isShown());
+  }
 }

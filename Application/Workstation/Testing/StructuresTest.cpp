@@ -8,7 +8,11 @@
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QKeyEvent>
+#include <QLabel>
 #include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
+#include <QRegularExpression>
 #include <QSlider>
 #include <QSpinBox>
 #include <QToolButton>
@@ -240,11 +244,53 @@ TEST_F(Structures, SoftTissueThatCannotBeDrawnSaysSo)
   auto* box = find<QCheckBox>("softTissue"); // of the Picture panel
   EXPECT_TRUE(box->isChecked());
   EXPECT_TRUE(box->toolTip().contains("fill air"));
+  auto* over = view().findChild<QLabel*>("guessed"); // the notes over the picture
+  EXPECT_TRUE(waitFor(
+      [&]
+      { return !over->isHidden() && over->text().contains("Soft tissue is not drawn: it has "); }))
+      << over->text().toStdString();
   box->click();
   EXPECT_FALSE(look(scene::kSoftTissue).shown);
+  EXPECT_FALSE(over->text().contains("not drawn"));
   EXPECT_EQ(structureCell(scene::kSoftTissue).data().toString(), "Soft tissue");
   action("Undo")->trigger();
   EXPECT_TRUE(box->isChecked());
+}
+
+TEST_F(Structures, TheCaseMenuRenamesAndRemovesWhatIsSelected)
+{
+  openWith({{"two", "other"}});
+  QMenu* menu = nullptr;
+  for (QAction* top : window().menuBar()->actions())
+    if (top->text() == "&Case")
+      menu = top->menu();
+  ASSERT_TRUE(menu);
+  const auto entries = [menu]
+  {
+    emit menu->aboutToShow();
+    QStringList texts;
+    for (const QAction* one : menu->actions())
+      texts += one->text();
+    return texts.filter(QRegularExpression("^(Rename|Remove) "));
+  };
+  auto& list = structureList();
+  list.selectionModel()->clear();
+  EXPECT_TRUE(entries().isEmpty());
+  list.setCurrentIndex(structureCell("ct"));
+  EXPECT_TRUE(entries().isEmpty()) << "it is the case's image";
+  list.setCurrentIndex(structureCell("nerve"));
+  EXPECT_EQ(entries(), QStringList({QString::fromUtf8("Rename “nerve”…"),
+                                    QString::fromUtf8("Remove “nerve”")}));
+  for (QAction* one : menu->actions())
+    if (one->text().startsWith("Remove "))
+    {
+      one->trigger();
+      break;
+    }
+  EXPECT_TRUE(waitFor([this] { return !model().lookOf("nerve"); }));
+  EXPECT_TRUE(model().lookOf("two"));
+  action("Undo")->trigger();
+  EXPECT_TRUE(waitFor([this] { return model().lookOf("nerve") != nullptr; }));
 }
 
 TEST_F(Structures, AColourIsPreviewedAndLeavesNoTraceIfItIsNotTaken)

@@ -177,6 +177,54 @@ TEST_F(ViewStates, ASaveForAnotherReasonKeepsAllOfTheView)
   EXPECT_TRUE(saved.view.tool);
 }
 
+TEST_F(ViewStates, EachChangeOfTheLightIsAStepOfTheOneUndo)
+{
+  saveBall("ball");
+  openWindow("ball");
+  auto& exposure = widget<QDoubleSpinBox>("exposure");
+  auto& falloff = widget<QDoubleSpinBox>("lightFalloff");
+  auto& wetness = widget<QSlider>("wetness");
+  auto& soft = widget<QAbstractButton>("softTissue");
+  EXPECT_FALSE(action("Undo")->isEnabled()) << "to show a case is no step";
+  falloff.setValue(250.0);
+  EXPECT_FALSE(window().model().unsaved()) << "as a camera that was moved";
+  soft.setChecked(true);
+  exposure.setValue(1.5);
+  for (const int percent : {10, 20, 40}) // a slider that moves
+    wetness.setValue(percent);
+  for (const char* name : {"shadows", "toneCurve"})
+    widget<QAbstractButton>(name).setChecked(true);
+
+  const auto undo = [this](const char* what)
+  {
+    EXPECT_TRUE(action("Undo")->text().endsWith(what)) << action("Undo")->text().toStdString();
+    action("Undo")->trigger();
+  };
+  undo("soft highlights");
+  EXPECT_FALSE(widget<QAbstractButton>("toneCurve").isChecked());
+  EXPECT_TRUE(widget<QAbstractButton>("shadows").isChecked());
+  undo("shadows");
+  EXPECT_FALSE(widget<QAbstractButton>("shadows").isChecked());
+  EXPECT_EQ(wetness.value(), 40);
+  undo("wetness");
+  EXPECT_EQ(wetness.value(), 0) << "one step";
+  undo("exposure");
+  EXPECT_EQ(exposure.value(), 0.0);
+  EXPECT_TRUE(soft.isChecked());
+  undo("show soft tissue");
+  EXPECT_FALSE(soft.isChecked());
+  EXPECT_EQ(falloff.value(), 250.0);
+  undo("light falloff");
+  EXPECT_EQ(falloff.value(), 0.0);
+  EXPECT_FALSE(action("Undo")->isEnabled());
+  for (int n = 0; n < 4; ++n)
+    action("Redo")->trigger();
+  EXPECT_EQ(falloff.value(), 250.0);
+  EXPECT_EQ(exposure.value(), 1.5);
+  EXPECT_EQ(wetness.value(), 40);
+  EXPECT_FALSE(widget<QAbstractButton>("shadows").isChecked());
+}
+
 TEST_F(ViewStates, CutsAwayBeforeTheCrosshairUntilAToolIsTakenUp)
 {
   saveBall("ball");

@@ -9,7 +9,9 @@
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QLocale>
+#include <QMainWindow>
 #include <QSpinBox>
+#include <QStatusBar>
 #include <QStyle>
 #include <QToolTip>
 
@@ -18,6 +20,9 @@ namespace petrous::workstation
 
 namespace
 {
+
+constexpr int kMarked = 5000; // ms; Return, as any end of a number, leaves the field at once
+constexpr int kSaid = 8000;   // ms in the status bar
 
 int decimalsOf(const QAbstractSpinBox& box)
 {
@@ -45,6 +50,36 @@ QString possibleIn(const QAbstractSpinBox& box)
                        : DecimalPoint::tr("%1, decimals: at most %2").arg(range).arg(decimals);
 }
 
+// "9 is above the most, 4 EV"; where it is no number beyond the limits, what is possible.
+QString whyNot(const QAbstractSpinBox& box, const QString& typed)
+{
+  bool isNumber = false;
+  const double number = QLocale::c().toDouble(typed.trimmed(), &isNumber);
+  const double least = box.property("minimum").toDouble();
+  const double most = box.property("maximum").toDouble();
+  const auto limit = [&box](double value)
+  {
+    const double rounded = QLocale::c().toString(value, 'f', decimalsOf(box)).toDouble();
+    return QString::number(rounded, 'g', 10) + box.property("suffix").toString();
+  };
+  if (isNumber && !typed.contains(',') && number > most)
+    return DecimalPoint::tr("%1 is above the most, %2").arg(typed.trimmed(), limit(most));
+  if (isNumber && !typed.contains(',') && number < least)
+    return DecimalPoint::tr("%1 is below the least, %2").arg(typed.trimmed(), limit(least));
+  return DecimalPoint::tr("“%1” is not possible here; the number is as it was. %2.")
+      .arg(typed, possibleIn(box));
+}
+
+// In the window's status bar, also for a field in a dialog or a floating panel.
+void say(const QAbstractSpinBox& box, const QString& text)
+{
+  const QMainWindow* window = nullptr;
+  for (const QWidget* one = &box; one && !window; one = one->parentWidget())
+    window = qobject_cast<const QMainWindow*>(one);
+  if (auto* bar = window ? window->findChild<QStatusBar*>() : nullptr)
+    bar->showMessage(text, kSaid);
+}
+
 } // namespace
 
 DecimalPoint::DecimalPoint(QApplication& application)
@@ -53,10 +88,26 @@ DecimalPoint::DecimalPoint(QApplication& application)
   std::setlocale(LC_NUMERIC, "C");
   QLocale::setDefault(QLocale::c());
   application.installEventFilter(this);
+  m_marks.setSingleShot(true);
+  m_marks.setInterval(kMarked);
+  connect(&m_marks, &QTimer::timeout, this, &DecimalPoint::unmark);
+}
+
+void DecimalPoint::unmark()
+{
+  if (m_marked)
+    mark(*m_marked, false);
 }
 
 void DecimalPoint::mark(QAbstractSpinBox& box, bool refused)
 {
+  if (refused)
+  {
+    if (m_marked != &box)
+      unmark();
+    m_marked = &box;
+    m_marks.start();
+  }
   if (box.property("refused").toBool() == refused)
     return;
   box.setProperty("refused", refused);
@@ -74,10 +125,11 @@ void DecimalPoint::refuse(QAbstractSpinBox& box, const QString& what)
   box.selectAll();
   mark(box, true);
   m_isRest = true;
-  QToolTip::showText(
-      box.mapToGlobal(QPoint(0, box.height())),
-      tr("“%1” is not possible here; the number is as it was. %2.").arg(what, possibleIn(box)),
-      &box);
+  QString why = whyNot(box, what);
+  say(box, why);
+  if (const QString possible = possibleIn(box); !why.contains(possible))
+    why += ". " + possible + '.';
+  QToolTip::showText(box.mapToGlobal(QPoint(0, box.height())), why, &box);
 }
 
 // True: the field has had it.
@@ -152,7 +204,7 @@ bool DecimalPoint::eventFilter(QObject* watched, QEvent* event)
     refuse(*box, box->findChild<QLineEdit*>()->text());
   if (isEnd)
   {
-    m_box.clear(); // the mark stays until another number is typed
+    m_box.clear();
     m_isRest = false;
   }
   else if (const int code = key->key();

@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <QPointer>
+#include <QTimer>
 #include <QVariant>
 
 class QAbstractSpinBox;
@@ -16,8 +17,9 @@ namespace petrous::workstation
 /// field with decimals becomes a point.
 ///
 /// A number that a field cannot take never becomes another one by losing characters: the field goes
-/// back to what it had, is marked (property "refused"), says what is possible, and takes no more of
-/// that number until it is left, or Return, an arrow or a deleting key is pressed.
+/// back to what it had, says what is possible, also in the status bar of its window, is marked for
+/// some seconds (property "refused"), and takes no more of that number until it is left, or Return,
+/// an arrow or a deleting key is pressed.
 class DecimalPoint : public QObject
 {
   Q_OBJECT
@@ -32,10 +34,13 @@ private:
   bool typed(QAbstractSpinBox& box, const QString& text);
   void refuse(QAbstractSpinBox& box, const QString& what);
   void mark(QAbstractSpinBox& box, bool refused);
+  void unmark();
 
   QPointer<QAbstractSpinBox> m_box; ///< in which a number is being typed
   QVariant m_before;                ///< its value before that
   bool m_isRest = false;            ///< it was refused, and what follows is its rest
+  QPointer<QAbstractSpinBox> m_marked;
+  QTimer m_marks; ///< until the mark goes
 };
 
 } // namespace petrous::workstation

@@ -21,6 +21,7 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QPushButton>
 #include <QSlider>
 #include <QSpinBox>
 #include <QStackedWidget>
@@ -697,7 +698,22 @@ void MainWindow::connectActions()
           { m_settings->keepInstrument(file, axis); });
   connect(m_drill, &DrillController::instrumentRefused, this,
           [this](const QString& why)
-          { QMessageBox::warning(this, tr("Instrument from a file"), why); });
+          {
+            QMessageBox box(QMessageBox::Warning, tr("Instrument from a file"), why,
+                            QMessageBox::Close, this);
+            box.setTextFormat(Qt::PlainText);
+            const auto* choose = box.addButton(tr("Choose a &file…"), QMessageBox::AcceptRole);
+            box.exec();
+            if (box.clickedButton() == choose)
+              m_drill->chooseInstrument();
+          });
+  connect(
+      m_drill, &DrillController::toolChanged, this,
+      [this](const QString& instrument)
+      {
+        for (QAction* burr : {m_actions->smallerBurr, m_actions->largerBurr, m_actions->otherKind})
+          enable(*burr, instrument.isEmpty(), tr("An instrument is in the hand, not the burr"));
+      });
   const auto [instrument, axis] = m_settings->instrument();
   m_drill->setInstrument(instrument, axis);
   m_actions->leftHand->setChecked(m_settings->leftHand());
@@ -1289,7 +1305,10 @@ void MainWindow::fillCaseMenu()
   m_actions->restorePart->setText(
       removed.empty() ? tr("Put &back")
                       : tr("Put &back “%1”").arg(words(removed).replace('&', "&&")));
-  if (!m_model.hasCase() || m_model.value().mr.empty())
+  if (!m_model.hasCase())
+    return;
+  addSelectedTo(menu);
+  if (m_model.value().mr.empty())
     return;
   menu.addSeparator();
   for (const scene::ImagePart& mr : m_model.value().mr)
@@ -1300,6 +1319,34 @@ void MainWindow::fillCaseMenu()
     connect(menu.addAction(tr("Remove the MR “%1”").arg(shown)), &QAction::triggered, this,
             [this, name = mr.name] { m_keeper->removePart(name); });
   }
+}
+
+// What is selected in the list of structures, as the list's own menu has it.
+void MainWindow::addSelectedTo(QMenu& menu)
+{
+  std::vector<std::string> parts = findChild<StructuresPanel*>()->selectedParts();
+  parts.erase(std::remove_if(parts.begin(), parts.end(),
+                             [](const std::string& part)
+                             { return part == "ct" || part == scene::kSoftTissue; }),
+              parts.end());
+  if (parts.empty())
+    return;
+  menu.addSeparator();
+  const QString shown = shownName(parts.front()).replace('&', "&&");
+  const bool isOne = parts.size() == 1;
+  if (isOne)
+    connect(menu.addAction(tr("Rename “%1”…").arg(shown)), &QAction::triggered, this,
+            [this, part = parts.front()] { m_keeper->renamePart(part); });
+  QAction* remove = menu.addAction(isOne ? tr("Remove “%1”").arg(shown)
+                                         : tr("Remove the %1 selected").arg(parts.size()));
+  remove->setStatusTip(tr(
+      "Takes what is selected in the list of structures out of the case; Ctrl+Z brings it back"));
+  connect(remove, &QAction::triggered, this,
+          [this, parts]
+          {
+            for (const std::string& part : parts)
+              m_keeper->removePart(part);
+          });
 }
 
 void MainWindow::raisePanel(const char* dock)

@@ -17,6 +17,7 @@
 
 class QDockWidget;
 class QLabel;
+class QMenu;
 class QStackedWidget;
 
 namespace petrous::workstation
@@ -125,6 +126,7 @@ private:
   void showPanels();
   void tellPanels();
   void fillCaseMenu();
+  void addSelectedTo(QMenu& menu);
   void showUnregistered(bool opened);
   void raisePanel(const char* dock);
   void showLibrary();

@@ -238,7 +238,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   drillBar.wheelAction()->setText(tr("Depth &by wheel"));
   drillBar.wheelAction()->setIconText(tr("By wheel"));
   slicesFollow = make(drill, tr("Slices &follow the burr"), {},
-                      tr("The crosshair goes along while the drill is on"));
+                      tr("The crosshair goes along while the drill is on, and with the tip of the "
+                         "pointer or the instrument"));
   slicesFollow->setCheckable(true);
   slicesFollow->setChecked(true);
   drillSound = make(drill, tr("S&ound of the drill"), {},

@@ -95,14 +95,7 @@ void ViewSettings::setConvergence(std::optional<double> millimetres)
 void ViewSettings::take(const scene::ViewState& view, bool quadBuffer)
 {
   if (view.light)
-  {
-    setFalloff(view.light->falloff);
-    setWetness(view.light->wetness);
-    setShadows(view.light->shadows);
-    setExposure(view.light->exposure);
-    setToneCurve(view.light->toneCurve);
-    setEdges(view.light->edges);
-  }
+    setLight(*view.light);
   if (!view.stereo)
     return;
   setEyeSeparation(view.stereo->eyeSeparation);
@@ -115,15 +108,20 @@ void ViewSettings::take(const scene::ViewState& view, bool quadBuffer)
 
 void ViewSettings::take(const ViewSettings& other)
 {
-  setFalloff(other.m_light.falloff);
-  setWetness(other.m_light.wetness);
-  setShadows(other.m_light.shadows);
-  setExposure(other.m_light.exposure);
-  setToneCurve(other.m_light.toneCurve);
-  setEdges(other.m_light.edges);
+  setLight(other.lightState());
   setEyeSeparation(other.m_rig.eyeSeparation);
   setConvergence(other.m_rig.convergence);
   setStereo(other.m_stereo);
+}
+
+void ViewSettings::setLight(const scene::ViewState::Light& light)
+{
+  setFalloff(light.falloff);
+  setWetness(light.wetness);
+  setShadows(light.shadows);
+  setExposure(light.exposure);
+  setToneCurve(light.toneCurve);
+  setEdges(light.edges);
 }
 
 scene::ViewState::Light ViewSettings::lightState() const
@@ -135,6 +133,28 @@ scene::ViewState::Light ViewSettings::lightState() const
 scene::ViewState::Stereo ViewSettings::stereoState() const
 {
   return {kModes[static_cast<std::size_t>(m_stereo)], m_rig.eyeSeparation, m_rig.convergence};
+}
+
+LightEdit lightEdit(const scene::ViewState::Light& before, const scene::ViewState::Light& after)
+{
+  std::string what;
+  std::size_t changed = 0;
+  const auto note = [&](bool isSame, const char* noun)
+  {
+    if (isSame)
+      return;
+    what = noun;
+    ++changed;
+  };
+  note(before.falloff == after.falloff, "light falloff");
+  note(before.wetness == after.wetness, "wetness");
+  note(before.exposure == after.exposure, "exposure");
+  const bool isNumber = changed == 1;
+  note(before.shadows == after.shadows, "shadows");
+  note(before.toneCurve == after.toneCurve, "soft highlights");
+  if (changed != 1)
+    what = "light";
+  return {what, isNumber && changed == 1};
 }
 
 } // namespace petrous::presenters

@@ -22,23 +22,28 @@ namespace
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
-constexpr double kAtTip = 1.0;     // mm from an origin that is the tip to surface and lowest point
-constexpr double kHollow = 1e-9;   // of the bounding box's volume: encloses nothing
-constexpr double kSideways = 1.25; // ratio of the longest side to the one along the shaft
+constexpr double kAtTip = 1.0;   // mm from an origin that is the tip to surface and lowest point
+constexpr double kHollow = 1e-9; // of the bounding box's volume: encloses nothing
+constexpr double kEnd = 0.1;     // of the length: what is compared to find the narrower end
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why)
 {
   throw core::InvalidParameter(path.string() + ": " + why);
 }
 
-// From the file's frame to frame T, without the shift.
-Eigen::Matrix3d turnOf(const std::string& axis)
+void checkAxis(const std::string& axis)
 {
   const auto known = std::find(kInstrumentAxes.begin(), kInstrumentAxes.end(), axis);
   if (known == kInstrumentAxes.end())
     throw core::InvalidParameter("an instrument lies along x+, x-, y+, y-, z+ or z- of its file, "
                                  "not along '" +
                                  axis + "'");
+}
+
+// From the file's frame to frame T, without the shift.
+Eigen::Matrix3d turnOf(const std::string& axis)
+{
+  checkAxis(axis);
   if (axis == "z-")
     return Eigen::AngleAxisd(std::acos(-1.0), Vector3d::UnitX()).toRotationMatrix();
   const Vector3d toHand = (axis[1] == '-' ? -1.0 : 1.0) * Vector3d::Unit(axis[0] - 'x');
@@ -111,38 +116,95 @@ Vector3d tipOf(const core::TriangleMesh& mesh, const std::string& axis,
   return lowest->cast<double>();
 }
 
+// mm, of what lies between two places along an axis: its extent across.
+double widthBetween(const core::TriangleMesh& mesh, int axis, double from, double to)
+{
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& vertex : mesh.vertices)
+    if (const Vector3d p = vertex.cast<double>(); p[axis] >= from && p[axis] <= to)
+      box.extend(p);
+  if (box.isEmpty())
+    return 0.0;
+  Vector3d size = box.sizes();
+  size[axis] = 0.0;
+  return size.norm();
+}
+
 } // namespace
 
-LoadedInstrument readInstrument(const fs::path& path, const std::string& axis,
+InstrumentPlacement placementOf(const core::TriangleMesh& mesh, const std::string& axis)
+{
+  checkAxis(axis);
+  const int along = axis[0] - 'x';
+  const auto bounds = mesh.bounds();
+  Vector3d size = sizeOf(mesh);
+  InstrumentPlacement result;
+  result.length = std::exchange(size[along], 0.0);
+  result.width = size.maxCoeff();
+  result.tip = static_cast<double>(bounds[axis[1] == '-' ? 1 : 0][along]);
+  return result;
+}
+
+std::string likelyAxis(const core::TriangleMesh& mesh)
+{
+  std::string axis;
+  double length = -1.0;
+  for (const char* one : kInstrumentAxes)
+    if (const double along = placementOf(mesh, one).length; along > length)
+    {
+      axis = one;
+      length = along;
+    }
+  const double low = placementOf(mesh, axis).tip, high = low + length;
+  const bool isAtLow = std::abs(low) <= kAtTip, isAtHigh = std::abs(high) <= kAtTip;
+  if (isAtLow != isAtHigh)
+    return isAtLow ? axis : reversed(axis);
+  const int along = axis[0] - 'x';
+  const double lower = widthBetween(mesh, along, low, low + kEnd * length);
+  const double upper = widthBetween(mesh, along, high - kEnd * length, high);
+  return upper < lower ? reversed(axis) : axis;
+}
+
+InstrumentSurface readInstrumentSurface(const fs::path& path, const core::Progress& progress)
+{
+  // Its coordinates are its own, not a patient's: neither LPS nor RAS.
+  imaging::LoadedMesh loaded = imaging::loadMesh(path, false, std::nullopt, progress);
+  checkSize(path, sizeOf(loaded.mesh).maxCoeff(), loaded.isUnitStated);
+  checkSurface(path, loaded.mesh);
+  return {core::printable(path.filename()), std::move(loaded.mesh)};
+}
+
+LoadedInstrument makeInstrument(InstrumentSurface surface, const std::string& axis,
                                 const core::Progress& progress)
 {
   const Eigen::Matrix3d turn = turnOf(axis);
-  // Its coordinates are its own, not a patient's: neither LPS nor RAS.
-  imaging::LoadedMesh loaded =
-      imaging::loadMesh(path, false, std::nullopt, progress.part(0.0, 0.5));
-  core::TriangleMesh& mesh = loaded.mesh;
-  checkSize(path, sizeOf(mesh).maxCoeff(), loaded.isUnitStated);
-  checkSurface(path, mesh);
-
+  core::TriangleMesh& mesh = surface.mesh;
   LoadedInstrument result;
-  for (Eigen::Vector3f& vertex : mesh.vertices)
-    vertex = (turn * vertex.cast<double>()).cast<float>();
-  if (const Vector3d size = sizeOf(mesh); size.maxCoeff() > kSideways * size.z())
+  if (placementOf(mesh, axis).isAcross())
     result.notes.push_back("It is longer across the shaft than along it; if it lies along another "
                            "axis of its file than " +
                            axis + ", say which");
+  for (Eigen::Vector3f& vertex : mesh.vertices)
+    vertex = (turn * vertex.cast<double>()).cast<float>();
   const Vector3d tip = tipOf(mesh, axis, result.notes);
   for (Eigen::Vector3f& vertex : mesh.vertices)
     vertex = (vertex.cast<double>() - tip).cast<float>();
   progress.check("sampling the instrument");
 
   auto instrument = std::make_shared<session::Instrument>();
-  instrument->name = core::printable(path.filename());
+  instrument->name = std::move(surface.name);
   instrument->shell =
       std::make_shared<const haptics::PointShell>(haptics::makeInstrumentShell(mesh));
   instrument->surface = std::make_shared<const core::TriangleMesh>(std::move(mesh));
   result.instrument = std::move(instrument);
   return result;
+}
+
+LoadedInstrument readInstrument(const fs::path& path, const std::string& axis,
+                                const core::Progress& progress)
+{
+  checkAxis(axis);
+  return makeInstrument(readInstrumentSurface(path, progress.part(0.0, 0.5)), axis, progress);
 }
 
 double reachBeyondTip(const session::Instrument& instrument) noexcept

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "petrous/Core/Progress.h"
+#include "petrous/Core/TriangleMesh.h"
 #include "petrous/Session/TouchScene.h"
 
 namespace petrous::presenters
@@ -21,21 +22,54 @@ struct LoadedInstrument
   std::vector<std::string> notes; ///< what was assumed or changed, one sentence each
 };
 
+/// An instrument as its file has it.
+struct InstrumentSurface
+{
+  std::string name;        ///< of the file
+  core::TriangleMesh mesh; ///< mm, in the file's own coordinates; closed
+};
+
+/// How an instrument lies in its file if it does along that axis.
+struct InstrumentPlacement
+{
+  double length = 0.0; ///< mm, along the axis
+  double width = 0.0;  ///< mm, the longer of its two sides across
+  double tip = 0.0;    ///< mm, coordinate along x, y or z of the end at which its tip then is
+  /// It is more than a quarter longer across than along the axis.
+  bool isAcross() const noexcept { return width > 1.25 * length; }
+};
+
 constexpr double kMinInstrument = 1.0;   ///< mm, longest edge of its bounding box
 constexpr double kMaxInstrument = 300.0; ///< mm
 constexpr std::size_t kMaxInstrumentTriangles = 200000;
 
-/// Reads an instrument from OBJ, STL, PLY or VTP (imaging::loadMesh): a closed surface in mm, or in
-/// the unit that the file states.
+/// Reads the surface of an instrument from OBJ, STL, PLY or VTP (imaging::loadMesh): closed, in mm,
+/// or in the unit that the file states.
 ///
+/// Throws FileError; InvalidParameter for a surface that is not closed, encloses nothing, is
+/// shorter than kMinInstrument, longer than kMaxInstrument, or of too many triangles, naming what
+/// would be right. CancelledError.
+InstrumentSurface readInstrumentSurface(const std::filesystem::path& path,
+                                        const core::Progress& progress = {});
+
+/// `axis` as for makeInstrument.
+InstrumentPlacement placementOf(const core::TriangleMesh& mesh, const std::string& axis);
+
+/// Of kInstrumentAxes the likely one: along the longest side of the bounding box, of equal ones
+/// along that which kInstrumentAxes has first. Its tip is at the end at which the origin lies, to
+/// 1 mm; if it lies at neither or both, at the end whose last tenth is narrower, else at the lower.
+std::string likelyAxis(const core::TriangleMesh& mesh);
+
 /// The file's origin is the tip if it lies within 1 mm of the surface, which reaches no more than
 /// 1 mm beyond it along the axis; else the tip is the point farthest from the hand, which is noted.
 /// `axis`, of kInstrumentAxes, leads from the tip to the hand in the file's own coordinates; the
 /// instrument is turned so that it becomes +z.
 ///
-/// Throws FileError; InvalidParameter for an axis that does not exist, and for a surface that is
-/// not closed, encloses nothing, is shorter than kMinInstrument, longer than kMaxInstrument, or of
-/// too many triangles, naming what would be right. CancelledError.
+/// Throws InvalidParameter for an axis that does not exist; CancelledError.
+LoadedInstrument makeInstrument(InstrumentSurface surface, const std::string& axis,
+                                const core::Progress& progress = {});
+
+/// Both; throws what they throw.
 LoadedInstrument readInstrument(const std::filesystem::path& path,
                                 const std::string& axis = kInstrumentAxes[0],
                                 const core::Progress& progress = {});

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "petrous/Rendering/SceneContents.h"
 #include "petrous/Rendering/Stereo.h"
@@ -45,6 +46,7 @@ public:
   void take(const scene::ViewState& view, bool quadBuffer);
   void take(const ViewSettings& other); ///< its values
   scene::ViewState::Light lightState() const;
+  void setLight(const scene::ViewState::Light& light); ///< clamped, as by the setters
   scene::ViewState::Stereo stereoState() const;
 
 private:
@@ -52,5 +54,13 @@ private:
   rendering::StereoMode m_stereo = rendering::StereoMode::None;
   rendering::StereoRig m_rig;
 };
+
+/// A change of the lamp, for the menu of undo.
+struct LightEdit
+{
+  std::string what;          ///< "exposure"; "light" if it is more than one property
+  bool isContinuous = false; ///< of a number, which a slider may move in steps
+};
+LightEdit lightEdit(const scene::ViewState::Light& before, const scene::ViewState::Light& after);
 
 } // namespace petrous::presenters

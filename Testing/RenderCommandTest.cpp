@@ -249,6 +249,13 @@ TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
     for (const char* value : {"false", "true", "3", "some"})
       expectRefused(render(std::string(flag) + "=" + value), 2, "takes no value");
   expectRefused(render("--edges 1.5"), 2, "--edges");
+  for (const char* both : {"--shadows --no-shadows", "--no-tone-curve --tone-curve=true",
+                           "--soft-tissue=skin --no-soft-tissue"})
+    expectRefused(render(both), 2, "contradict");
+  const std::string help = run("render --help").out;
+  EXPECT_NE(help.find("--no-shadows"), std::string::npos);
+  EXPECT_EQ(help.find('{'), std::string::npos);
+  EXPECT_EQ(help.find("FLOAT"), std::string::npos);
   expectRefused(render("--light-falloff -1"), 2, "mm");
   expectRefused(render("--light-falloff nan"), 2, "--light-falloff");
 }
@@ -275,6 +282,8 @@ TEST_F(RenderCommand, SoftTissueOfOnePictureLeavesTheCase)
   EXPECT_EQ(outcome.code, 0);
   EXPECT_NE(outcome.err.find("soft tissue is not drawn"), std::string::npos) << outcome.err;
   EXPECT_EQ(drawn("--soft-tissue=other"), plain);
+  EXPECT_NE(run(render("--soft-tissue=bone")).err.find("where soft tissue ends"),
+            std::string::npos);
   EXPECT_EQ(json("info ball")["soft_tissue"]["flags"], "none");
   json("appearance ball --flags soft-tissue=shown --tf soft-tissue=none");
   EXPECT_NE(run(render("")).err.find("soft tissue is not drawn"), std::string::npos);

@@ -269,7 +269,8 @@ void printCase(const Context& context, const scene::Case& value, const CaseFacts
     {
       context.print("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3" +
                     drilledText(s.name) + ", " + s.look.preset +
-                    placeText(value, scene::placementOf(value, part)) + errorText(s.name));
+                    placeText(value, scene::placementOf(value, part)) +
+                    madeText(value, s.readings) + errorText(s.name));
       printProvenance(part);
     }
   for (std::size_t n = 0; n < value.meshes.size(); ++n)

@@ -91,6 +91,19 @@ bool isErrorKnown(const scene::Case& value, const std::string& mrName)
   return mr && mr->registration && mr->registration->error;
 }
 
+// Whether that may be so of one of its structures.
+bool isErrorKnown(const scene::Case& value, const scene::LabelPart& part)
+{
+  return isErrorKnown(value, scene::placementOf(value, part).drawnOn) ||
+         std::any_of(part.structures.begin(), part.structures.end(),
+                     [&value](const scene::StructurePart& structure)
+                     {
+                       return std::any_of(structure.readings.begin(), structure.readings.end(),
+                                          [&value](const scene::MrReading& reading)
+                                          { return isErrorKnown(value, reading.mr); });
+                     });
+}
+
 std::map<std::string, presenters::RegistrationErrorHere> registrationErrors(scene::Case value)
 {
   std::map<std::string, presenters::RegistrationErrorHere> errors;
@@ -99,7 +112,7 @@ std::map<std::string, presenters::RegistrationErrorHere> registrationErrors(scen
   value.meshes.clear();
   for (const scene::LabelPart& part : labels)
   {
-    if (!isErrorKnown(value, scene::placementOf(value, part).drawnOn))
+    if (!isErrorKnown(value, part))
       continue;
     value.labels = {part};
     try
@@ -241,6 +254,19 @@ void addPlace(json& part, const scene::Placement& place)
     part["placed_reason"] = place.missing;
 }
 
+// Only for what was made from an MR.
+void addReadings(json& part, const scene::Case& value, const scene::MrReadings& readings)
+{
+  if (readings.empty())
+    return;
+  for (const scene::MrReading& reading : readings)
+    part["made_from"].push_back({{"mr", reading.mr},
+                                 {"transform", transformJson(reading.mrFromCt)},
+                                 {"current", scene::isCurrent(value, reading)}});
+  if (const std::string why = scene::outdatedReading(value, readings); !why.empty())
+    part["registration_error_reason"] = why;
+}
+
 // Without a place it holds at the structure itself.
 void addRegistrationError(json& part, const CaseFacts& facts, const std::string& name)
 {
@@ -340,6 +366,7 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
                          {{"assumed_axes", axesJson(part.provenance.assumedRas)},
                           {"frame_assumed", part.provenance.isFrameAssumed}}}});
       addPlace(labels.back(), place);
+      addReadings(labels.back(), value, s.readings);
       addRegistrationError(labels.back(), facts, s.name);
     }
   }

@@ -15,6 +15,15 @@ std::string placeText(const scene::Case& value, const scene::Placement& placemen
   return placement.drawnOn.empty() ? "" : ", drawn on the MR '" + placement.drawnOn + "'";
 }
 
+std::string madeText(const scene::Case& value, const scene::MrReadings& readings)
+{
+  if (readings.empty())
+    return {};
+  const std::string outdated = scene::outdatedReading(value, readings);
+  return ", made from the MR " + scene::namesOf(readings) + (outdated.empty() ? "" : "; ") +
+         outdated;
+}
+
 void warnOfEar(const Context& context, const scene::Case& value, scene::Side ear)
 {
   if (const std::string doubt = presenters::earDoubt(value, ear); !doubt.empty())
@@ -59,6 +68,14 @@ void warnMissingPlaces(const Context& context, const scene::Case& value)
   const std::string primary = presenters::primaryName(value);
   for (const auto& [name, why] : missingPlaces(value))
     context.warn("'" + name + "' is left out, as it is nowhere on the " + primary + ": " + why);
+}
+
+void warnOutdated(const Context& context, const scene::Case& value)
+{
+  for (const scene::LabelPart& part : value.labels)
+    for (const scene::StructurePart& structure : part.structures)
+      if (const std::string why = scene::outdatedReading(value, structure.readings); !why.empty())
+        context.warn("'" + structure.name + "' stays where it was made: " + why);
 }
 
 void warnOfSoftTissue(const Context& context, const scene::Case& value)

@@ -13,6 +13,13 @@ namespace petrous::cli
 /// patient space.
 std::string placeText(const scene::Case& value, const scene::Placement& placement);
 
+/// ", made from the MR 'T2'", and why its error is not known if the MR lies elsewhere since; empty
+/// if it was made from none.
+std::string madeText(const scene::Case& value, const scene::MrReadings& readings);
+
+/// Warns of structures made from an MR that lies elsewhere since (scene::outdatedReading).
+void warnOutdated(const Context& context, const scene::Case& value);
+
 /// Warns of parts that cannot be placed on the CT and are therefore ignored.
 void warnMissingPlaces(const Context& context, const scene::Case& value);
 

@@ -10,10 +10,6 @@
 namespace petrous::cli
 {
 
-namespace
-{
-
-// "TEXT:0.1 to 20 mm" is a type and what its checks say of it.
 std::pair<std::string, std::string> typeAndRange(const CLI::Option& option)
 {
   const std::string both = option.get_type_name();
@@ -25,6 +21,9 @@ std::pair<std::string, std::string> typeAndRange(const CLI::Option& option)
     type = word->second;
   return {type, colon == std::string::npos ? "" : both.substr(colon + 1)};
 }
+
+namespace
+{
 
 std::vector<std::string> choicesOf(CLI::Option& option)
 {

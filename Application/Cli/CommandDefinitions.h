@@ -1,12 +1,14 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CLI
 {
 class App;
-}
+class Option;
+} // namespace CLI
 
 namespace petrous::cli
 {
@@ -34,6 +36,9 @@ struct CommandDefinition
   std::vector<Argument> positionals;
   std::vector<Argument> options;
 };
+
+/// What an option takes, and the range that its checks state ("TEXT:0.1 to 20 mm" of the parser).
+std::pair<std::string, std::string> typeAndRange(const CLI::Option& option);
 
 CommandDefinition definitionOf(const CLI::App& app);
 

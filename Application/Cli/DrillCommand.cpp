@@ -91,6 +91,7 @@ presenters::LeftOut openCase(const Context& context, library::Library& library,
   library.checkVoxels(value, progress);
   auto leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
   warnMissingPlaces(context, value);
+  warnOutdated(context, value);
   return leftOut;
 }
 

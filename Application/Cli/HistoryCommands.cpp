@@ -299,6 +299,7 @@ void branch(const Context& context, const BranchOptions& options)
     library.loadDissection(value);
     const auto leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
     warnMissingPlaces(context, value);
+    warnOutdated(context, value);
     return compare(context, value, options, leftOut);
   }
   const std::string done = change(value, options);

@@ -382,6 +382,7 @@ void measure(Context& context, const Options& options)
   {
     library.loadDissection(value);
     warnMissingPlaces(context, value);
+    warnOutdated(context, value);
     answer.more["without_place"] = missingPlacesJson(value);
     nlohmann::json all = nlohmann::json::array();
     for (const presenters::DissectionDistance& one :

@@ -67,6 +67,7 @@ void probe(Context& context, const std::string& name, const std::string& pointsF
   library.loadDissection(value);
   const presenters::LeftOut leftOut = leaveOutDamaged(context, library, value, withoutDamaged);
   warnMissingPlaces(context, value);
+  warnOutdated(context, value);
   const core::Progress progress = context.progress();
   const volume::TissueField field = scene::regionalTissueField(value, progress.part(0.0, 0.2));
   std::vector<const scene::LabelPart*> parts;

@@ -4,12 +4,14 @@
 #include <cctype>
 #include <csignal>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <sstream>
 
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "CommandDefinitions.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Core/FileSizeLimit.h"
 #include "petrous/Core/Log.h"
@@ -168,6 +170,25 @@ std::string negationWithValue(const CLI::App& command, const std::vector<std::st
   return {};
 }
 
+// A flag and the one that switches it off: the parser would take the last, or neither.
+std::string contradiction(const CLI::App& command, const std::vector<std::string>& words)
+{
+  const auto end = std::find(words.begin(), words.end(), "--");
+  for (auto word = words.begin(); word != end; ++word)
+  {
+    const std::string off = word->substr(0, word->find('='));
+    if (off.compare(0, 5, "--no-") != 0)
+      continue;
+    const std::string on = "--" + off.substr(5);
+    const bool isGiven = std::any_of(words.begin(), end,
+                                     [&on](const std::string& other)
+                                     { return other.substr(0, other.find('=')) == on; });
+    if (isGiven && command.get_option_no_throw(on) && command.get_option_no_throw(off))
+      return on + " and " + off;
+  }
+  return {};
+}
+
 // Empty list items are dropped by the parser before they can be checked.
 std::string listWithGap(CLI::App& command, const std::vector<std::string>& words)
 {
@@ -192,6 +213,30 @@ std::string listWithGap(CLI::App& command, const std::vector<std::string>& words
   return {};
 }
 
+// As the parser's own, but for "--shadows,--no-shadows{false}" and "FLOAT:0 to 1".
+class HelpFormatter : public CLI::Formatter
+{
+public:
+  std::string make_option_name(const CLI::Option* option, bool isPositional) const override
+  {
+    std::string names = CLI::Formatter::make_option_name(option, isPositional);
+    for (auto brace = names.find('{'); brace != names.npos; brace = names.find('{'))
+      names.erase(brace, names.find('}', brace) - brace + 1);
+    return names;
+  }
+
+  std::string make_option_opts(const CLI::Option* option) const override
+  {
+    std::string text = CLI::Formatter::make_option_opts(option);
+    const std::string both = option->get_type_name();
+    const auto at = both.empty() ? text.npos : text.find(both);
+    if (at == text.npos)
+      return text;
+    const auto [type, range] = typeAndRange(*option);
+    return text.replace(at, both.size(), type + (range.empty() ? "" : " (" + range + ")"));
+  }
+};
+
 int parsed(const Program& program, std::vector<std::string> words, Context& context)
 {
   const std::string help = "; see '" + program.name + " --help'";
@@ -210,6 +255,8 @@ int parsed(const Program& program, std::vector<std::string> words, Context& cont
       throw UsageError(option + ": a value of its list is empty; give one, or leave it out");
     if (const std::string option = negationWithValue(command, words); !option.empty())
       throw UsageError(option + " takes no value" + help);
+    if (const std::string both = contradiction(command, words); !both.empty())
+      throw UsageError(both + " contradict each other; give one of them" + help);
   }
   refuseEmptyValues(app);
   // CLI11 takes no more words of a list after "--" that has some already.
@@ -246,6 +293,7 @@ void define(CLI::App& app, const Program& program, Context& context)
 {
   app.name(program.name);
   app.description(program.text);
+  app.formatter(std::make_shared<HelpFormatter>()); // commands have it of it
   app.set_version_flag("--version", program.name + " " PETROUS_VERSION);
   app.require_subcommand(1);
   app.footer("'" + program.name + " help COMMAND' shows the help of a command.\n" + kExitCodes);

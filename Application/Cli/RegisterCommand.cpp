@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "CaseJson.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
 #include "Context.h"
 #include "Numbers.h"
@@ -115,6 +116,9 @@ void setStart(const Options& options, presenters::RegistrationRequest& request)
       throw UsageError("register: --init and --transform both say where to begin; give one");
     request.from = From::Given;
     request.given = readTransform(options.transform);
+    request.givenBy.emplace();
+    request.givenBy->method = scene::Registration::Method::ByHand;
+    request.givenBy->isFromFile = true;
     return;
   }
   const std::string how = options.init.empty() ? "header" : options.init.front();
@@ -235,6 +239,7 @@ void printOutcome(const Context& context, const scene::Case& value, const Option
                   fixed(outcome.estimateSeconds, 1) + " s for the error");
   if (const auto names = scene::drawnOnMr(value, options.mr); !names.empty())
     context.print("  now on the CT: " + scene::listed(names));
+  warnOutdated(context, value);
   context.print(wasSigned ? "  the sign-off of the registration before is void"
                           : "  not signed off: look at it, then register --sign-off NAME");
 }

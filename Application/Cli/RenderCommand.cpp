@@ -256,7 +256,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
   addLightOptions(command, options.light, " (as saved)");
   command.add_flag("--soft-tissue,!--no-soft-tissue", options.softTissue,
                    "Draw what is neither bone nor a structure (as saved); --soft-tissue=PRESET: by "
-                   "this preset (soft-tissue, skin)");
+                   "this preset (soft-tissue, skin; others are made for structures)");
   command
       .add_option("--thickness", options.thickness,
                   "Colour bone by its thickness over a structure, 0 to 5 mm")
@@ -595,6 +595,7 @@ void render(const Context& context, RenderOptions options)
   const presenters::LeftOut leftOut =
       leaveOutDamaged(context, library, value, options.withoutDamaged);
   warnMissingPlaces(context, value);
+  warnOutdated(context, value);
   if (value.softTissue.shown)
     warnOfSoftTissue(context, value);
   warnOfMrs(context, value);

@@ -103,6 +103,7 @@ void report(Context& context, const Options& options)
   const presenters::LeftOut leftOut =
       leaveOutDamaged(context, library, value, options.withoutDamaged);
   warnMissingPlaces(context, value);
+  warnOutdated(context, value);
   const presenters::IdentityText identity(value, library);
   presenters::ReportOptions wanted;
   wanted.approach = options.approach;

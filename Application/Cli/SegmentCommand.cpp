@@ -259,6 +259,8 @@ void segment(Context& context, const SegmentOptions& options)
   presenters::addStructures(value, segmentation::labelMapOf(mask, {options.name, 1, {}, 0}));
   if (replaced)
     presenters::keepIdentity(*scene::findStructure(value, options.name), *replaced);
+  if (&source != &value.ct)
+    scene::findStructure(value, options.name)->readings = {scene::readingOf(source)};
   context.refuseDamaged();
   library.save(value, progress.part(0.9, 1.0));
   const scene::StructurePart& structure = *scene::findStructure(value, options.name);
@@ -269,6 +271,10 @@ void segment(Context& context, const SegmentOptions& options)
                 fixed(mask.volume(), 1) + " mm3, " + structure.look.preset);
   for (const std::string& line : made.lines)
     context.print(line);
+  if (!structure.readings.empty())
+    context.print("  made from the MR " + scene::namesOf(structure.readings) +
+                  ": it has the error of its registration, and stays where it is if that MR is "
+                  "moved");
   nlohmann::json result = {{"case", value.name},          {"label", options.name},
                            {"index", structure.index},    {"voxels", mask.count},
                            {"volume_mm3", mask.volume()}, {"source", options.source},

@@ -167,6 +167,35 @@ TEST(Uncertainty, OfAnAngleHasTheTurnOfWhatMovesTogether)
   EXPECT_NEAR(turnedAbout(other, Vector3d(0.1, 0.0, 0.0)), turn, 0.02 * turn);
 }
 
+// Its voxels are on the CT's grid, and yet it lies as well as the MR that it was made from.
+TEST(Between, CountsTheRegistrationOfWhatWasMadeFromAnMrUntilThatIsMoved)
+{
+  scene::Case value = twoBallsAndATube();
+  addT2(value);
+  value.mr[0].registered = true;
+  const double alone = distanceBetween(value, "left", "right").distance.uncertainty.value_or(0.0);
+  ASSERT_GT(alone, 0.0);
+  scene::findStructure(value, "left")->readings = {scene::readingOf(value.mr[0])};
+  const Between made = distanceBetween(value, "left", "right");
+  ASSERT_TRUE(made.distance.uncertainty);
+  EXPECT_NEAR(*made.distance.uncertainty, std::hypot(alone, 1.5), 1e-6);
+  EXPECT_NE(made.distance.remark.find("made from the MR 'T2'"), std::string::npos);
+  // In itself it is as large as it is.
+  EXPECT_TRUE(named(dimensionsOf(value, "left"), "longest extent").uncertainty);
+  value.mr[0].mrFromCt = core::RigidTransform(Eigen::Quaterniond::Identity(), {10.0, 0.0, 0.0});
+  const Between moved = distanceBetween(value, "left", "right");
+  EXPECT_EQ(moved.distance.value, made.distance.value) << "it stays where it is";
+  EXPECT_FALSE(moved.distance.uncertainty);
+  EXPECT_NE(moved.distance.remark.find("lies elsewhere since"), std::string::npos)
+      << moved.distance.remark;
+  scene::Measurement kept;
+  kept.kind = Kind::Distance;
+  kept.name = "kept";
+  kept.points = {moved.from, moved.to};
+  scene::setImages(kept, {moved.images[0], moved.images[1]});
+  EXPECT_FALSE(quantitiesOf(value, kept)[0].uncertainty);
+}
+
 // A canal 20 mm long that may be turned about its end next to the mark: its greatest error is that
 // at the other end, in the number as in the remark.
 TEST(Between, CountsTheErrorOfAStructureThatItStates)

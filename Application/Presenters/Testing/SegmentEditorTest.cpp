@@ -611,6 +611,38 @@ TEST_F(SegmentEditorTest, WhatComesBackLiesOnTheMrThatItWasDrawnOn)
   EXPECT_EQ(model.value().labels.front().drawnOn, "T2 axial");
 }
 
+TEST_F(SegmentEditorTest, WhatIsMadeFromAnMrKeepsWhichAndWhereItLay)
+{
+  scene::Case value = ballCase();
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  mr.registered = true;
+  mr.mrFromCt = core::RigidTransform(Eigen::Quaterniond::Identity(), Vector3d(2.0, 0, 0));
+  value.mr.push_back(mr);
+  model.adopt(std::move(value));
+  editor.caseChanged();
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  editor.setName("of CT");
+  editor.create();
+  EXPECT_TRUE(scene::findStructure(model.value(), "of CT")->readings.empty());
+
+  ShownImages shown;
+  shown.mr = "T2";
+  editor.setShown(shown);
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  editor.setName("of T2");
+  editor.create();
+  const auto readings = [this] { return scene::findStructure(model.value(), "of T2")->readings; };
+  ASSERT_EQ(readings().size(), 1U);
+  EXPECT_EQ(scene::outdatedReading(model.value(), readings()), "");
+  model.removePart("T2");
+  EXPECT_NE(scene::outdatedReading(model.value(), readings()), "");
+  model.restorePart();
+  EXPECT_EQ(scene::outdatedReading(model.value(), readings()), "");
+}
+
 TEST_F(SegmentEditorTest, ACreatedStructureIsUndoneAndRedone)
 {
   open();

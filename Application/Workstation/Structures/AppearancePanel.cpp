@@ -264,10 +264,10 @@ void AppearancePanel::addSurfaceRow(QBoxLayout& layout)
   const auto tell = [number](int percent) { number->setText(tr("%1 %").arg(percent)); };
   tell(m_surface->value());
   connect(m_surface, &QSlider::valueChanged, number, tell);
-  auto* label = new QLabel(tr("Sur&face"));
-  label->setBuddy(m_surface);
+  m_surfaceLabel = new QLabel(tr("Sur&face"));
+  m_surfaceLabel->setBuddy(m_surface);
   auto* row = new QHBoxLayout;
-  row->addWidget(label);
+  row->addWidget(m_surfaceLabel);
   row->addWidget(m_surface, 1);
   row->addWidget(number);
   layout.addLayout(row);
@@ -402,6 +402,12 @@ void AppearancePanel::showPoint()
   m_add->setEnabled(part && !isDrilling);
   m_color->setEnabled(part && !isDrilling);
   m_surface->setEnabled(part && !isDrilling);
+  const bool hasSurface = !part || part->name != AppearanceEditor::kSoftTissue;
+  m_surfaceLabel->setText(hasSurface ? tr("Sur&face") : tr("O&pacity"));
+  m_surface->setAccessibleName(hasSurface ? tr("Opacity of the surface") : tr("Opacity"));
+  m_surface->setToolTip(hasSurface ? tr("Of the surface. Below 100 % the inside is seen, with the "
+                                        "opacities of the points")
+                                   : tr("Factor of the opacities of all points"));
   m_pointName->setText(!part   ? QString()
                        : point ? tr("Point %1 of %2").arg(*point + 1).arg(part->points.size())
                        : part->points.empty() ? tr("One colour at every intensity")

@@ -79,6 +79,7 @@ private:
   QPushButton* m_add;
   QPushButton* m_remove;
   QSlider* m_surface;
+  QLabel* m_surfaceLabel;
   QString m_fault;                                  // of the last action
   std::pair<std::uint64_t, std::string> m_followed; // case (shownAs) and part last selected there
   std::optional<std::string> m_wanted;              // likewise, until the panel shows it

@@ -395,7 +395,8 @@ void StructuresModel::appearanceChanged()
     next[n].near = m_rows[n].near;
     if (!(next[n].row.look == m_rows[n].row.look) || next[n].volume != m_rows[n].volume ||
         next[n].isBeingMeasured != m_rows[n].isBeingMeasured ||
-        next[n].row.missing != m_rows[n].row.missing || next[n].notDrawn != m_rows[n].notDrawn)
+        next[n].row.missing != m_rows[n].row.missing ||
+        next[n].row.outdated != m_rows[n].row.outdated || next[n].notDrawn != m_rows[n].notDrawn)
       changed.push_back(next[n].row.part);
   }
   m_rows = std::move(next);
@@ -479,6 +480,8 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
       const QString name = title(row.row);
       if (!row.notDrawn.empty())
         return tr("%1 (not drawn)").arg(name);
+      if (!row.row.outdated.empty())
+        return tr("%1 (MR moved since)").arg(name);
       return row.row.missing.empty() ? name : tr("%1 (not on the %2)").arg(name, primary());
     }
     if (role == Qt::DecorationRole)
@@ -490,6 +493,9 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
     if (role == Qt::ToolTipRole && !row.row.missing.empty())
       return tr("%1 is nowhere on the %2, and neither drawn nor felt nor warned of: %3")
           .arg(words(row.row.part), primary(), phrase(row.row.missing));
+    if (role == Qt::ToolTipRole && !row.row.outdated.empty())
+      return tr("%1 stays where it was made: %2")
+          .arg(words(row.row.part), phrase(row.row.outdated));
     if (role == Qt::ToolTipRole && row.row.kind == StructureKind::Bone)
       return tr("The %1 itself, where no structure is").arg(primary());
     if (role == Qt::ToolTipRole && row.row.kind == StructureKind::SoftTissue)

@@ -497,6 +497,8 @@ void MainWindow::connectModel()
     m_registration->mrMoved();
     m_segment->mrMoved();
     m_measure->partsChanged();
+    for (const auto& [entry, panel] : m_panels) // of what was made from it the error is not known
+      panel->appearanceChanged();
   };
   m_model.events.savedViewsChanged = [this] { m_viewState->savedViewsChanged(); };
   m_model.events.measurementsChanged = [this] { m_measure->measurementsChanged(); };

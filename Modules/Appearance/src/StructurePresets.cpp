@@ -404,6 +404,7 @@ void readPrimaryImage(StructureAppearance& softTissue)
   const StructureAppearance usual = softTissueLook();
   softTissue.sourceImage.clear();
   softTissue.preset = usual.preset;
+  softTissue.color = usual.color;
   softTissue.transfer = usual.transfer;
   softTissue.relative = usual.relative;
 }

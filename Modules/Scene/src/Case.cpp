@@ -223,6 +223,10 @@ void removePart(Case& value, const std::string& name)
     checkNothingHangsOn(value, name);
     removeNamed(value.mr);
     readCtInsteadOf(value, name);
+    for (LabelPart& part : value.labels)
+      for (StructurePart& structure : part.structures)
+        for (MrReading& reading : structure.readings)
+          reading.isGone = reading.isGone || reading.mr == name;
     if (auto& slices = value.view.slices; slices && slices->overlay && slices->overlay->mr == name)
       slices->overlay.reset();
     return;

@@ -116,7 +116,16 @@ void forgetGoneNames(Case& value)
     }
   }
   for (LabelPart& part : value.labels)
+  {
     clean(part.notes);
+    for (StructurePart& structure : part.structures)
+      for (MrReading& reading : structure.readings)
+        if (reading.isGone || !findMr(value, reading.mr))
+        {
+          reading.mr = kRemovedImage;
+          reading.isGone = true;
+        }
+  }
   for (MeshPart& mesh : value.meshes)
     clean(mesh.notes);
 }

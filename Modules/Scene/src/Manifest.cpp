@@ -163,6 +163,8 @@ json registrationOut(const Registration& registration)
          {"refined", registration.refined},
          {"verdict", nameOf(registration.verdict)},
          {"text", registration.text}};
+  if (registration.isFromFile)
+    j["from_file"] = true;
   if (registration.metric)
     j["metric_nats"] = *registration.metric;
   if (registration.error)
@@ -178,6 +180,7 @@ Registration registrationIn(const json& j)
 {
   Registration registration;
   registration.method = methodFromName(j.at("method").get<std::string>());
+  registration.isFromFile = j.value("from_file", false);
   registration.refined = j.at("refined").get<bool>();
   registration.verdict = verdictFromName(j.at("verdict").get<std::string>());
   registration.text = plainIn(j.at("text"));
@@ -205,8 +208,9 @@ constexpr int kFormatWithoutVideoNotes = 7;
 constexpr const char* kPlanes[] = {"axial", "coronal", "sagittal"};
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
 constexpr const char* kPatient = "patient_salted_sha256";
-constexpr const char* kSalt = "salt_id";      // absent: of a salt that has none, or no hashes
-constexpr const char* kModality = "modality"; // "CT" or "MR"; absent: not known
+constexpr const char* kSalt = "salt_id";       // absent: of a salt that has none, or no hashes
+constexpr const char* kMadeFrom = "made_from"; // absent: from no MR, or by older programs
+constexpr const char* kModality = "modality";  // "CT" or "MR"; absent: not known
 constexpr const char* kUnsaltedFrame = "frame_of_reference_sha256"; // written by older programs
 
 json gridOut(const core::GridGeometry& grid)
@@ -422,6 +426,28 @@ volume::SegmentCodes codesIn(const json& j)
   return codes;
 }
 
+json readingsOut(const MrReadings& readings)
+{
+  json all = json::array();
+  for (const MrReading& one : readings)
+  {
+    all.push_back({{"mr", one.mr}, {"mr_from_ct", poseOut(one.mrFromCt)}});
+    if (one.isGone)
+      all.back()["gone"] = true;
+  }
+  return all;
+}
+
+MrReadings readingsIn(const json& j)
+{
+  MrReadings readings;
+  if (j.contains(kMadeFrom))
+    for (const json& one : j.at(kMadeFrom).get_ref<const json::array_t&>())
+      readings.push_back(
+          {plainIn(one.at("mr")), poseIn(one.at("mr_from_ct")), one.value("gone", false)});
+  return readings;
+}
+
 json labelsOut(const LabelPart& part)
 {
   json structures = json::array();
@@ -434,6 +460,8 @@ json labelsOut(const LabelPart& part)
                           {"look", appearance::appearanceJson(s.look)}});
     if (!s.codes.empty())
       structures.back()["codes"] = codesOut(s.codes);
+    if (!s.readings.empty())
+      structures.back()[kMadeFrom] = readingsOut(s.readings);
   }
   json j{{"object", part.object}, {"structures", structures}};
   if (part.drawnOn)
@@ -465,7 +493,7 @@ LabelPart labelsIn(const json& j, const appearance::StructurePresets& presets)
         {s.at("name").get<std::string>(), integerIn<std::uint16_t>(s.at("index")),
          integerIn<std::uint64_t>(s.at("voxels")), s.at("volume_mm3").get<double>(),
          lookIn(s.at("look"), presets),
-         s.contains("codes") ? codesIn(s.at("codes")) : volume::SegmentCodes()});
+         s.contains("codes") ? codesIn(s.at("codes")) : volume::SegmentCodes(), readingsIn(s)});
   return part;
 }
 

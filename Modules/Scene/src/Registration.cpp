@@ -67,7 +67,9 @@ Verdict verdictFromName(const std::string& name)
 std::string methodToString(const Registration& registration)
 {
   const bool hand = registration.method == Registration::Method::ByHand;
-  std::string words = hand ? "hand" : nameOf(registration.method);
+  std::string words = !hand                     ? nameOf(registration.method)
+                      : registration.isFromFile ? "the transform of a file"
+                                                : "hand";
   if (registration.refined)
     words += ", refined by mutual information";
   if (!registration.through.empty())

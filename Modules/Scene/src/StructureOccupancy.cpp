@@ -69,7 +69,8 @@ std::vector<StructureOccupancy> structureOccupancies(const Case& value)
         occupancies.push_back({structure.name, placement.drawnOn, grid, grownGrid(grid, boxes[n]),
                                [labels, index, box = boxes[n], derived = value.derived,
                                 key = keyOf(value, part, index)]
-                               { return keptOrMade(*labels, index, box, derived.get(), key); }});
+                               { return keptOrMade(*labels, index, box, derived.get(), key); },
+                               structure.readings});
       }
   }
   for (const MeshPart& mesh : value.meshes)

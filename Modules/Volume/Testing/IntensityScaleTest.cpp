@@ -245,3 +245,38 @@ TEST(IntensityScale, PartsThePatientFromAirInAnyMrContrast)
       EXPECT_GT(scale.dense, scale.iso) << head.sequence;
     }
 }
+
+// Few very bright voxels take two of Otsu's three classes, and muscle is in that of air.
+TEST(MrScale, BeginsBelowTheDarkestTissueWhateverIsBright)
+{
+  Random random(5);
+  for (const double gain : {0.02, 1.0, 30.0})
+  {
+    const double noise = 12.0;
+    const auto empty = drawMagnitude({{0.5, 0, 0}}, noise, random);
+    const auto muscle = drawMagnitude({{0.35, 150, 190}}, noise, random);
+    const auto bright = drawMagnitude({{0.08, 700, 900}, {0.07, 1500, 1700}}, noise, random);
+    std::vector<float> values;
+    for (const auto* part : {&empty, &muscle, &bright})
+      for (const double value : *part)
+        values.push_back(static_cast<float>(gain * value));
+    const core::GridGeometry grid({static_cast<int>(values.size()), 1, 1}, Eigen::Vector3d::Ones(),
+                                  Eigen::Vector3d::Zero());
+    auto v = std::make_shared<volume::Volume<float>>(grid);
+    std::copy(values.begin(), values.end(), v->data());
+    const IntensityHistogram histogram{
+        volume::IntensityVolume(std::shared_ptr<const volume::Volume<float>>(v))};
+    const auto above = [gain](const std::vector<double>& part, double limit)
+    {
+      return static_cast<double>(std::count_if(
+                 part.begin(), part.end(), [&](double value) { return gain * value >= limit; })) /
+             static_cast<double>(part.size());
+    };
+    for (const double limit :
+         {volume::mrNoiseCeiling(histogram), volume::suggestMrScale(histogram).iso})
+    {
+      EXPECT_LT(above(empty, limit), 0.005) << "gain " << gain << ", from " << limit;
+      EXPECT_GT(above(muscle, limit), 0.98) << "gain " << gain << ", from " << limit;
+    }
+  }
+}

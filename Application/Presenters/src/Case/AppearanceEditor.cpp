@@ -75,10 +75,29 @@ void checkValues(const scene::Case& value, const StructureAppearance& look,
                                "; choose another image to be read first");
 }
 
+// The mean of its points, by their opacities.
+std::array<float, 3> colorOf(const TransferFunction& function)
+{
+  std::array<float, 3> sum{};
+  float weight = 0.0F;
+  for (const ControlPoint& point : function.points())
+  {
+    weight += point.opacity;
+    for (std::size_t c = 0; c < 3; ++c)
+      sum[c] += point.opacity * point.color[c];
+  }
+  for (float& channel : sum)
+    channel /= std::max(weight, 1e-6F);
+  return sum;
+}
+
 StructureAppearance withFunctionOfMr(StructureAppearance look,
                                      const volume::IntensityHistogram& histogram)
 {
-  look.transfer = appearance::softTissueOfMr(volume::suggestMrScale(histogram));
+  volume::IntensityScale scale = volume::suggestMrScale(histogram);
+  scale.iso = volume::mrNoiseCeiling(histogram);
+  look.transfer = appearance::softTissueOfMr(scale);
+  look.color = colorOf(*look.transfer);
   look.relative = false;
   return look;
 }

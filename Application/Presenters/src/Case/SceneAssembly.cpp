@@ -68,6 +68,16 @@ SoftTissue softTissueOf(const scene::Case& value)
     return {{}, "'" + look.sourceImage + "' is not registered with the CT"};
   auto material = softTissueMaterial(look, softTissueScale(value));
   std::string why = material ? "" : "it is transparent at every intensity";
+  if (material && look.sourceImage.empty())
+  {
+    const auto& points = material->transfer.points();
+    const auto seen = std::find_if(points.begin(), points.end(),
+                                   [](const auto& point) { return point.opacity > 0.0F; });
+    if (seen != points.end() && seen->value >= value.iso)
+      return {{},
+              "its values begin where soft tissue ends, at the surface threshold; it is a function "
+              "of bone"};
+  }
   return {std::move(material), std::move(why)};
 }
 

@@ -356,6 +356,10 @@ void WorkstationModel::bringBack(std::uint64_t removal)
   if (removed.mr)
   {
     putBack(m_case->mr, *removed.mr);
+    for (scene::LabelPart& part : m_case->labels)
+      for (scene::StructurePart& structure : part.structures)
+        for (scene::MrReading& reading : structure.readings)
+          reading.isGone = reading.isGone && reading.mr != removed.name;
     forEachLook(*m_case,
                 [&](const std::string& part, appearance::StructureAppearance& look)
                 {
@@ -367,6 +371,7 @@ void WorkstationModel::bringBack(std::uint64_t removal)
                     if (part != scene::kSoftTissue)
                       continue;
                     look.preset = reader.look.preset;
+                    look.color = reader.look.color;
                     look.transfer = reader.look.transfer;
                     look.relative = reader.look.relative;
                   }
@@ -450,9 +455,19 @@ void WorkstationModel::rename(const std::string& name, const std::string& to)
       if (mr.registration)
         follow(mr.registration->through);
     }
+    const auto followReadings = [&follow](scene::LabelPart& part)
+    {
+      for (scene::StructurePart& structure : part.structures)
+        for (scene::MrReading& reading : structure.readings)
+          if (!reading.isGone)
+            follow(reading.mr);
+    };
     for (scene::LabelPart& part : m_case->labels)
+    {
       if (part.drawnOn)
         follow(*part.drawnOn);
+      followReadings(part);
+    }
     for (scene::MeshPart& mesh : m_case->meshes)
       follow(mesh.drawnOn);
     for (scene::Measurement& measurement : m_case->measurements)
@@ -474,6 +489,7 @@ void WorkstationModel::rename(const std::string& name, const std::string& to)
       {
         if (removed.labels->part.drawnOn)
           follow(*removed.labels->part.drawnOn);
+        followReadings(removed.labels->part);
         for (scene::StructurePart& structure : removed.labels->part.structures)
           follow(structure.look.sourceImage);
       }
@@ -573,7 +589,8 @@ void WorkstationModel::labelsChanged()
 }
 
 std::optional<scene::LabelPart> WorkstationModel::addStructure(volume::LabelMap labels,
-                                                               const std::string& replaced)
+                                                               const std::string& replaced,
+                                                               const scene::MrReadings& readings)
 {
   if (!m_case)
     return std::nullopt;
@@ -590,6 +607,8 @@ std::optional<scene::LabelPart> WorkstationModel::addStructure(volume::LabelMap 
     m_leftOut = leftOut;
     throw;
   }
+  for (scene::StructurePart& structure : m_case->labels.back().structures)
+    structure.readings = readings;
   if (taken)
   {
     scene::LabelPart& added = m_case->labels.back();

@@ -170,6 +170,17 @@ std::vector<scene::Placement> drawnOnMrs(const scene::Case& value)
   return placements;
 }
 
+bool isMadeFromMr(const scene::Case& value)
+{
+  return std::any_of(value.labels.begin(), value.labels.end(),
+                     [](const scene::LabelPart& part)
+                     {
+                       return std::any_of(part.structures.begin(), part.structures.end(),
+                                          [](const scene::StructurePart& structure)
+                                          { return !structure.readings.empty(); });
+                     });
+}
+
 bool same(const std::vector<scene::Placement>& a, const std::vector<scene::Placement>& b)
 {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -220,11 +231,12 @@ void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change,
   if (!m_case || drilling())
     return;
   const auto before = drawnOnMrs(*m_case);
+  const bool wasMade = isMadeFromMr(*m_case);
   const auto places = scene::mrPlaces(*m_case);
   bool tissueMoved = false;
   const auto follow = [&]
   {
-    if (!before.empty())
+    if (!before.empty() || wasMade)
       m_nearby.reset(); // its uncertainties depend on the registrations
     if (same(before, drawnOnMrs(*m_case)))
       return;

@@ -38,8 +38,8 @@ std::vector<StructureRow> structureRows(const scene::Case& value)
   {
     const std::string missing = scene::placementOf(value, part).missing;
     for (const auto& structure : part.structures)
-      rows.push_back(
-          {structure.name, kindOf(structure.look), structure.volume, structure.look, missing});
+      rows.push_back({structure.name, kindOf(structure.look), structure.volume, structure.look,
+                      missing, scene::outdatedReading(value, structure.readings)});
   }
   for (const auto& mesh : value.meshes)
     if (!scene::findStructure(value, mesh.name))

@@ -202,6 +202,8 @@ SurfaceShare shareOf(const SurfaceUncertainty& uncertainty, bool comparesImages)
   {
     own.registration.reset();
     own.drawnOn.clear();
+    own.madeFrom.clear();
+    own.outdated.clear();
   }
   return {own.incomplete() ? std::nullopt : std::optional<double>(own.millimetres()),
           toString(own)};
@@ -293,16 +295,20 @@ std::string safeForSpreadsheets(const std::string& text)
                                                                                         : text;
 }
 
-// The MR on which a structure or mesh was drawn; empty: the CT, or there is none of that name.
-std::string mrOf(const scene::Case& value, const std::string& structure)
+// "which was drawn on the MR 'T2'", "which was made from the MR 'T2'", of a structure or mesh;
+// empty: neither, or there is none of that name.
+std::string onMr(const scene::Case& value, const std::string& structure)
 {
+  const auto drawnOn = [](const std::string& mr)
+  { return mr.empty() ? std::string() : "which was drawn on the MR '" + mr + "'"; };
   for (const scene::LabelPart& part : value.labels)
     for (const scene::StructurePart& one : part.structures)
       if (one.name == structure)
-        return part.drawnOn.value_or(std::string());
+        return one.readings.empty() ? drawnOn(part.drawnOn.value_or(std::string()))
+                                    : "which was made from the MR " + namesOf(one.readings);
   for (const scene::MeshPart& mesh : value.meshes)
     if (mesh.name == structure)
-      return mesh.drawnOn;
+      return drawnOn(mesh.drawnOn);
   return {};
 }
 
@@ -394,13 +400,12 @@ std::vector<Quantity> quantitiesOf(const scene::Case& value, const Measurement& 
                         main.remark});
   // What was drawn on an MR lies as well as that is registered, which the image's voxels do not
   // say.
-  const std::string mr =
-      measurement.structureGone ? std::string() : mrOf(value, measurement.structure);
-  const bool isKnown = mr.empty() && !measurement.structureGone;
+  const std::string of =
+      measurement.structureGone ? std::string() : onMr(value, measurement.structure);
+  const bool isKnown = of.empty() && !measurement.structureGone;
   if (!isKnown)
     main.uncertainty.reset();
-  if (!mr.empty())
-    main.remark = joined({main.remark, "which was drawn on the MR '" + mr + "'"});
+  main.remark = joined({main.remark, of});
   std::vector<Quantity> both{main};
   if (measurement.points.size() == 3)
   {
@@ -549,10 +554,12 @@ Between distanceBetween(const scene::Case& value, const std::string& a, const st
   {
     std::optional<Vector3d> mark;
     std::string image;
+    std::string keptImage; // of the end, as a measurement
     std::shared_ptr<const volume::Volume<float>> occupancy;
     std::optional<double> share; // mm
     std::optional<RegistrationErrorHere> registration;
     std::string text;
+    bool isMade = false; // from an MR, maybe not from it alone
   };
   const auto sideOf = [&](const std::string& name, const core::Progress& part)
   {
@@ -564,19 +571,23 @@ Between distanceBetween(const scene::Case& value, const std::string& a, const st
     if (mark != value.measurements.end() && !kind)
     {
       side.mark = mark->points.front();
-      side.image = mark->image;
+      side.image = side.keptImage = mark->image;
       side.registration =
           registrationErrorIn(value, side.image, core::PatientBox(mark->points.front()));
       return side;
     }
     const scene::StructureOccupancy known = namedOccupancy(value, name, "distance", part);
-    side.image = known.mr;
+    side.image = side.keptImage = known.mr;
     side.occupancy = known.make();
     if (!side.occupancy)
       throw core::InvalidParameter("distance: '" + name + "' encloses nothing");
     const SurfaceUncertainty uncertainty = uncertaintyOf(value, known);
     side.share = shareOf(uncertainty, false).millimetres;
     side.registration = uncertainty.registration;
+    side.isMade = !uncertainty.madeFrom.empty();
+    if (side.isMade) // an image that is not in the case has no known error
+      side.keptImage =
+          known.readings.front().mr + (uncertainty.outdated.empty() ? "" : " as it lay before");
     side.text = "'" + name + "': " + toString(uncertainty);
     return side;
   };
@@ -585,7 +596,7 @@ Between distanceBetween(const scene::Case& value, const std::string& a, const st
   Between result{{"shortest distance", std::nullopt, "mm", std::nullopt, {}},
                  Vector3d::Zero(),
                  Vector3d::Zero(),
-                 {one.image, other.image}};
+                 {one.keptImage, other.keptImage}};
   ShortestWay way;
   if (one.mark && other.mark)
     way = {(*one.mark - *other.mark).norm(), *one.mark, *other.mark};
@@ -634,7 +645,10 @@ Between distanceBetween(const scene::Case& value, const std::string& a, const st
       square += side->share.value_or(0.0) * side->share.value_or(0.0);
       remarks.push_back(side->text);
     }
-    if (one.image == other.image || side->image.empty())
+    // What was made from an MR may be of other images too, so that one registration of both sides
+    // need not move both alike.
+    if (!side->isMade &&
+        ((one.image == other.image && !one.isMade && !other.isMade) || side->image.empty()))
       continue;
     if (side->mark) // a structure's text has it
       remarks.push_back(side->registration ? toString(*side->registration) : kErrorUnknown);

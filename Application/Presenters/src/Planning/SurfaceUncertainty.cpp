@@ -40,9 +40,24 @@ SurfaceUncertainty uncertaintyOf(const scene::Case& value,
   SurfaceUncertainty result;
   result.voxel = structure.grid.spacing();
   result.drawnOn = structure.mr;
+  result.madeFrom = scene::namesOf(structure.readings);
+  result.outdated = scene::outdatedReading(value, structure.readings);
+  std::vector<std::string> images;
   if (!structure.mr.empty())
-    result.registration =
-        registrationErrorIn(value, structure.mr, structure.around.patientBounds());
+    images.push_back(structure.mr);
+  for (const scene::MrReading& reading : structure.readings)
+    images.push_back(reading.mr);
+  for (const std::string& image : images)
+  {
+    const auto error = registrationErrorIn(value, image, structure.around.patientBounds());
+    if (!error || !result.outdated.empty())
+    {
+      result.registration.reset();
+      break;
+    }
+    if (!result.registration || error->p95 > result.registration->p95)
+      result.registration = error;
+  }
   return result;
 }
 
@@ -52,9 +67,14 @@ std::string toString(const SurfaceUncertainty& uncertainty)
                       fixedText(uncertainty.voxel[1], 2) + " x " +
                       fixedText(uncertainty.voxel[2], 2) + " mm, slices " +
                       fixedText(uncertainty.sliceSpacing(), 2) + " mm apart";
-  if (uncertainty.drawnOn.empty())
+  if (!uncertainty.isOfMr())
     return words;
-  words += "; drawn on the MR '" + uncertainty.drawnOn + "'";
+  if (!uncertainty.drawnOn.empty())
+    words += "; drawn on the MR '" + uncertainty.drawnOn + "'";
+  if (!uncertainty.madeFrom.empty())
+    words += "; made from the MR " + uncertainty.madeFrom;
+  if (!uncertainty.outdated.empty())
+    return words + "; " + uncertainty.outdated;
   if (!uncertainty.registration)
     return words + ", registered, its error unknown";
   return words + "; " + toString(*uncertainty.registration);

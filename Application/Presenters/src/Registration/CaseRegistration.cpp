@@ -275,6 +275,8 @@ RegistrationOutcome registerMr(const scene::Case& value, const RegistrationReque
   const Task task = taskOf(value, request);
   RegistrationOutcome outcome;
   outcome.how.method = task.method;
+  outcome.how.isFromFile =
+      task.method == Method::ByHand && request.givenBy && request.givenBy->isFromFile;
   outcome.how.text = task.statusMessage;
   if (request.asIs)
   {

@@ -217,6 +217,18 @@ std::string noteOf(const Tube& tube, std::optional<double> widest)
   return text + ".";
 }
 
+// Its voxels come onto the primary image's grid, and stay there: what was drawn on an MR is from
+// then on made from it.
+scene::MrReadings readingsOf(const scene::Case& value, const scene::LabelPart& part,
+                             const scene::StructurePart& structure)
+{
+  scene::MrReadings readings = structure.readings;
+  if (const scene::Placement placement = scene::placementOf(value, part);
+      !placement.drawnOn.empty())
+    scene::addReadings(readings, {{placement.drawnOn, placement.mrFromCt, false}});
+  return readings;
+}
+
 std::string warningOf(const Tube& tube)
 {
   std::string text;
@@ -241,6 +253,12 @@ struct SegmentEditor::SourceImage
   Image onCt; ///< nullptr: to be made
   core::RigidTransform ownFromCt;
   core::GridGeometry ct;
+  std::string mr; ///< empty: the primary image
+
+  scene::MrReadings readings() const
+  {
+    return mr.empty() ? scene::MrReadings() : scene::MrReadings{{mr, ownFromCt, false}};
+  }
 
   const Image& made(const core::Progress& progress)
   {
@@ -276,9 +294,21 @@ struct SegmentEditor::Draft
     bool mask = false;
     bool inside = false;
     bool beside = false;
-    std::optional<std::pair<Points, Points>> points; ///< before and after
-    std::optional<std::pair<Points, Points>> seeds;  ///< before and after
+    std::optional<std::pair<Points, Points>> points;                         ///< before and after
+    std::optional<std::pair<Points, Points>> seeds;                          ///< before and after
+    std::optional<std::pair<scene::MrReadings, scene::MrReadings>> readings; ///< before and after
   };
+
+  // `afresh`: the step makes all voxels anew.
+  void read(Step& step, const scene::MrReadings& read, bool afresh)
+  {
+    scene::MrReadings after = afresh ? scene::MrReadings() : readings;
+    scene::addReadings(after, read);
+    if (!step.mask || after == readings)
+      return;
+    step.readings = {readings, after};
+    readings = std::move(after);
+  }
 
   void did(Step step)
   {
@@ -300,6 +330,7 @@ struct SegmentEditor::Draft
   Eigen::Vector3d normal = axesOf(SliceOrientation::Axial).next; ///< of the slice last painted in
   Points seeds;                                                  ///< of the connected threshold
   Points points;                                                 ///< of the nerve
+  scene::MrReadings readings;                                    ///< of the voxels
   std::vector<Step> undo, redo;
   std::uint64_t changes = 0;                              ///< steps ever made
   std::optional<std::pair<Pieces, std::uint64_t>> pieces; ///< and `changes` by then
@@ -400,6 +431,10 @@ void SegmentEditor::caseChanged()
   m_tool = Tool::None;
   m_source = "ct";
   m_sourceOf = 0;
+  m_mrNames.clear();
+  if (m_model.hasCase())
+    for (const scene::ImagePart& mr : m_model.value().mr)
+      m_mrNames.push_back(mr.name);
   m_shown = {};
   forgetImage();
   m_created.reset();
@@ -412,6 +447,7 @@ void SegmentEditor::partsChanged()
 {
   if (m_model.hasCase())
   {
+    followNames();
     followSource();
     followEdited();
   }
@@ -439,6 +475,46 @@ void SegmentEditor::followSource()
   if (!m_stepping) // else a step goes on with what it was begun with
     dropPreview();
   takeSource("ct");
+}
+
+// An MR that the draft was made from may have another name now; so may those of the structure that
+// is out of the case, to be put back.
+void SegmentEditor::followNames()
+{
+  const std::vector<std::string> before = std::exchange(m_mrNames, {});
+  for (const scene::ImagePart& mr : m_model.value().mr)
+    m_mrNames.push_back(mr.name);
+  if (before.size() != m_mrNames.size())
+    return;
+  const auto [from, to] = std::mismatch(before.begin(), before.end(), m_mrNames.begin());
+  if (from == before.end() || !std::equal(from + 1, before.end(), to + 1))
+    return;
+  const auto follow = [from = *from, to = *to](scene::MrReadings& readings)
+  {
+    for (scene::MrReading& reading : readings)
+      if (!reading.isGone && reading.mr == from)
+        reading.mr = to;
+  };
+  const auto followIn = [&follow](Draft& draft)
+  {
+    follow(draft.readings);
+    for (auto* steps : {&draft.undo, &draft.redo})
+      for (Draft::Step& step : *steps)
+        if (step.readings)
+        {
+          follow(step.readings->first);
+          follow(step.readings->second);
+        }
+  };
+  followIn(*m_draft);
+  if (!m_created)
+    return;
+  if (m_created->draft && m_created->draft != m_draft)
+    followIn(*m_created->draft);
+  for (auto* part : {&m_created->replaced, &m_created->taken})
+    if (*part)
+      for (scene::StructurePart& structure : (*part)->structures)
+        follow(structure.readings);
 }
 
 // The structure that is edited may have been renamed, or taken out of the case.
@@ -604,6 +680,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
   touched();
   return [this, draft = m_draft, labels = scene::labelsOnCt(m_model.value(), *part),
           map = part->labels.get(), index = found->index, look = found->look, structure,
+          readings = readingsOf(m_model.value(), *part, *found),
           volume = static_cast<double>(found->voxels) *
                    part->labels.get()->voxels->geometry().voxelVolume(),
           ct = m_model.value().ct.geometry, primary = std::string(primaryName(m_model.value()))](
@@ -616,7 +693,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
                   core::fixedText(static_cast<double>(mask->count()) * ct.voxelVolume(), 1) +
                   " mm³ for " + core::fixedText(volume, 1) +
                   " mm³. Saving replaces what was drawn.";
-    return [this, draft, mask, map, index, structure, look, resampled]
+    return [this, draft, mask, map, index, structure, look, resampled, readings]
     {
       if (draft != m_draft)
         return;
@@ -627,6 +704,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
       draft->editedIndex = index;
       draft->resampled = resampled;
       draft->editedLook = look;
+      draft->readings = readings;
       chooseColor();
       touched();
     };
@@ -811,6 +889,7 @@ SegmentEditor::SourceImage& SegmentEditor::image()
     {
       m_image->own = mr->volume.get();
       m_image->ownFromCt = mr->mrFromCt;
+      m_image->mr = mr->name;
     }
     else
       m_image->own = m_image->onCt = value.ct.volume.get();
@@ -928,15 +1007,14 @@ void SegmentEditor::press(const Eigen::Vector3d& patient, const Eigen::Vector3d&
   {
     if (draft.mask.count() == 0)
       return refuse("There is nothing yet of which an island could be kept.");
-    m_stepDue = replacing(
-        nameOf(m_tool),
-        [base = draft.mask.snapshot(), patient](const core::Progress& progress)
-        {
-          Preview preview;
-          preview.result = segmentation::islandsAt(base, {patient}, progress);
-          return preview;
-        },
-        false);
+    m_stepDue = replacing(nameOf(m_tool),
+                          [base = draft.mask.snapshot(), patient](const core::Progress& progress)
+                          {
+                            Preview preview;
+                            preview.result = segmentation::islandsAt(base, {patient}, progress);
+                            return preview;
+                          },
+                          false, {});
     return touched();
   }
   case Tool::Nerve:
@@ -1014,9 +1092,23 @@ void SegmentEditor::release()
     step.beside = draft.beside->endStep();
   }
   else
+  {
     step.mask = draft.mask.endStep();
+    draft.read(step, readingsOfStroke(), false);
+  }
   draft.did(std::move(step));
   touched();
+}
+
+// Of a stroke by hand: the MR that the slices show, and the source if its range bounds it.
+scene::MrReadings SegmentEditor::readingsOfStroke()
+{
+  scene::MrReadings readings;
+  if (m_values.within)
+    readings = image().readings();
+  if (const scene::ImagePart* mr = scene::findMr(m_model.value(), m_shown.mr); mr && mr->registered)
+    scene::addReadings(readings, {scene::readingOf(*mr)});
+  return readings;
 }
 
 std::vector<SegmentEditor::TubePoint> SegmentEditor::tubePoints() const
@@ -1382,10 +1474,10 @@ std::string SegmentEditor::whyNotStep() const
 // `endsTool`: seeds and points have served their purpose.
 SegmentEditor::Work SegmentEditor::replacing(const char* what,
                                              std::function<Preview(const core::Progress&)> compute,
-                                             bool endsTool)
+                                             bool endsTool, const Reads& reads)
 {
   return [this, draft = m_draft, endsTool, what, images = m_images, isOfImage = readsSource(),
-          compute = std::move(compute)](const core::Progress& progress) -> Apply
+          reads, compute = std::move(compute)](const core::Progress& progress) -> Apply
   {
     const auto preview = std::make_shared<Preview>(compute(progress));
     bool changed = false;
@@ -1395,11 +1487,13 @@ SegmentEditor::Work SegmentEditor::replacing(const char* what,
       draft->mask.beginStep();
       box = draft->mask.replace(*preview->result);
       changed = draft->mask.endStep();
-      draft->pending = [draft = draft.get(), changed, endsTool, what, pieces = preview->pieces]
+      draft->pending =
+          [draft = draft.get(), changed, endsTool, what, reads, pieces = preview->pieces]
       {
         Draft::Step step;
         step.what = what;
         step.mask = changed;
+        draft->read(step, reads.readings, reads.afresh);
         if (endsTool)
         {
           if (!draft->seeds.empty())
@@ -1440,14 +1534,23 @@ SegmentEditor::Work SegmentEditor::replacing(const char* what,
   };
 }
 
+// Of the tool's result.
+SegmentEditor::Reads SegmentEditor::readsOfTool()
+{
+  const bool isOfImage = m_tool == Tool::Threshold || m_tool == Tool::Grow || m_tool == Tool::Nerve;
+  const bool afresh =
+      m_tool == Tool::Grow || (m_tool == Tool::Threshold && m_values.combine == Combine::Replace);
+  return {isOfImage ? image().readings() : scene::MrReadings(), afresh};
+}
+
 std::optional<SegmentEditor::Work> SegmentEditor::stepWork()
 {
   if (m_draft->stroking || !whyNotStep().empty())
     return std::nullopt;
   image();
   beginStep();
-  Work work =
-      replacing(nameOf(m_tool), computed(), m_tool == Tool::Threshold || m_tool == Tool::Nerve);
+  Work work = replacing(nameOf(m_tool), computed(),
+                        m_tool == Tool::Threshold || m_tool == Tool::Nerve, readsOfTool());
   touched();
   return work;
 }
@@ -1672,6 +1775,8 @@ std::function<void()> SegmentEditor::step(Draft& draft, bool back)
     box = box.united(turn(*draft.beside));
   return [this, draft = &draft, step, back, box]
   {
+    if (step.readings)
+      draft->readings = back ? step.readings->first : step.readings->second;
     if (step.points)
       draft->points = back ? step.points->first : step.points->second;
     if (step.seeds)
@@ -1741,7 +1846,8 @@ SegmentEditor::Work SegmentEditor::createWork()
   segment.index = 1;
   touched();
   return [this, draft = m_draft, mask = *m_frozen->result, preview = preview.has_value(), segment,
-          what = nameOf(m_tool)](const core::Progress& progress) -> Apply
+          what = nameOf(m_tool),
+          reads = preview ? readsOfTool() : Reads()](const core::Progress& progress) -> Apply
   {
     progress.report(0.0, "making the structure");
     const auto labels = std::make_shared<volume::LabelMap>(segmentation::labelMapOf(mask, segment));
@@ -1751,11 +1857,12 @@ SegmentEditor::Work SegmentEditor::createWork()
       draft->mask.beginStep();
       draft->mask.replace(mask);
       const bool changed = draft->mask.endStep();
-      draft->pending = [draft = draft.get(), changed, what]
+      draft->pending = [draft = draft.get(), changed, what, reads]
       {
         Draft::Step step;
         step.what = what;
         step.mask = changed;
+        draft->read(step, reads.readings, reads.afresh);
         draft->did(std::move(step));
       };
     }
@@ -1768,7 +1875,7 @@ SegmentEditor::Work SegmentEditor::createWork()
       std::optional<scene::LabelPart> replaced;
       try
       {
-        replaced = m_model.addStructure(std::move(*labels), draft->edited);
+        replaced = m_model.addStructure(std::move(*labels), draft->edited, readingsOfDraft());
       }
       catch (const core::InvalidParameter& error) // its name has been taken meanwhile
       {
@@ -1792,6 +1899,15 @@ SegmentEditor::Work SegmentEditor::createWork()
       notify(events.created, name);
     };
   };
+}
+
+// An MR that was removed meanwhile may come back, or another one of its name.
+scene::MrReadings SegmentEditor::readingsOfDraft() const
+{
+  scene::MrReadings readings = m_draft->readings;
+  for (scene::MrReading& reading : readings)
+    reading.isGone = reading.isGone || !scene::findMr(m_model.value(), reading.mr);
+  return readings;
 }
 
 void SegmentEditor::discard()
@@ -1822,15 +1938,14 @@ void SegmentEditor::keepLargest()
 {
   if (!pieces() || m_draft->stroking)
     return;
-  m_stepDue = replacing(
-      nameOf(Tool::Islands),
-      [base = m_draft->mask.snapshot()](const core::Progress& progress)
-      {
-        Preview preview;
-        preview.result = segmentation::largestIsland(base, progress);
-        return preview;
-      },
-      false);
+  m_stepDue = replacing(nameOf(Tool::Islands),
+                        [base = m_draft->mask.snapshot()](const core::Progress& progress)
+                        {
+                          Preview preview;
+                          preview.result = segmentation::largestIsland(base, progress);
+                          return preview;
+                        },
+                        false, {});
   touched();
 }
 

@@ -160,6 +160,8 @@ void withholdNames(scene::Case& value, Withheld& withheld)
     {
       structure(one.name);
       look(one.look);
+      for (scene::MrReading& reading : one.readings)
+        image(reading.mr);
     }
   }
   for (scene::MeshPart& mesh : value.meshes)
@@ -787,7 +789,14 @@ private:
           thickness && *thickness->value >= 2.0 * voxel.maxCoeff() && isVolumeKnown;
       row.push_back(textCell(say(isResolved ? "yes" : "no")));
       row.back().isWarning = !isResolved;
-      row.push_back(textCell(known.mr.empty() ? primaryName(m_value) : known.mr));
+      std::string drawnOn = known.mr.empty() ? primaryName(m_value) : known.mr;
+      if (!known.readings.empty())
+        drawnOn += ", " + filled(say("made from the MR %1"), scene::namesOf(known.readings));
+      const bool isOutdated = !scene::outdatedReading(m_value, known.readings).empty();
+      if (isOutdated)
+        drawnOn += ", " + say("which lies elsewhere since: error unknown");
+      row.push_back(textCell(drawnOn));
+      row.back().isWarning = isOutdated;
       table.table.rows.push_back(std::move(row));
     }
     addAbsent(table);
@@ -802,6 +811,7 @@ private:
     using Method = scene::Registration::Method;
     std::string text = say(how.method == Method::MutualInformation ? "mutual information"
                            : how.method == Method::Landmarks       ? "landmarks"
+                           : how.isFromFile                        ? "transform of a file"
                            : how.method == Method::ByHand          ? "by hand"
                                                                    : "frame of reference");
     if (how.refined)

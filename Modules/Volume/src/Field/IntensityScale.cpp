@@ -266,13 +266,8 @@ void placeDense(const IntensityHistogram& histogram, double dense, IntensityScal
   scale.dense = std::max({dense, histogram.percentile(0.99, scale.iso), scale.iso + least});
 }
 
-} // namespace
-
-IntensityScale suggestScale(const IntensityHistogram& histogram)
+std::optional<Tissues> findTissues(const IntensityHistogram& histogram)
 {
-  if (histogram.count() == 0)
-    return {};
-  const Density density(histogram, false);
   const bool framed = hasFrame(histogram);
   std::optional<Tissues> tissues;
   if (framed)
@@ -281,10 +276,44 @@ IntensityScale suggestScale(const IntensityHistogram& histogram)
     tissues.reset();
   if (!tissues)
   {
-    tissues = findTissues(density);
+    tissues = findTissues(Density(histogram, false));
     if (tissues)
       tissues->cutOff = framed;
   }
+  return tissues;
+}
+
+// Upper end of the noise of air in an MR, in levels: its magnitude has a Rayleigh distribution
+// there, with the mode s and half the height at 2.13 s, and 0.07 % of it are above s + 2.5 (2.13 s
+// - s). The lowest peak is that of noise if it is as wide as it is far from zero; tissue's is
+// narrower. nullopt: there is none.
+std::optional<double> noiseCeiling(const IntensityHistogram& histogram, const Density& density,
+                                   std::size_t levels)
+{
+  constexpr double kPeak = 0.1;   // of the highest, at least
+  constexpr double kWidths = 2.5; // half widths at half the height
+  constexpr double kWide = 0.5;   // half widths from zero to the mode, at least
+  const std::vector<double>& s = density.smoothed;
+  const double highest = s[modeIn(s, 0, levels)];
+  std::size_t mode = 0;
+  while (mode + 1 < levels && (s[mode] < kPeak * highest || s[mode + 1] > s[mode]))
+    ++mode;
+  const double width = halfWidth(s, mode, 1);
+  const double step = density.value(1.0) - density.value(0.0);
+  const double above = (density.value(static_cast<double>(mode)) - histogram.range().min) / step;
+  if (width < kWide * above && above > 2.0 * kSmoothing)
+    return std::nullopt;
+  return static_cast<double>(mode) + kWidths * width;
+}
+
+} // namespace
+
+IntensityScale suggestScale(const IntensityHistogram& histogram)
+{
+  if (histogram.count() == 0)
+    return {};
+  const Density density(histogram, false);
+  const std::optional<Tissues> tissues = findTissues(histogram);
   if (tissues ? near(tissues->air, kAir, kAirSlack) && near(tissues->soft, kSoft, kSoftSlack)
               : looksCalibrated(histogram, density))
     return {};
@@ -315,20 +344,67 @@ IntensityScale suggestScale(const IntensityHistogram& histogram)
   return scale;
 }
 
+namespace
+{
+
+// Of an MR.
+struct MrLevels
+{
+  explicit MrLevels(const IntensityHistogram& histogram)
+    : density(histogram, false)
+    , moments(density.counts)
+    , classes(threeClasses(moments, density.counts.size()))
+  {
+    // Without the constant value outside of the field of view, which is no noise.
+    const bool isFramed = hasFrame(histogram);
+    ceiling = noiseCeiling(histogram, isFramed ? Density(histogram, true) : density, classes[0]);
+    if (isFramed && !ceiling) // air is constant
+      ceiling = 3.0 * kSmoothing;
+  }
+
+  Density density;
+  Moments moments;
+  std::array<std::size_t, 2> classes; // first levels of tissue, and of what is bright
+  std::optional<double> ceiling;      // of noise, level
+};
+
+} // namespace
+
 IntensityScale suggestMrScale(const IntensityHistogram& histogram)
 {
+  constexpr double kMost = 0.5; // of what is above noise
   if (histogram.count() == 0)
     return {0.0, 1.0, false};
-  const Density density(histogram, false);
-  const Moments moments(density.counts);
-  const auto [first, second] = threeClasses(moments, density.counts.size());
+  const MrLevels levels(histogram);
+  const Moments& moments = levels.moments;
+  const auto [first, second] = levels.classes;
+  const std::size_t count = levels.density.counts.size();
   IntensityScale scale;
   scale.calibrated = false;
   // A threshold anywhere between two classes parts them, but only half of the step leaves a blurred
   // edge in its place.
-  scale.iso = density.value(0.5 * (moments.mean(0, first) + moments.mean(first, second)));
+  double surface = 0.5 * (moments.mean(0, first) + moments.mean(first, second));
+  // Few voxels of very bright fluid or fat take two of the three classes, and tissue is in that of
+  // air.
+  if (levels.ceiling)
+  {
+    const auto noise = std::min(static_cast<std::size_t>(*levels.ceiling) + 1, count);
+    const auto below = std::clamp(static_cast<std::size_t>(surface), noise, count);
+    if (moments.weight(noise, below) > kMost * moments.weight(noise, count))
+      surface = 0.5 * (moments.mean(0, noise) + moments.mean(noise, below));
+  }
+  scale.iso = levels.density.value(surface);
   placeDense(histogram, -std::numeric_limits<double>::infinity(), scale);
   return scale;
+}
+
+double mrNoiseCeiling(const IntensityHistogram& histogram)
+{
+  if (histogram.count() == 0)
+    return 0.0;
+  const double iso = suggestMrScale(histogram).iso;
+  const MrLevels levels(histogram);
+  return levels.ceiling ? std::min(iso, levels.density.value(*levels.ceiling)) : iso;
 }
 
 } // namespace petrous::volume

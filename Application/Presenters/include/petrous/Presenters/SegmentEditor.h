@@ -239,6 +239,12 @@ private:
   struct SourceImage;
   struct Preview;
   using Points = std::vector<Eigen::Vector3d>;
+  // The MRs that a step read, and whether it makes all voxels anew.
+  struct Reads
+  {
+    scene::MrReadings readings;
+    bool afresh = false;
+  };
   using Computed = std::function<Preview(const core::Progress&)>;
 
   bool hasSteps() const;
@@ -247,7 +253,11 @@ private:
   Computed computed() const;
   std::optional<Work> previewWork();
   Work replacing(const char* what, std::function<Preview(const core::Progress&)> compute,
-                 bool endsTool);
+                 bool endsTool, const Reads& reads);
+  Reads readsOfTool();
+  scene::MrReadings readingsOfStroke();
+  scene::MrReadings readingsOfDraft() const;
+  void followNames();
   void show(const Preview& preview);
   void beginStep();
   void endStep();
@@ -305,6 +315,7 @@ private:
   std::uint64_t m_images = 0;    // changes when m_image is another
   std::size_t m_sourceOf = 0;    // place of the source among the MRs, while there are
   std::size_t m_imagesThen = 0;  // so many
+  std::vector<std::string> m_mrNames;
   bool m_previewRunning = false;
   bool m_stepping = false;
   std::optional<Work> m_stepDue; // begun by a click

@@ -35,7 +35,8 @@ struct StructureRow
   StructureKind kind = StructureKind::Other;
   double volume = 0.0; ///< mm^3, of a structure; 0: not known
   appearance::StructureAppearance look;
-  std::string missing; ///< why it has no place on the primary image; usually empty
+  std::string missing;       ///< why it has no place on the primary image; usually empty
+  std::string outdated = {}; ///< why its error is not known any more (scene::outdatedReading)
 };
 
 StructureKind kindOf(const appearance::StructureAppearance& look);

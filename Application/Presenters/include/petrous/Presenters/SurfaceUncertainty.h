@@ -34,8 +34,12 @@ struct SurfaceUncertainty
 {
   Eigen::Vector3d voxel{0.0, 0.0, 0.0}; ///< mm, of the grid on which it was drawn
   std::string drawnOn;                  ///< the MR on which it was drawn; empty: the CT or another
-  /// Of that MR, in the structure's bounding box. None if not estimated.
+  std::string madeFrom; ///< the MRs that it was made from on the CT's grid: "'T2', 'T1'"; or none
+  std::string outdated; ///< why their error is not that of the structure (outdatedReading)
+  /// Of those MRs the largest, in the structure's bounding box. None if that of one is not known.
   std::optional<RegistrationErrorHere> registration;
+
+  bool isOfMr() const { return !drawnOn.empty() || !madeFrom.empty(); }
 
   double sliceSpacing() const { return voxel.maxCoeff(); } ///< mm
 
@@ -44,14 +48,14 @@ struct SurfaceUncertainty
   double millimetres() const;
 
   /// Whether `millimetres` is incomplete since the registration error was not estimated.
-  bool incomplete() const { return !drawnOn.empty() && !registration; }
+  bool incomplete() const { return isOfMr() && !registration; }
 };
 
 SurfaceUncertainty uncertaintyOf(const scene::Case& value,
                                  const scene::StructureOccupancy& structure);
 
-/// "voxels 0.20 x 0.20 x 0.60 mm, slices 0.60 mm apart", and if drawn on an MR: "; drawn on the MR
-/// 'T2'; registered to 0.41 mm (p95) here".
+/// "voxels 0.20 x 0.20 x 0.60 mm, slices 0.60 mm apart", and if drawn on an MR, or made from one:
+/// "; drawn on the MR 'T2'; registered to 0.41 mm (p95) here".
 std::string toString(const SurfaceUncertainty& uncertainty);
 
 } // namespace petrous::presenters

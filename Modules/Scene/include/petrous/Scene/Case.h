@@ -17,6 +17,7 @@
 #include "petrous/Scene/ImagePart.h"
 #include "petrous/Scene/Measurement.h"
 #include "petrous/Scene/MeshTouch.h"
+#include "petrous/Scene/MrReading.h"
 #include "petrous/Scene/TransformedPart.h"
 #include "petrous/Scene/ViewState.h"
 #include "petrous/Volume/IntensityScale.h"
@@ -35,6 +36,9 @@ struct StructurePart
   double volume = 0.0; ///< mm^3, number of voxels times voxel volume
   appearance::StructureAppearance look;
   volume::SegmentCodes codes = {}; ///< as the file said that it was read from
+  /// The MRs that it was made from in this program, on the primary image's grid; of one from a file
+  /// none is known (LabelPart::drawnOn).
+  MrReadings readings = {};
 };
 
 /// What of the place of structures was assumed when their file was read.

@@ -50,7 +50,8 @@ struct Registration
   };
 
   Method method = Method::MutualInformation;
-  bool refined = false; ///< by mutual information, from the result of the method
+  bool isFromFile = false; ///< ByHand: of a file's transform, not moved by the user
+  bool refined = false;    ///< by mutual information, from the result of the method
   Verdict verdict = Verdict::NotJudged;
   std::string text;             ///< reason for the verdict, for the user
   std::optional<double> metric; ///< mutual information, nats

@@ -19,6 +19,7 @@ struct StructureOccupancy
   core::GridGeometry around; ///< part of that grid whose hull contains the whole structure
   /// Computes the occupancy: the smoothed union of a label (SmoothedUnion.h), the voxels of a mesh.
   std::function<std::shared_ptr<const volume::Volume<float>>()> make;
+  MrReadings readings = {}; ///< StructurePart::readings
 };
 
 /// The structures of all label maps, and the meshes that are already voxelized for touch, if they

@@ -29,8 +29,16 @@ IntensityScale suggestScale(const IntensityHistogram& histogram);
 
 /// The surface of the patient in an MR, which shows cortical bone as dark as air: of the three
 /// classes of Otsu's two thresholds (air and bone, tissue, bright fluid or fat), iso is the
-/// midpoint of the means of the lower two, dense the 99th percentile above it. Never calibrated.
+/// midpoint of the means of the lower two, dense the 99th percentile above it. Where most of what
+/// is above the noise of air (mrNoiseCeiling) is below that, few bright voxels have taken two of
+/// the classes, and iso is the midpoint of the means of noise and of that part. Never calibrated.
 /// Without voxels: iso 0, dense 1. Never throws; all values are finite, and dense is above iso.
 IntensityScale suggestMrScale(const IntensityHistogram& histogram);
+
+/// Where an MR's values are no longer the noise of air, which has a Rayleigh distribution there
+/// (Gudbjartsson and Patz, Magn Reson Med 34:910, 1995): below the darkest tissue that stands out
+/// of it. At most, and without a peak of noise, iso of suggestMrScale. Without voxels 0. Never
+/// throws.
+double mrNoiseCeiling(const IntensityHistogram& histogram);
 
 } // namespace petrous::volume

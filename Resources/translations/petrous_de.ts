@@ -630,6 +630,18 @@
         <source>The surface is opaque, so the opacities of this curve do not show, only its colours and highlights; lower the opacity of the surface to look inside.</source>
         <translation>Die Oberfläche ist deckend: Die Deckkraft dieser Kurve ist daher nicht zu sehen, nur ihre Farben und Glanzlichter; verringern Sie die Deckkraft der Oberfläche, um hineinzusehen.</translation>
     </message>
+    <message>
+        <source>O&amp;pacity</source>
+        <translation>&amp;Deckkraft</translation>
+    </message>
+    <message>
+        <source>Opacity</source>
+        <translation>Deckkraft</translation>
+    </message>
+    <message>
+        <source>Factor of the opacities of all points</source>
+        <translation>Faktor der Deckkräfte aller Punkte</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ApproachPanel</name>
@@ -7911,6 +7923,18 @@ Nichts verlässt diesen Rechner.</translation>
     <message>
         <source>From the burr&apos;s ball, or the instrument, to the structure&apos;s surface</source>
         <translation>Von der Kugel der Fräse oder vom Instrument zur Oberfläche der Struktur</translation>
+    </message>
+    <message>
+        <source>%1 (MR moved since)</source>
+        <translation>%1 (MR seither bewegt)</translation>
+    </message>
+    <message>
+        <source>%1 stays where it was made: %2</source>
+        <translation>%1 bleibt, wo es gemacht wurde: %2</translation>
+    </message>
+    <message>
+        <source>Drilled: %1</source>
+        <translation>Abgetragen: %1</translation>
     </message>
 </context>
 <context>

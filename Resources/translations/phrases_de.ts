@@ -1296,6 +1296,10 @@
         <translation>es ist bei jeder Intensität durchsichtig</translation>
     </message>
     <message>
+        <source>its values begin where soft tissue ends, at the surface threshold; it is a function of bone</source>
+        <translation>ihre Werte beginnen, wo Weichteile enden, an der Oberflächenschwelle; es ist eine Funktion für Knochen</translation>
+    </message>
+    <message>
         <source>it reads '%1', but bone or structures read '%2' and '%3', and a picture shows two MRs</source>
         <translation>es liest „%1“, aber Knochen oder Strukturen lesen „%2“ und „%3“, und ein Bild zeigt zwei MR</translation>
     </message>
@@ -1988,6 +1992,14 @@
         <translation>Dicke entlang der Normalen</translation>
     </message>
     <message>
+        <source>which was drawn on the MR '%1'</source>
+        <translation>das auf dem MR „%1“ gezeichnet wurde</translation>
+    </message>
+    <message>
+        <source>which was made from the MR %1</source>
+        <translation>das aus dem MR %1 gemacht wurde</translation>
+    </message>
+    <message>
         <source>%~1, uncertainty unknown</source>
         <translation>%~1, Unsicherheit unbekannt</translation>
     </message>
@@ -2014,10 +2026,6 @@
     <message>
         <source>to '%1', which was removed</source>
         <translation>zu „%1“, das entfernt wurde</translation>
-    </message>
-    <message>
-        <source>which was drawn on the MR '%1'</source>
-        <translation>das auf dem MR „%1“ gezeichnet wurde</translation>
     </message>
     <message>
         <source>shortest thickness</source>
@@ -2118,6 +2126,10 @@
     <message>
         <source>distance: '%1' encloses nothing</source>
         <translation>Abstand: „%1“ umschließt nichts</translation>
+    </message>
+    <message>
+        <source>%1 as it lay before</source>
+        <translation>%1, wie es vorher lag</translation>
     </message>
     <message>
         <source>shortest distance</source>
@@ -2222,6 +2234,10 @@
     <message>
         <source>drawn on the MR '%1'</source>
         <translation>gezeichnet auf dem MR „%1“</translation>
+    </message>
+    <message>
+        <source>made from the MR %1</source>
+        <translation>aus dem MR %1 gemacht</translation>
     </message>
     <message>
         <source>%~1, registered, its error unknown</source>
@@ -8353,6 +8369,18 @@
         <translation>der Fall „%1“ hat keine Messung „%2“%3</translation>
     </message>
     <message>
+        <source>the MR '%1', from which it was made, is not in the case any more: its error is not known until it is made anew</source>
+        <translation>das MR „%1“, aus dem es gemacht wurde, ist nicht mehr im Fall: Sein Fehler ist unbekannt, bis es neu gemacht wird</translation>
+    </message>
+    <message>
+        <source>the MR '%1', from which it was made, is not registered any more: its error is not known until it is made anew</source>
+        <translation>das MR „%1“, aus dem es gemacht wurde, ist nicht mehr registriert: Sein Fehler ist unbekannt, bis es neu gemacht wird</translation>
+    </message>
+    <message>
+        <source>the MR '%1', from which it was made, lies elsewhere since: its error is not known until it is made anew</source>
+        <translation>das MR „%1“, aus dem es gemacht wurde, liegt seither anders: Sein Fehler ist unbekannt, bis es neu gemacht wird</translation>
+    </message>
+    <message>
         <source>it was drawn on the MR '%1', which is not registered with the CT</source>
         <translation>es wurde auf dem MR „%1“ gezeichnet, das nicht mit dem CT registriert ist</translation>
     </message>
@@ -8383,6 +8411,10 @@
     <message>
         <source>registration: there is no %~1 '%2'</source>
         <translation>Registrierung: es gibt nicht %~1 „%2“</translation>
+    </message>
+    <message>
+        <source>the transform of a file</source>
+        <translation>die Transformation einer Datei</translation>
     </message>
     <message>
         <source>hand</source>
@@ -8787,8 +8819,8 @@
         <translation>der Kopf ist abgeschnitten</translation>
     </message>
     <message>
-        <source>%1: written by format 1, which does not say what was cut; this program plays format %#2: record it again</source>
-        <translation>%1: im Format 1 geschrieben, das nicht sagt, was geschnitten wurde; dieses Programm spielt das Format %#2: zeichnen Sie neu auf</translation>
+        <source>%1: written by format 1, which does not say what was cut; this program plays format %#2 to %#3: record it again</source>
+        <translation>%1: im Format 1 geschrieben, das nicht sagt, was geschnitten wurde; dieses Programm spielt die Formate %#2 bis %#3: zeichnen Sie neu auf</translation>
     </message>
     <message>
         <source>its head is damaged</source>

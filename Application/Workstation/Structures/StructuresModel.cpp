@@ -540,11 +540,11 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
     if (role == Qt::ToolTipRole)
     {
       const auto drilled = presenters::injuredVolumes(m_model.value());
-      const auto found = drilled.find(row.row.part);
-      return found == drilled.end()
+      const auto amount = drilled.find(row.row.part);
+      return amount == drilled.end()
                  ? tr("Volume, mm³")
                  : tr("Volume, mm³") + '\n' +
-                       tr("Drilled: %1").arg(words(presenters::cubicMillimetres(found->second)));
+                       tr("Drilled: %1").arg(words(presenters::cubicMillimetres(amount->second)));
     }
     return {};
   default:

@@ -149,6 +149,7 @@ LightEdit lightEdit(const scene::ViewState::Light& before, const scene::ViewStat
   note(before.falloff == after.falloff, "light falloff");
   note(before.wetness == after.wetness, "wetness");
   note(before.exposure == after.exposure, "exposure");
+  note(before.edges == after.edges, "edges");
   const bool isNumber = changed == 1;
   note(before.shadows == after.shadows, "shadows");
   note(before.toneCurve == after.toneCurve, "soft highlights");

@@ -173,18 +173,31 @@ TEST(OpticalModel, InsideATissueLightComesAtTheMeanCosine)
                   .isApprox((0.25 + 0.75 * 2.0 / 3.0) * kColor, 1e-12));
 }
 
-TEST(OpticalModel, NoColorLeavesZeroToOne)
+TEST(OpticalModel, OnlyWhatIsDisplayedLiesBetweenZeroAndOne)
 {
   LightSettings light;
   light.intensity = 5.0;
   light.wetness = 1.0;
-  EXPECT_LE(lit(light, 1.0, 0.0, 1.0).maxCoeff(), 1.0);
-  EXPECT_LE(optics::interiorColor(Eigen::Vector3d::Ones(), light, 0.0).maxCoeff(), 1.0);
+  const Eigen::Vector3d bright = lit(light, 1.0, 0.0, 1.0);
+  EXPECT_TRUE(bright.isApprox(5.0 * (kColor + Eigen::Vector3d::Ones()), 1e-12));
+  EXPECT_EQ(optics::displayed(bright, light), Eigen::Vector3d::Ones());
   light.toneCurve = true;
-  EXPECT_LT(lit(light, 1.0, 0.0, 1.0).maxCoeff(), 1.0);
-  EXPECT_LT(optics::interiorColor(Eigen::Vector3d::Ones(), light, 0.0).maxCoeff(), 1.0);
+  EXPECT_LT(optics::displayed(bright, light).maxCoeff(), 1.0);
   light.intensity = -1.0;
-  EXPECT_GE(lit(light, 1.0).minCoeff(), 0.0);
+  EXPECT_EQ(optics::displayed(lit(light, 1.0), light), Eigen::Vector3d::Zero());
+}
+
+// Of a quarter of a pixel no more than a quarter is added, whatever its light.
+TEST(OpticalModel, APartOfAPixelIsDisplayedAsItsMeanColour)
+{
+  LightSettings light;
+  using Color = Eigen::Vector3d;
+  EXPECT_TRUE(optics::displayed({0.1, 0.2, 3.0}, 0.25, light).isApprox(Color(0.1, 0.2, 0.25)));
+  EXPECT_EQ(optics::displayed({0.1, 0.2, 3.0}, 1.0, light), Color(0.1, 0.2, 1.0));
+  EXPECT_EQ(optics::displayed(Color::Zero(), 0.0, light), Color::Zero());
+  light.toneCurve = true; // white of twice that light: 1 - 0.04 / (2 - 0.6)
+  EXPECT_TRUE(optics::displayed(Color::Constant(0.5), 0.25, light)
+                  .isApprox(Color::Constant(0.25 * (1.0 - 0.04 / 1.4)), 1e-12));
 }
 
 // A shell of opacity 0.12 is passed twice as long at 60 degrees.

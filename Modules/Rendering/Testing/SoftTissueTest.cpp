@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include "PictureComparison.h"
@@ -194,6 +195,128 @@ TEST(SoftTissueBlock, IsNotWhereItWasCutAway)
   const std::size_t middle = 3 * (static_cast<std::size_t>(kHeight / 2) * kWidth + kWidth / 2);
   EXPECT_NEAR(static_cast<double>(truthOf(contents, ahead).rgb[middle]), expected, 2e-3);
   EXPECT_NEAR(draw(contents, ahead).rgb[middle], 255.0 * expected, 1.5);
+}
+
+namespace
+{
+
+core::CameraPose ahead()
+{
+  core::CameraPose pose;
+  pose.position = {0.0, -200.0, 0.0};
+  pose.focalPoint = {0.0, 0.0, 0.0};
+  pose.viewUp = {0.0, 0.0, 1.0};
+  pose.viewAngle = 2.0;
+  return pose;
+}
+
+RenderStatistics counted(const SceneContents& contents, const core::CameraPose& pose)
+{
+  RenderQuality exact;
+  exact.filterBits = RenderQuality::kExactFilterBits;
+  ScenePicture scene;
+  scene.setContents(contents);
+  scene.setCamera(pose);
+  scene.setQuality(exact);
+  scene.setCounting(true);
+  OffscreenView view(kWidth, kHeight);
+  view.render(scene);
+  return scene.statistics();
+}
+
+// Of a reference picture, whose rays of a block are slow.
+constexpr int kFewColumns = 8;
+constexpr int kFewRows = 6;
+constexpr std::size_t kMiddle = 3 * (kFewRows / 2 * kFewColumns + kFewColumns / 2);
+
+} // namespace
+
+// 40 HU in the window of 4000 HU about 700 HU, whatever lamp and veil.
+TEST(SoftTissueSection, IsTheCtInGreyWhereCropBoxAndPlanesCut)
+{
+  SceneContents cropped = block(40.0, 0.08F, cube(33, 0.5));
+  cropped.section = SectionWindow{4000.0, 700.0};
+  cropped.light.exposure = 1.0;
+  SceneContents clipped = cropped;
+  cropped.crop = core::IndexBox{{0, 4, 0}, {33, 33, 33}};
+  clipped.clipping = {{{0.0, -6.0, 0.0}, {0.0, 1.0, 0.0}}};
+  for (const SceneContents& contents : {cropped, clipped})
+  {
+    const ReferencePicture truth = truthOf(contents, ahead(), kFewColumns, kFewRows);
+    const Shot shot = shoot(contents, ahead());
+    const std::uint8_t* pixel = shot.picture.pixel(kWidth / 2, kHeight / 2);
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      EXPECT_NEAR(static_cast<double>(truth.rgb[kMiddle + c]), 0.335, 1e-6);
+      EXPECT_NEAR(pixel[c], 255.0 * 0.335, 0.6);
+    }
+    EXPECT_NEAR(static_cast<double>(truth.depth.at(kFewColumns / 2, kFewRows / 2)), 194.0, 0.01);
+    EXPECT_NEAR(static_cast<double>(shot.depth.at(kWidth / 2, kHeight / 2)), 194.0, 0.01);
+    // The ray ends there: the CT, two texels of the material and two of its table.
+    EXPECT_LE(counted(contents, ahead()).fetchesPerPixel, 6.0);
+  }
+}
+
+TEST(SoftTissueSection, IsNoneWhereNothingIsCutOrSeen)
+{
+  SceneContents contents = block(40.0, 0.08F, cube(33, 0.5));
+  const auto drawn = [](const SceneContents& scene, const core::CameraPose& pose)
+  {
+    const std::uint8_t* pixel = draw(scene, pose).pixel(kWidth / 2, kHeight / 2);
+    return std::array<int, 3>{pixel[0], pixel[1], pixel[2]};
+  };
+  const auto expectNoFace = [&](SceneContents scene, const core::CameraPose& pose)
+  {
+    const auto without = drawn(scene, pose);
+    scene.section = SectionWindow{4000.0, 700.0};
+    EXPECT_EQ(drawn(scene, pose), without);
+    const ReferencePicture truth = truthOf(scene, pose, kFewColumns, kFewRows);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(without[c], 255.0 * static_cast<double>(truth.rgb[kMiddle + c]), 1.5);
+  };
+  expectNoFace(contents, ahead()); // the CT's own border
+  contents.clipping = {{{0.0, -6.0, 0.0}, {0.0, 1.0, 0.0}}};
+  core::CameraPose within = ahead();
+  within.position = {0.0, -3.0, 0.0};
+  expectNoFace(contents, within);
+  contents.softTissue = block(40.0, 0.001F, cube(33, 0.5)).softTissue;
+  expectNoFace(contents, ahead());
+}
+
+// The CT's grey, too, where soft tissue is coloured by another image; air stays open.
+TEST(SoftTissueSection, KeepsToTheReference)
+{
+  const auto cutOpen = [](SceneContents contents)
+  {
+    contents.clipping = {{Vector(0.0, 0.0, 2.0), Vector(0.2, -0.3, -1.0).normalized()}};
+    contents.crop = core::IndexBox{{4, 0, 0}, {44, 48, 48}};
+    contents.section = SectionWindow{4000.0, 700.0};
+    contents.light.exposure = 0.5;
+    return contents;
+  };
+  const Named scenes[] = {{"opaque", cutOpen(withShells(hollowBall(oblique())))},
+                          {"translucent", cutOpen(withShells(translucentBall()))},
+                          {"structures", cutOpen(withShells(labelledBall(cube(48, 0.5), 1.0F)))},
+                          {"cut", cutOpen(withShells(cutBall(0.35F)))},
+                          {"secondImage", cutOpen(softSecond())}};
+  for (const Named& scene : scenes)
+  {
+    const ReferencePicture truth = truthOf(scene.contents, slanting());
+    const Shot shot = shoot(scene.contents, slanting());
+    const Error error = errorOf(shot.picture, truth);
+    EXPECT_LE(error.rms, 1.5) << scene.name << " " << error.most;
+    const Agreement agreement = compare(shot, truth, 0.5);
+    EXPECT_GT(agreement.hits, 900) << scene.name;
+    // Where a face has an edge of its own: to an entry of the table, 0.05 mm here.
+    EXPECT_LE(agreement.others, 0.4) << scene.name;
+    EXPECT_LE(agreement.rms, 1.5) << scene.name;
+    SceneContents open = scene.contents;
+    open.section.reset();
+    EXPECT_GT(errorOf(shot.picture, truthOf(open, slanting())).rms, 5.0) << scene.name;
+    EXPECT_LT(counted(scene.contents, slanting()).fetchesPerPixel,
+              counted(open, slanting()).fetchesPerPixel)
+        << scene.name;
+  }
 }
 
 // Skin is lit as a surface: brighter where it faces the lamp than at its silhouette.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "PictureComparison.h"
 #include "PictureScenes.h"
@@ -92,6 +93,50 @@ TEST(TonePicture, HighlightsKeepTheirShapeWhereTheyWereFlatWhite)
   EXPECT_GT(white(draw(contents, slanting())), 30);
   contents.light.toneCurve = true;
   EXPECT_EQ(white(draw(contents, slanting())), 0);
+}
+
+// White behind it is too bright for a display, and the sum of both is not: a stop doubles the light
+// of that, too. Only what is displayed is clipped.
+TEST(TonePicture, ExposureIsAFactorBehindAVeil)
+{
+  constexpr double kVeil = 0.06;       // opacity of 1 mm
+  constexpr double kThickness = 11.75; // mm
+  const double veil[] = {0.5, 0.2, 0.2};
+  const double wall[] = {0.9, 0.8, 0.7};
+  SceneContents contents = boneScene(
+      ct<std::int16_t>(cube(48, 0.5), [](const Vector& p) { return p.y(); })); // bone: y > 0
+  contents.materials = {{appearance::TransferFunction::constant({0.9F, 0.8F, 0.7F}, 1.0F, 0.0F)}};
+  contents.softTissue = appearance::Material{
+      appearance::TransferFunction::constant({0.5F, 0.2F, 0.2F}, static_cast<float>(kVeil), 0.0F)};
+  contents.light.specular = 0.0;
+  const core::CameraPose ahead = from({0.0, -200.0, 0.0}, {0.0, 0.0, 0.0}, 2.0);
+  const double passes = std::pow(1.0 - kVeil, kThickness);
+  const double inside = contents.light.ambient + (1.0 - contents.light.ambient) * 2.0 / 3.0;
+  const auto see = [&] { return truthOf(contents, ahead, 8, 6); }; // its rays are slow here
+  const auto middleOf = [](const ReferencePicture& truth, std::size_t c)
+  { return static_cast<double>(truth.rgb[3 * (3 * 8 + 4) + c]); };
+  const auto drawn = [&](std::size_t c)
+  { return int{draw(contents, ahead).pixel(kWidth / 2, kHeight / 2)[c]}; };
+  const ReferencePicture plain = see();
+  for (const double stops : {0.0, 1.0, 1.5, 2.5})
+  {
+    contents.light.exposure = stops;
+    const double factor = std::exp2(stops / 2.2);
+    const ReferencePicture truth = see();
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      const double wanted =
+          factor * ((1.0 - passes) * inside * veil[c] + passes * wall[c]); // 0.62, 0.46, 0.41
+      EXPECT_NEAR(middleOf(truth, c), std::min(wanted, 1.0), 2e-3) << stops << " " << c;
+      EXPECT_NEAR(drawn(c), 255.0 * std::min(wanted, 1.0), 1.5) << stops << " " << c;
+      if (wanted < 0.99)
+      {
+        EXPECT_NEAR(std::log2(std::pow(middleOf(truth, c) / middleOf(plain, c), 2.2)), stops, 1e-3)
+            << stops << " " << c;
+      }
+    }
+  }
+  EXPECT_EQ(drawn(0), 255); // 2.5 EV
 }
 
 // A wall across the view axis, with the focal point on it.

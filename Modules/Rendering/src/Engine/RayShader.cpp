@@ -64,6 +64,7 @@ std::string constants()
       {"kOccupancyThreshold", optics::kOccupancyThreshold},
       {"kSmoothOpacity", optics::kSmoothOpacity},
       {"kLeastFacing", optics::kLeastFacing},
+      {"kSoftInSection", optics::kSoftInSection},
       {"kMarginPerDepth", volume::kMarginPerDepth},
       {"kOcclusionReach", optics::kOcclusionReach},
       {"kShadowReach", optics::kShadowReach},

@@ -27,22 +27,23 @@ ClippedRegion::ClippedRegion(const core::GridGeometry& grid,
   for (int axis = 0; axis < 3; ++axis)
   {
     const Eigen::Vector3d rising = grid.voxelFromPatientLinear().row(axis).transpose();
-    keep(rising, grid.patientFromVoxel(lower));
-    keep(-rising, grid.patientFromVoxel(upper));
+    keep(rising, grid.patientFromVoxel(lower), lower[axis] > 0.0);
+    keep(-rising, grid.patientFromVoxel(upper),
+         upper[axis] < grid.dims()[static_cast<std::size_t>(axis)] - 1.0);
   }
   for (const ClippingPlane& plane : planes)
   {
     if (!plane.point.allFinite() || !(plane.normal.norm() > 0.0) || !plane.normal.allFinite())
       throw RenderingError(RenderingError::Reason::BadContents,
                            "picture: a clipping plane needs a point and a normal");
-    keep(plane.normal, plane.point);
+    keep(plane.normal, plane.point, true);
   }
 }
 
-void ClippedRegion::keep(const Eigen::Vector3d& inwards, const Eigen::Vector3d& point)
+void ClippedRegion::keep(const Eigen::Vector3d& inwards, const Eigen::Vector3d& point, bool isCut)
 {
   const Eigen::Vector3d unit = inwards.normalized();
-  m_sides.push_back({unit, -unit.dot(point)});
+  m_sides.push_back({unit, -unit.dot(point), isCut});
 }
 
 RaySpan ClippedRegion::clip(const PixelRay& ray) const
@@ -68,6 +69,7 @@ RaySpan ClippedRegion::clip(const PixelRay& ray) const
     {
       span.first = t;
       span.face = -side.inwards;
+      span.isCut = side.isCut;
     }
   }
   // Spans thinner than rounding are empty; the inset would reverse their ends.

@@ -17,6 +17,7 @@ struct RaySpan
   double last = -1.0; ///< < first: nowhere
   /// Unit normal of the entry face; none: starts at the camera.
   std::optional<Eigen::Vector3d> face;
+  bool isCut = false; ///< the face is of the crop box or of a clipping plane, not of the hull
 };
 
 /// The drawn part of the CT: the hull of its voxel centres (of those in the crop box, if any) on
@@ -35,8 +36,9 @@ private:
   {
     Eigen::Vector3d inwards; // unit
     double offset;           // inside where inwards . x + offset >= 0
+    bool isCut;              // not of the hull
   };
-  void keep(const Eigen::Vector3d& inwards, const Eigen::Vector3d& point);
+  void keep(const Eigen::Vector3d& inwards, const Eigen::Vector3d& point, bool isCut);
 
   std::vector<HalfSpace> m_sides;
   bool m_empty = false;

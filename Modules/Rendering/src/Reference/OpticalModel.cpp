@@ -41,6 +41,12 @@ Eigen::Vector3d displayed(const Eigen::Vector3d& color, const LightSettings& lig
   return light.toneCurve ? toneCurve(color) : color.cwiseMax(0.0).cwiseMin(1.0).eval();
 }
 
+Eigen::Vector3d displayed(const Eigen::Vector3d& color, double share, const LightSettings& light)
+{
+  return share > 0.0 ? (share * displayed(color / share, light)).eval()
+                     : Eigen::Vector3d::Zero().eval();
+}
+
 double edgeOpacity(double opacity, double cosine, double edges)
 {
   if (!(edges > 0.0) || opacity >= 1.0)
@@ -67,7 +73,7 @@ Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics,
   const double reaching = lightAt(light, distance, focus);
   const Eigen::Vector3d lit = (isScale ? std::min(reaching, light.intensity) : reaching) *
                               (color * diffuse + Eigen::Vector3d::Constant(seen.lamp * highlight));
-  return isScale ? lit.cwiseMax(0.0).cwiseMin(1.0).eval() : displayed(lit, light);
+  return isScale ? lit.cwiseMax(0.0).cwiseMin(1.0).eval() : lit;
 }
 
 Eigen::Vector3d Lamp::from(const Eigen::Vector3d& point) const
@@ -95,7 +101,7 @@ Eigen::Vector3d interiorColor(const Eigen::Vector3d& color, const LightSettings&
                               double distance, double focus, double facing)
 {
   const double diffuse = light.ambient + (1.0 - light.ambient) * facing;
-  return displayed(lightAt(light, distance, focus) * diffuse * color, light);
+  return lightAt(light, distance, focus) * diffuse * color;
 }
 
 double softEdge(const appearance::TransferFunction& transfer)

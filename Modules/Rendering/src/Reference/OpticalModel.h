@@ -27,7 +27,9 @@ namespace petrous::rendering
 /// colour weighted by the material's surface opacity; inside tissue the colour and extinction of
 /// the material's transfer function are integrated:
 ///   C = sum_surfaces T a_s c_s + integral T sigma(v) c(v) l ds,  T the transmittance so far
-/// A ray ends at opaque polygons; the remaining T weights what is behind.
+/// A ray ends at opaque polygons; the remaining T weights what is behind. Lit colours have no upper
+/// bound in C; what is displayed of them is displayed(C, their weights' sum). Colours that are not
+/// lit, or compared with a legend, are added to that as they are.
 ///
 /// Inside tissue no normal is computed, but in soft tissue, whose own surfaces (skin, fat on
 /// muscle) are such changes of intensity: its cosine is softFacing, with the gradient of what it
@@ -46,9 +48,11 @@ namespace petrous::rendering
 /// 0.5 - 1e-3 at x; otherwise a lumen's where the index at x is that of a lumen; otherwise bone.
 /// Where tissue is cut off by the hull, the crop box or a clipping plane, n is that face's normal
 /// and v is taken at x itself; with SceneContents::section its colour is sectionGrey of the CT's
-/// value if the material is bone's, otherwise transfer(v), and neither is lit. A zero gradient (n =
-/// 0) faces the camera, as does tissue that contains the camera. Depth is that of the first
-/// surface, whatever its opacity.
+/// value if the material is bone's, otherwise transfer(v), and neither is lit. With a
+/// section soft tissue, too, has a surface where the crop box or a clipping plane, but not the
+/// hull, cuts it off and its extinction is above kSoftInSection: opaque, of sectionGrey of
+/// the CT's value, not lit. A zero gradient (n = 0) faces the camera, as does tissue that contains
+/// the camera. Depth is that of the first surface, whatever its opacity.
 ///
 /// Thickness over a structure: if a surface that is not such a face has the material of bone or of
 /// a lumen, and the distance d to the structure there (trilinear, ThicknessOverlay) is below
@@ -82,6 +86,9 @@ constexpr double kInteriorFacing = 2.0 / 3.0;
 constexpr double kWetShininess = 240.0;
 
 constexpr double kOccupancyThreshold = 0.5 - 1e-3;
+
+/// Extinction of soft tissue, 1/mm, above which a section shows it.
+constexpr double kSoftInSection = 0.002;
 
 /// Surface opacity from which slice steps are smoothed when shading the CT's surface. They are less
 /// visible on more transparent surfaces, and a ray meets many of those.
@@ -146,6 +153,11 @@ Eigen::Vector3d toneCurve(const Eigen::Vector3d& color);
 /// A lit colour as it is displayed: by toneCurve if the light has one, else clamped to 0..1.
 Eigen::Vector3d displayed(const Eigen::Vector3d& color, const LightSettings& light);
 
+/// Of a pixel, of which lit surfaces and tissues have the part `share`, and together the light
+/// `color`: their mean colour as it is displayed, times `share`. What they add and what they let
+/// through remain 1 together.
+Eigen::Vector3d displayed(const Eigen::Vector3d& color, double share, const LightSettings& light);
+
 /// Opacity of a translucent surface, `opacity` head-on, at a cosine c: that of a shell of constant
 /// thickness by the law of Beer and Lambert, through which the path is 1/c times as long (Kay and
 /// Greenberg, Transparency for computer synthesized images, 1979):
@@ -158,17 +170,17 @@ double edgeOpacity(double opacity, double cosine, double edges);
 double sectionGrey(const SectionWindow& window, double value);
 
 /// light (c (ambient sky + (1 - ambient) facing lamp) + lamp ((1 - wetness) k_s specular
-///        facing^shininess + wetness facing^kWetShininess)), as displayed; k_s of the transfer
-/// function. Below water a surface has no gloss of its own: bone (refractive index 1.55) reflects
-/// 4.7 % in air and 0.6 % in water (Fresnel).
+///        facing^shininess + wetness facing^kWetShininess)), without an upper bound; k_s of the
+/// transfer function. Below water a surface has no gloss of its own: bone (refractive index 1.55)
+/// reflects 4.7 % in air and 0.6 % in water (Fresnel).
 ///
 /// `isScale`: a colour that is compared with a legend; the light is at most the intensity then, and
-/// nothing rolls off.
+/// it is displayed as it is, 0..1.
 Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics, double shininess,
                              double cosine, const LightSettings& light, double distance,
                              const Seen& seen = {}, double focus = 0.0, bool isScale = false);
 
-/// light c (ambient + (1 - ambient) facing), as displayed.
+/// light c (ambient + (1 - ambient) facing), without an upper bound.
 Eigen::Vector3d interiorColor(const Eigen::Vector3d& color, const LightSettings& light,
                               double distance, double focus = 0.0, double facing = kInteriorFacing);
 

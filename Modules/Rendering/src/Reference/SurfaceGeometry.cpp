@@ -113,8 +113,10 @@ Eigen::Vector3d lit(const Eigen::Vector3d& color, const ShapeHit& hit, const Sig
   if (sight.seeing)
     seen = sight.seeing(sight.ray.origin + hit.distance * sight.ray.direction,
                         cosine > 0.0 ? (-hit.normal).eval() : hit.normal, isTool);
-  return optics::surfaceColor({{color[0], color[1], color[2]}, 0.0, 1.0}, light.shininess, cosine,
-                              light, hit.distance, seen, sight.focus);
+  return optics::displayed(optics::surfaceColor({{color[0], color[1], color[2]}, 0.0, 1.0},
+                                                light.shininess, cosine, light, hit.distance, seen,
+                                                sight.focus),
+                           light);
 }
 
 struct ToolHits

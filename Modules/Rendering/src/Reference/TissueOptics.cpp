@@ -243,6 +243,22 @@ Eigen::Vector3d TissueOptics::normalAt(const Eigen::Vector3d& patient, State fro
   return smooth ? m_field.smoothNormal(patient) : m_field.normal(patient);
 }
 
+// Only with a section.
+TissueOptics::Surface TissueOptics::sectionAt(const Eigen::Vector3d& patient, double opacity) const
+{
+  const double value = m_ct->sample(m_ct->geometry().voxelFromPatient(patient));
+  return {Eigen::Vector3d::Constant(optics::sectionGrey(*m_section, value)), opacity, false};
+}
+
+std::optional<TissueOptics::Surface> TissueOptics::softSection(const Eigen::Vector3d& patient) const
+{
+  if (!m_section || !m_softTissue)
+    return std::nullopt;
+  const auto look = m_softTissue->transfer.at(intensity(*m_softTissue, patient));
+  return look.extinction > optics::kSoftInSection ? std::optional(sectionAt(patient, 1.0))
+                                                  : std::nullopt;
+}
+
 TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, State from, State to,
                                               const std::optional<Eigen::Vector3d>& face,
                                               const optics::Seen& seen, double focus) const
@@ -250,11 +266,7 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
   const Eigen::Vector3d point = ray.origin + t * ray.direction;
   const appearance::Material& material = surfaceMaterial(point, from, to);
   if (face && m_section && &material == &m_materials.front())
-  {
-    const double value = m_ct->sample(m_ct->geometry().voxelFromPatient(point));
-    return {Eigen::Vector3d::Constant(optics::sectionGrey(*m_section, value)),
-            material.surfaceOpacity};
-  }
+    return sectionAt(point, material.surfaceOpacity);
   const Eigen::Vector3d normal = face ? *face : normalAt(point, from, to);
   Eigen::Vector3d below = point;
   if (!face)
@@ -266,11 +278,11 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
     overlay = overlayAt(point);
   look.color = overlay.value_or(look.color);
   if (face && m_section)
-    return {{look.color[0], look.color[1], look.color[2]}, material.surfaceOpacity};
+    return {{look.color[0], look.color[1], look.color[2]}, material.surfaceOpacity, false};
   const double opacity = material.surfaceOpacity;
   return {optics::surfaceColor(look, material.shininess, cosine, m_light, t, seen, focus,
                                overlay.has_value()),
-          face ? opacity : optics::edgeOpacity(opacity, cosine, m_light.edges)};
+          face ? opacity : optics::edgeOpacity(opacity, cosine, m_light.edges), !overlay};
 }
 
 } // namespace petrous::rendering

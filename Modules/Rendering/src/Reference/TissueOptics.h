@@ -32,8 +32,9 @@ public:
 
   struct Surface
   {
-    Eigen::Vector3d color; ///< lit, RGB
+    Eigen::Vector3d color; ///< RGB
     double opacity = 1.0;
+    bool isLit = true; ///< otherwise the colour is displayed as it is
   };
 
   /// Throws RenderingError BadContents if the contents are inconsistent: no CT, a mask on another
@@ -57,6 +58,9 @@ public:
   /// Input of a material's transfer function at a point.
   double intensity(const appearance::Material& material, const Eigen::Vector3d& patient) const;
 
+  /// What crop box and clipping planes show of the soft tissue that they cut off.
+  std::optional<Surface> softSection(const Eigen::Vector3d& patient) const;
+
   /// Normal of the surface at the transition between two states; zero: facing the camera.
   Eigen::Vector3d normalAt(const Eigen::Vector3d& patient, State from, State to) const;
 
@@ -79,6 +83,7 @@ private:
   const appearance::Material& surfaceMaterial(const Eigen::Vector3d& patient, State from,
                                               State to) const;
   std::optional<std::array<double, 3>> overlayAt(const Eigen::Vector3d& patient) const;
+  Surface sectionAt(const Eigen::Vector3d& patient, double opacity) const;
   Eigen::Vector3d occupancyNormal(const Eigen::Vector3d& patient) const;
   Eigen::Vector3d borderNormal(const Eigen::Vector3d& patient, std::size_t index) const;
 

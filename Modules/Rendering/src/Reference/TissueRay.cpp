@@ -18,7 +18,9 @@ struct TissueRay::Walk
 {
   const PixelRay& ray;
   const optics::Lamp& lamp;
-  GatheredLight light;
+  GatheredLight light; // colour: of what is displayed as it is
+  Eigen::Vector3d lit{0.0, 0.0, 0.0};
+  double litShare = 0.0;
   TissueOptics::State state = TissueOptics::kAir;
   double t = 0.0;          // up to which tissue is accumulated
   double value = 0.0;      // intensity at t, if `valueKnown`
@@ -59,6 +61,9 @@ GatheredLight TissueRay::cast(const PixelRay& ray, double end, const optics::Lam
     // Tissue that contains the camera is cut off there by a face towards the camera.
     addSurface(walk, span.first, before.place.state,
                span.face ? *span.face : Eigen::Vector3d::Zero().eval());
+  else if (before.place.state == TissueOptics::kSoft && span.isCut)
+    if (const auto section = m_optics.softSection(walk.at(span.first)))
+      add(walk, span.first, *section);
   walk.state = before.place.state;
   Sample here = sample(1);
   for (long i = 1; i <= steps && walk.light.transmittance > kNothingVisible; ++i)
@@ -73,6 +78,7 @@ GatheredLight TissueRay::cast(const PixelRay& ray, double end, const optics::Lam
     before = here;
     here = after;
   }
+  walk.light.color += optics::displayed(walk.lit, walk.litShare, m_optics.light());
   return walk.light;
 }
 
@@ -152,11 +158,16 @@ void TissueRay::addSurface(Walk& walk, double t, TissueOptics::State to,
     const bool turned = normal.dot(walk.ray.direction) > 0.0;
     seen = m_shadows.at(point, turned ? -normal : normal, walk.lamp);
   }
-  const TissueOptics::Surface surface =
-      m_optics.surfaceAt(walk.ray, t, walk.state, to, face, seen, walk.lamp.focus);
+  add(walk, t, m_optics.surfaceAt(walk.ray, t, walk.state, to, face, seen, walk.lamp.focus));
+}
+
+void TissueRay::add(Walk& walk, double t, const TissueOptics::Surface& surface)
+{
   if (std::isnan(walk.light.depth))
     walk.light.depth = t;
-  walk.light.color += walk.light.transmittance * surface.opacity * surface.color;
+  const double adds = walk.light.transmittance * surface.opacity;
+  (surface.isLit ? walk.lit : walk.light.color) += adds * surface.color;
+  walk.litShare += surface.isLit ? adds : 0.0;
   walk.light.transmittance *= 1.0 - surface.opacity;
 }
 
@@ -184,10 +195,11 @@ void TissueRay::gather(Walk& walk, double to) const
     const double opacity = -std::expm1(-optics.extinction * length);
     const Eigen::Vector3d color(optics.color[0], optics.color[1], optics.color[2]);
     const double at = from + (to - from) * fraction;
-    walk.light.color +=
-        walk.light.transmittance * opacity *
-        optics::interiorColor(color, m_optics.light(), at, walk.lamp.focus,
-                              m_optics.facingIn(walk.state, walk.at(at), walk.ray.direction));
+    const double adds = walk.light.transmittance * opacity;
+    walk.lit += adds * optics::interiorColor(
+                           color, m_optics.light(), at, walk.lamp.focus,
+                           m_optics.facingIn(walk.state, walk.at(at), walk.ray.direction));
+    walk.litShare += adds;
     walk.light.transmittance *= 1.0 - opacity;
   };
   const auto addPiece = [&](double first, double last)

@@ -46,6 +46,7 @@ private:
   void gather(Walk& walk, double to) const;
   void addSurface(Walk& walk, double t, TissueOptics::State to,
                   const std::optional<Eigen::Vector3d>& face) const;
+  static void add(Walk& walk, double t, const TissueOptics::Surface& surface);
 
   TissueOptics m_optics;
   ClippedRegion m_drawn;

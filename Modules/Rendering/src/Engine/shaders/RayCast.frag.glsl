@@ -222,7 +222,10 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
     overlay = vec4(vec3(clamp((value - section.x) * section.y, 0.0, 1.0)), 1.0);
   vec3 lit =
       surfaceColor(ray.material, ray.row, value, facing, hit, overlay, seen, isSection);
-  ray.color += ray.transmittance * opacity * lit;
+  float adds = ray.transmittance * opacity;
+  bool isPlain = isSection || overlay.a > 0.0;
+  ray.color += isPlain ? vec3(0.0) : adds * lit;
+  ray.plain += isPlain ? adds * vec4(lit, 1.0) : vec4(0.0);
 #ifdef PETROUS_INTERIOR
   ray.lit += ray.transmittance * opacity * reaches(ray.gathering, hit / stepLength);
 #endif
@@ -257,6 +260,19 @@ int pass(inout Ray ray, float hit, float facing, inout float depth)
   if (ray.next != kAir && ray.material != inside)
     setMaterial(ray, inside);
   ray.value = valueAt(ray, hit, ray.at.value);
+#ifdef PETROUS_SOFT
+  if (ray.next == kSoft && facing >= 0.0 && ray.isCut && section.y > 0.0)
+  {
+    if (extinctionAt(inside, ray.row, ray.gathering, ray.value) > kSoftInSection)
+    {
+      float grey = clamp((ray.at.value - section.x) * section.y, 0.0, 1.0);
+      ray.plain += ray.transmittance * vec4(vec3(grey), 1.0);
+      ray.transmittance = 0.0;
+      depth = mmOf(ray, hit);
+      return kEnd;
+    }
+  }
+#endif
   ray.state = ray.next;
   ray.before = hit;
   ray.number = floor(hit); // the next sample is taken again in the new state
@@ -344,6 +360,9 @@ void main()
   ray.unit = view / toMm;
 #endif
   Span span = clipRay(origin, ray.direction);
+#ifdef PETROUS_SOFT
+  ray.isCut = span.isCut;
+#endif
   ray.first = span.first;
   float last = min(span.last, opaqueEnd(toMm));
   bool alive = last - ray.first > kThinnest * span.last;
@@ -376,6 +395,7 @@ void main()
   ray.lit = 0.0;
 #endif
   ray.color = vec3(0.0);
+  ray.plain = vec4(0.0);
   ray.transmittance = 1.0;
   ray.at = operandsAt(ray.ways, 0.0, false, true);
   ray.next = alive ? stateOf(ray.at, ray.ways, 0.0, false) : kAir;
@@ -383,16 +403,18 @@ void main()
   if (alive)
     follow(ray, face ? kChange : kOn, face ? span.facing : -1.0, outDepth);
 
+  // Exposure and tone curve are of the whole pixel: what is too bright behind a veil still differs.
+  vec3 color = displayed(ray.color, 1.0 - ray.transmittance - ray.plain.a) + ray.plain.rgb;
 #ifdef PETROUS_INTERIOR
   // The rest is assumed to look like what was seen, with the light there.
   if (ray.transmittance < ray.gathering.enough)
   {
     float reached = reaches(ray.gathering, ray.nearest + ray.before);
-    ray.color *= 1.0 + ray.transmittance * reached / max(ray.lit, 1e-6);
+    color *= 1.0 + ray.transmittance * reached / max(ray.lit, 1e-6);
     ray.transmittance = 0.0;
   }
 #endif
-  outColor = vec4(ray.color, 1.0 - ray.transmittance);
+  outColor = vec4(color, 1.0 - ray.transmittance);
 #ifdef PETROUS_COUNT
   outCount = vec2(fetches, samples);
 #endif

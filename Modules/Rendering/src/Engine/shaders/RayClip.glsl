@@ -12,6 +12,7 @@ struct Span
   float first;
   float last;
   float facing;
+  bool isCut; // the entry face is of the crop box or of a clipping plane, not of the hull
 };
 
 Span clipRay(vec3 o, vec3 d)
@@ -30,11 +31,16 @@ Span clipRay(vec3 o, vec3 d)
   span.first = max(max(enter.x, enter.y), max(enter.z, 0.0));
   span.last = min(min(leave.x, leave.y), leave.z);
   span.facing = 1.0; // the camera is inside
+  span.isCut = false;
   vec3 along = abs(d) / vec3(length(normalFromVoxel[0]), length(normalFromVoxel[1]),
                              length(normalFromVoxel[2]));
   if (span.first > 0.0)
-    span.facing = enter.x >= max(enter.y, enter.z) ? along.x
-                  : (enter.y >= enter.z ? along.y : along.z);
+  {
+    bvec3 axis = bvec3(enter.x >= max(enter.y, enter.z), enter.y >= enter.z, true);
+    span.facing = axis.x ? along.x : (axis.y ? along.y : along.z);
+    vec3 removed = mix(hullUpper - boxUpper, boxLower, greaterThan(d, vec3(0.0)));
+    span.isCut = (axis.x ? removed.x : (axis.y ? removed.y : removed.z)) > 0.0;
+  }
 #ifdef PETROUS_CLIP
   for (int i = 0; i < planeCount; ++i)
   {
@@ -53,6 +59,7 @@ Span clipRay(vec3 o, vec3 d)
     {
       span.first = t;
       span.facing = abs(slope);
+      span.isCut = true;
     }
   }
 #endif

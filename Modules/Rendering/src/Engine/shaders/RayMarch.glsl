@@ -17,6 +17,9 @@ struct Ray
   vec3 behind;    // from a brick's lower corner to its exit wall
   vec3 never;     // large along an axis on which the ray does not move
   Ways ways;
+#ifdef PETROUS_SOFT
+  bool isCut; // it enters through the crop box or a clipping plane
+#endif
   float first; // mm from the camera to the entry
   float last;  // end of the ray
   float number; // of the last sample
@@ -39,7 +42,8 @@ struct Ray
   float value;   // intensity of its material at `before`
   float lit;     // opacity weighted by the attenuation of the light
 #endif
-  vec3 color;
+  vec3 color; // lit, without an upper bound
+  vec4 plain; // what is displayed as it is, and its share of the pixel
   float transmittance;
 };
 

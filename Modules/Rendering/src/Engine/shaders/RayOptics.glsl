@@ -7,13 +7,15 @@ float lightAt(float t)
   return light.x / (1.0 + ratio * ratio);
 }
 
-// A lit colour as it is displayed.
-vec3 displayed(vec3 lit)
+// The mean of lit colours of those shares of a pixel, times their sum, as it is displayed.
+vec3 displayed(vec3 lit, float share)
 {
+  float sum = max(share, 1e-6);
+  vec3 mean = lit / sum;
 #ifdef PETROUS_TONE
-  return toneCurve(lit);
+  return sum * toneCurve(mean);
 #else
-  return clamp(lit, 0.0, 1.0);
+  return sum * clamp(mean, 0.0, 1.0);
 #endif
 }
 
@@ -76,7 +78,8 @@ float opacityFrom(float opacity, float facing)
 #endif
 }
 
-// `overlay`: see overlayAt; `seen`: of the surface; `isSection`: a face, which is not lit.
+// Lit, without an upper bound. `overlay`: see overlayAt; `seen`: of the surface; `isSection`: a
+// face, which is not lit.
 vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, vec4 overlay,
                   Seen seen, bool isSection)
 {
@@ -92,7 +95,7 @@ vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, ve
   bool isScale = overlay.a > 0.0; // compared with a legend: no brighter than that, and its hue
   vec3 lit = (isScale ? min(reaching, plainLight) : reaching) *
              (look.rgb * diffuse + seen.lamp * highlight);
-  lit = isScale ? clamp(lit, 0.0, 1.0) : displayed(lit);
+  lit = isScale ? clamp(lit, 0.0, 1.0) : lit;
   return isSection ? look.rgb : lit;
 }
 
@@ -138,6 +141,13 @@ float entryOf(vec4 row, Gathering g, float value)
   return floor(clamp((value - row.x) * (row.y * g.lastEntry), 0.0, g.lastEntry) + 0.5);
 }
 
+// 1/mm, the mean of the table's interval.
+float extinctionAt(int material, vec4 row, Gathering g, float value)
+{
+  float entry = floor(clamp((value - row.x) * (row.y * g.lastEntry), 0.0, g.lastEntry - 1.0));
+  return (integralAt(material, entry + 1.0).a - integralAt(material, entry).a) * g.lastEntry;
+}
+
 // A segment of one tissue.
 struct Segment
 {
@@ -167,7 +177,7 @@ void gather(Segment segment, Gathering g, float lamp, float middle, inout vec3 c
             inout float lit, inout float transmittance)
 {
   float reached = reaches(g, middle);
-  vec3 shade = displayed(segment.color * (segment.share * lamp * reached));
+  vec3 shade = segment.color * (segment.share * lamp * reached);
   color += transmittance * segment.opacity * shade;
   lit += transmittance * segment.opacity * reached;
   transmittance -= transmittance * segment.opacity;

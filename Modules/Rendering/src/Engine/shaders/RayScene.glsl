@@ -17,8 +17,8 @@
 //   EXACT      the card's filter rounds: values come from one of our own
 //   ROUNDED    the card's filter is made to round its weights, for tests on one that does not
 // Preceded by the constants that the C++ code defines (RayShader.cpp): kMaxPlanes,
-// kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity, kLeastFacing
-// (OpticalModel.h),
+// kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity, kLeastFacing,
+// kSoftInSection (OpticalModel.h),
 // kOcclusionReach, kShadowReach, kLampTangent, kSliceGrowth (OpticalModel.h, RayShader.h),
 // kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h), kMeeting,
 // kDeepest, kMarginPerDepth (LabelBorders.h).
@@ -84,7 +84,9 @@ uniform float falloff;
 #ifdef PETROUS_EDGES
 uniform float edges; // 0 to 1
 #endif
-uniform vec2 section; // grey of bone's faces: value of black, 1 / range; 0, 0: lit as surfaces are
+// Grey of faces: value of black, 1 / range; 0, 0: bone's are lit as surfaces are, and soft tissue
+// has none.
+uniform vec2 section;
 
 #ifdef PETROUS_MASK
 uniform sampler3D maskTexture;

@@ -133,6 +133,44 @@ TEST(OpacityPyramid, TakesVoxelsWithoutAValueForAir)
   EXPECT_EQ(built.near({3.0, 0.0, 0.0}), 1.0);
 }
 
+// After a rebuild the smallest box, and of what is cut away and comes back never too small.
+TEST(OpacityPyramid, KnowsTheBoxOfWhatStopsLight)
+{
+  const auto boxOf = [](const OpacityPyramid& pyramid)
+  {
+    core::IndexBox box;
+    const OpacityPyramid::Level& first = pyramid.levels().front();
+    strokes::forEach({{0, 0, 0}, first.dims},
+                     [&](int i, int j, int k)
+                     {
+                       const auto n =
+                           static_cast<std::size_t>(i + first.dims[0] * (j + first.dims[1] * k));
+                       if (first.texels[n].tissue > 0)
+                         box = box.united({{i, j, k}, {i + 1, j + 1, k + 1}});
+                     });
+    return box;
+  };
+  Built built(hollowBall(oblique()));
+  const core::IndexBox whole = boxOf(built.pyramid);
+  EXPECT_FALSE(whole.empty());
+  EXPECT_TRUE(built.pyramid.stopping() == whole);
+  const core::GridGeometry& grid = built.contents.ct->geometry();
+  const auto cutBy = [&](std::shared_ptr<volume::CutMask> mask)
+  {
+    built.contents.mask = std::move(mask);
+    built.grid.maskChanged(built.contents.mask.get(), grid.fullBox());
+  };
+  cutBy(cut(grid, [](const Vector& p) { return -p.x(); })); // half of it is gone
+  built.pyramid.rebuild(built.scene_(), built.grid);
+  const core::IndexBox half = boxOf(built.pyramid);
+  EXPECT_LT(half.count(), whole.count());
+  EXPECT_TRUE(built.pyramid.stopping() == half);
+  cutBy(std::make_shared<volume::CutMask>(grid)); // undone
+  built.pyramid.maskChanged(built.scene_(), built.grid, grid.fullBox());
+  EXPECT_TRUE(boxOf(built.pyramid) == whole);
+  EXPECT_TRUE(built.pyramid.stopping() == whole.united(half));
+}
+
 TEST(OpacityPyramid, AnEditEqualsARebuild)
 {
   strokes::Random random(5);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <ostream>
@@ -576,6 +577,41 @@ TEST(ShadowPicture, TakesNothingWhereThereAreNone)
     scene.setContents(contents);
     EXPECT_EQ(hasShadows(shoot(view, scene)), on);
   }
+}
+
+// A plane near the CT's border: the lamp's cone is left where nothing of the bone is ahead, 3 mm
+// and a texel above it, with a look-up each millimetre from 0.6 mm on; with the 15 of the sky and a
+// fourth towards the lamp that is 19 in place of 29.
+TEST(ShadowPicture, LooksTowardsTheLampNoFartherThanThereIsAnythingInItsWay)
+{
+  const auto fetches = [](SceneContents contents, bool shadows)
+  {
+    contents.light.shadows = shadows;
+    RenderQuality exact;
+    exact.filterBits = RenderQuality::kExactFilterBits;
+    ScenePicture scene;
+    scene.setContents(contents);
+    scene.setCamera(above());
+    scene.setQuality(exact);
+    scene.setCounting(true);
+    OffscreenView view(kColumns, kRows);
+    view.render(scene);
+    return scene.statistics().fetchesPerPixel;
+  };
+  const auto plane = [](const Vector&) { return 50.0; };
+  const SceneContents flat = holed(plane, false, cube(56, 0.5));
+  const DepthImage depth = shoot(flat, above(), {}, kColumns, kRows).depth;
+  const auto isHit = [](float millimetres) { return !std::isnan(millimetres); };
+  const double hit = static_cast<double>(
+                         std::count_if(depth.millimetres.begin(), depth.millimetres.end(), isHit)) /
+                     static_cast<double>(depth.millimetres.size());
+  ASSERT_GT(hit, 0.5);
+  const double looks = (fetches(flat, true) - fetches(flat, false)) / hit;
+  EXPECT_LE(looks, 19.0);
+  EXPECT_GT(looks, 15.0);
+  // With a small mesh on the way the cone is followed to it.
+  const SceneContents over = with(flat, ballMesh({-3.0, -13.0, 7.0}, 1.0));
+  EXPECT_GT(fetches(over, true) - fetches(over, false), hit * looks + 0.5);
 }
 
 // The border of what is drawn is none of the patient's.

@@ -332,8 +332,30 @@ void OpacityPyramid::update(const Scene& scene, const OccupancyGrid& grid,
   if (scene.meshes)
     for (const Mesh& mesh : *scene.meshes)
       addMesh(mesh, scene.mask, texels);
+  m_stopping = m_stopping.united(stoppingIn(texels));
   for (std::size_t level = 1; level < m_levels.size(); ++level)
     reduce(level, boxAt(level, texels));
+}
+
+core::IndexBox OpacityPyramid::stoppingIn(const core::IndexBox& texels) const
+{
+  const Level& first = m_levels.front();
+  const auto stops = [](const Texel& texel) { return texel.tissue > 0; };
+  core::IndexBox found;
+  for (int k = texels.lower[2]; k < texels.upper[2]; ++k)
+    for (int j = texels.lower[1]; j < texels.upper[1]; ++j)
+    {
+      const Texel* row = first.texels.data() + indexIn(first.dims, 0, j, k);
+      const Texel* end = row + texels.upper[0];
+      const Texel* lower = std::find_if(row + texels.lower[0], end, stops);
+      if (lower == end)
+        continue;
+      while (!stops(end[-1]))
+        --end;
+      found = found.united(
+          {{static_cast<int>(lower - row), j, k}, {static_cast<int>(end - row), j + 1, k + 1}});
+    }
+  return found;
 }
 
 // The mask's mean is what the drill left of a texel.
@@ -410,6 +432,7 @@ void OpacityPyramid::reduce(std::size_t level, const core::IndexBox& texels)
 
 void OpacityPyramid::rebuild(const Scene& scene, const OccupancyGrid& grid)
 {
+  m_stopping = {};
   update(scene, grid, {{0, 0, 0}, m_levels.front().dims});
 }
 

@@ -88,6 +88,10 @@ public:
   /// The texels of a level that depend on a box of the first.
   static core::IndexBox boxAt(std::size_t level, const core::IndexBox& texels) noexcept;
 
+  /// Texels of the first level outside of which nothing stops light. Grows with what changes, and
+  /// is the smallest after a rebuild.
+  const core::IndexBox& stopping() const noexcept { return m_stopping; }
+
   /// From the first on; each has half the texels of the one before along each axis.
   const std::vector<Level>& levels() const noexcept { return m_levels; }
   const core::Index3& factor() const noexcept { return m_factor; } ///< voxels of a texel
@@ -102,11 +106,13 @@ private:
   void update(const Scene& scene, const OccupancyGrid& grid, const core::IndexBox& texels);
   void addMesh(const Mesh& mesh, const volume::CutMask* mask, const core::IndexBox& texels);
   core::IndexBox voxelsOf(const core::IndexBox& texels) const noexcept;
+  core::IndexBox stoppingIn(const core::IndexBox& texels) const;
   void reduce(std::size_t level, const core::IndexBox& texels);
 
   core::GridGeometry m_grid;
   core::Index3 m_factor{1, 1, 1};
   std::vector<Level> m_levels;
+  core::IndexBox m_stopping;
 };
 
 } // namespace petrous::rendering

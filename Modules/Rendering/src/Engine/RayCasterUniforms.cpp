@@ -268,6 +268,20 @@ void RayCaster::setShadows(GlUniforms& program, const Frame& frame) const
   program.set("nearestSlice", last / std::pow(kSliceGrowth, before));
   program.set("slices", before + 1);
 
+  // A look-up reads at most one and a half of its texels away; of the lamp's, the last are widest.
+  const double widest = std::max(optics::kShadowReach * optics::kLampTangent, edge);
+  const double level = std::min(std::floor(std::log2(widest / edge) + 0.5),
+                                static_cast<double>(m_opacities->levels().size()) - 1.0);
+  const Eigen::Array3d margin = 1.5 * std::exp2(level) * blocks.array() + 0.01;
+  const core::IndexBox& stopping = m_opacities->stopping();
+  const auto corner = [&blocks](const core::Index3& texel) -> Eigen::Array3d
+  { return blocks.array() * Eigen::Array3d(texel[0], texel[1], texel[2]) - 0.5; };
+  const bool isNone = stopping.empty();
+  program.set("stoppingLower", isNone ? Eigen::Vector3d::Constant(1e9).eval()
+                                      : Eigen::Vector3d(corner(stopping.lower) - margin));
+  program.set("stoppingUpper", isNone ? Eigen::Vector3d::Constant(-1e9).eval()
+                                      : Eigen::Vector3d(corner(stopping.upper) + margin));
+
   const optics::Lamp& lamp = frame.lamp;
   Eigen::Vector4d at;
   at << lamp.at - (lamp.isFar ? Eigen::Vector3d::Zero().eval() : frame.view.origin),

@@ -16,6 +16,7 @@ uniform float opacityEdge; // their mean length
 uniform int opacityLevels;
 uniform float nearestSlice; // mm; the first look-up along a cone of the sky
 uniform int slices;         // look-ups along it, each kSliceGrowth times as far as the last
+uniform vec3 stoppingLower, stoppingUpper; // voxels: a look-up towards the lamp is 0 outside
 uniform vec4 lamp; // w = 1: from the rays' common origin, mm; w = 0: towards it
 uniform vec3 pictureUp, pictureRight;
 uniform vec3 mmPerVoxel; // between the planes of voxels
@@ -178,6 +179,14 @@ float skyAt(vec3 v, vec3 normal, float texel, bool wanted)
   return clamp(sky, 0.0, 1.0);
 }
 
+// Distance, mm, at which a way, voxels a mm, has left all that stops light.
+float leavesAt(vec3 v, vec3 by)
+{
+  vec3 safe = mix(vec3(1e-20), by, greaterThan(abs(by), vec3(1e-20)));
+  vec3 away = max((stoppingLower - v) / safe, (stoppingUpper - v) / safe);
+  return min(min(away.x, away.y), away.z);
+}
+
 // Of the lamp's disc, `way` being the direction to its centre.
 float lampAt(vec3 v, vec3 normal, vec3 way, float texel, bool wanted)
 {
@@ -185,8 +194,9 @@ float lampAt(vec3 v, vec3 normal, vec3 way, float texel, bool wanted)
   float left = clamp(0.5 + 0.5 * rise / kLampTangent, 0.0, 1.0); // above the tangent plane
   float seen = left;
   vec3 by = voxelFromMm * way;
+  float last = min(leavesAt(v, by), kShadowReach);
   float far = wanted ? 1.2 * opacityEdge : kShadowReach;
-  while (far < kShadowReach && left > kDark)
+  while (far < last && left > kDark)
   {
     float width = max(far * kLampTangent, opacityEdge);
     float level = levelOf(width);

@@ -558,6 +558,7 @@ void MainWindow::connectModel()
   connect(m_keeper, &CaseDocumentController::statusMessage, this, showMessage);
   connect(m_thickness, &ThicknessController::statusMessage, this, showMessage);
   connect(m_registration, &RegistrationController::statusMessage, this, showMessage);
+  connect(m_registration, &RegistrationController::runningChanged, this, &MainWindow::showUndo);
   connect(m_registration, &RegistrationController::panelWanted, this,
           [this] { raisePanel("registrationDock"); });
   connect(m_keeper, &CaseDocumentController::ready, m_drill, &DrillController::tissueCame);
@@ -855,9 +856,10 @@ void MainWindow::showUndo()
   const auto show = [this](QAction& action, const QString& text, bool can, const QString& what)
   {
     enable(action, can,
-           !m_model.hasCase()           ? tr("Open a case first")
-           : &action == m_actions->undo ? tr("Nothing was changed")
-                                        : tr("Nothing was undone"));
+           !m_model.hasCase()                                 ? tr("Open a case first")
+           : disturbsRegistration(&action == m_actions->undo) ? disturbsText()
+           : &action == m_actions->undo                       ? tr("Nothing was changed")
+                                                              : tr("Nothing was undone"));
     action.setText(what.isEmpty() ? text : text + ' ' + QString(what).replace('&', "&&"));
   };
   const QString undo = tr("&Undo"), redo = tr("&Redo");
@@ -866,13 +868,26 @@ void MainWindow::showUndo()
   else if (undoesSegment())
     show(*m_actions->undo, undo, m_segment->canUndoStep(), m_segment->undoText());
   else
-    show(*m_actions->undo, undo, m_model.canUndo(), phrase(m_model.undoText()));
+    show(*m_actions->undo, undo, m_model.canUndo() && !disturbsRegistration(true),
+         phrase(m_model.undoText()));
   if (undoesMeasure())
     show(*m_actions->redo, redo, m_measure->canRedo(), m_measure->redoText());
   else if (redoesSegment())
     show(*m_actions->redo, redo, m_segment->canRedoStep(), m_segment->redoText());
   else
-    show(*m_actions->redo, redo, m_model.canRedo(), phrase(m_model.redoText()));
+    show(*m_actions->redo, redo, m_model.canRedo() && !disturbsRegistration(false),
+         phrase(m_model.redoText()));
+}
+
+// A run's result holds for the places that the MRs had when it began.
+bool MainWindow::disturbsRegistration(bool back) const
+{
+  return m_registration->running() && (back ? m_model.undoMovesMr() : m_model.redoMovesMr());
+}
+
+QString MainWindow::disturbsText() const
+{
+  return tr("It would move an MR while a registration is under way: wait for that, or cancel it");
 }
 
 // A tool's steps first; and no stroke as long as the drill is put away for it.
@@ -894,6 +909,8 @@ bool MainWindow::redoesSegment() const
 
 void MainWindow::step(bool back)
 {
+  if (disturbsRegistration(back))
+    return statusBar()->showMessage(disturbsText(), kMessage);
   const bool isStroke = back ? m_model.undoesStroke() : m_model.redoesStroke();
   const QString what = phrase(back ? m_model.undoText() : m_model.redoText());
   const auto act = [this, back] { back ? m_model.undo() : m_model.redo(); };

@@ -113,7 +113,9 @@ private:
   void showUndo();
   bool undoesSegment() const;
   bool redoesSegment() const;
-  void step(bool back); // undo or redo
+  void step(bool back);                       // undo or redo
+  bool disturbsRegistration(bool back) const; // that step of the case
+  QString disturbsText() const;
   bool undoesMeasure() const;
   void notice(const QString& text);
   void showView(rendering::StandardView view);

@@ -547,12 +547,7 @@ void MainWindow::connectModel()
             if (!m_viewState->isShowing()) // a case's is not the user's own
               m_settings->keepThrust(m_bar->thrust());
           });
-  connect(m_bar, &DrillBar::burrChanged, this,
-          [this]
-          {
-            if (!m_viewState->isShowing())
-              m_settings->keepBurr(m_bar->burr());
-          });
+  connect(m_bar, &DrillBar::burrChosen, this, [this] { m_settings->keepBurr(m_bar->wanted()); });
   const auto showMessage = [this](const QString& line)
   { statusBar()->showMessage(line, kMessage); };
   connect(m_keeper, &CaseDocumentController::statusMessage, this, showMessage);
@@ -1032,6 +1027,7 @@ void MainWindow::caseChanged()
     warnOfSides();
   showUnregistered(true);
   m_stamps->caseOpened();
+  tellOtherBurr();
 }
 
 // Without a registration an MR is not seen: that it came along is said until it is registered or
@@ -1106,6 +1102,12 @@ void MainWindow::offerBurrs()
   }
 }
 
+void MainWindow::tellOtherBurr()
+{
+  if (const QString text = m_bar->insteadText(); !text.isEmpty())
+    statusBar()->showMessage(text);
+}
+
 // A tool in use is taken up again with them.
 void MainWindow::editCatalogues()
 {
@@ -1131,6 +1133,7 @@ void MainWindow::editCatalogues()
               offerBurrs();
               if (m_model.touching())
                 m_drill->renewTool();
+              tellOtherBurr();
             });
     dialog->open();
   };

@@ -106,6 +106,7 @@ private:
   void warnOfSides();
   void showFault(const QString& why);
   void offerBurrs();
+  void tellOtherBurr(); // taken in place of the wanted one
   void editCatalogues();
   void maskChanged(const core::IndexBox& box);
   void stateChanged();

@@ -182,10 +182,6 @@
         <translation>Schichten</translation>
     </message>
     <message>
-        <source>Near the burr</source>
-        <translation>Nahe der Fräse</translation>
-    </message>
-    <message>
         <source>Registration</source>
         <translation>Registrierung</translation>
     </message>
@@ -220,6 +216,10 @@
     <message>
         <source>Replay</source>
         <translation>Wiedergabe</translation>
+    </message>
+    <message>
+        <source>Near the tool</source>
+        <translation>Nahe am Werkzeug</translation>
     </message>
 </context>
 <context>
@@ -2093,6 +2093,10 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>Takes the selected burr out. Strokes and recordings keep its name</source>
         <translation>Entfernt die ausgewählte Fräse. Bohrzüge und Aufzeichnungen behalten ihren Namen</translation>
     </message>
+    <message>
+        <source>Cases with the burr “%1” get the usual one of its kind until it exists again.</source>
+        <translation>Fälle mit der Fräse „%1“ bekommen die übliche ihrer Art, bis es sie wieder gibt.</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ColorChooser</name>
@@ -2805,6 +2809,18 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>Pick, dissector or curette from a file (I): the left button, or Space, presses it on the tissue, and it removes nothing</source>
         <translation>Häkchen, Dissektor oder Kürette aus einer Datei (I): Die linke Taste oder die Leertaste drückt es auf das Gewebe; es trägt nichts ab</translation>
+    </message>
+    <message>
+        <source>This library has no burr “%1”; “%2” is taken in its place (Drill &gt; Materials and burrs…)</source>
+        <translation>Diese Bibliothek hat keine Fräse „%1“; an ihrer Stelle steht „%2“ (Bohren &gt; Materialien und Fräsen…)</translation>
+    </message>
+    <message>
+        <source>The hand on the device moves the burr in depth</source>
+        <translation>Die Hand am Gerät bewegt die Fräse in die Tiefe</translation>
+    </message>
+    <message>
+        <source>The hand on the device presses the burr itself</source>
+        <translation>Die Hand am Gerät drückt die Fräse selbst an</translation>
     </message>
 </context>
 <context>
@@ -4205,6 +4221,10 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <source>Takes what is selected in the list of structures out of the case; Ctrl+Z brings it back</source>
         <translation>Nimmt, was in der Liste der Strukturen ausgewählt ist, aus dem Fall; Strg+Z holt es zurück</translation>
     </message>
+    <message>
+        <source>It would move an MR while a registration is under way: wait for that, or cancel it</source>
+        <translation>Das würde ein MR verschieben, während eine Registrierung läuft: sie abwarten oder abbrechen</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::MeasureController</name>
@@ -4547,20 +4567,8 @@ Seine Oberfläche ist auf ±%3 mm bekannt: %4</translation>
         <translation>Struktur</translation>
     </message>
     <message>
-        <source>From the burr</source>
-        <translation>Von der Fräse</translation>
-    </message>
-    <message>
         <source>The nearest first</source>
         <translation>Die nächste zuerst</translation>
-    </message>
-    <message>
-        <source>From the burr&apos;s ball to the structure&apos;s surface, and how well that surface is known to either side</source>
-        <translation>Von der Kugel der Fräse zur Oberfläche der Struktur und wie genau diese Oberfläche nach beiden Seiten bekannt ist</translation>
-    </message>
-    <message>
-        <source>Whether the burr is within the warning distance, and what was taken</source>
-        <translation>Ob die Fräse im Warnabstand ist und was abgetragen wurde</translation>
     </message>
     <message>
         <source>maybe within %1 mm</source>
@@ -4572,13 +4580,21 @@ The instrument is measured at points: between them it may be %1 mm nearer</sourc
         <translation>
 Das Instrument wird an Punkten gemessen: Dazwischen kann es %1 mm näher sein</translation>
     </message>
+    <message>
+        <source>From the tool</source>
+        <translation>Vom Werkzeug</translation>
+    </message>
+    <message>
+        <source>From the burr&apos;s ball, or the instrument, to the structure&apos;s surface, and how well that is known to either side</source>
+        <translation>Von der Kugel der Fräse oder vom Instrument zur Oberfläche der Struktur und wie genau diese nach beiden Seiten bekannt ist</translation>
+    </message>
+    <message>
+        <source>Whether the tool is within the warning distance, and what was taken</source>
+        <translation>Ob das Werkzeug im Warnabstand ist und was abgetragen wurde</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::NearbyPanel</name>
-    <message>
-        <source>Structures near the burr</source>
-        <translation>Strukturen nahe der Fräse</translation>
-    </message>
     <message>
         <source>Removed: %1 mm³ in %2 %3</source>
         <translation>Abgetragen: %1 mm³ in %2 %3</translation>
@@ -4616,6 +4632,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Take up the burr (D) or an instrument to see how far the structures are from it</source>
         <translation>Nehmen Sie die Fräse (D) oder ein Instrument auf, um zu sehen, wie weit die Strukturen entfernt sind</translation>
+    </message>
+    <message>
+        <source>Structures near the tool</source>
+        <translation>Strukturen nahe am Werkzeug</translation>
     </message>
 </context>
 <context>
@@ -7783,10 +7803,6 @@ Nichts verlässt diesen Rechner.</translation>
     <message>
         <source>touched</source>
         <translation>berührt</translation>
-    </message>
-    <message>
-        <source>%1 mm</source>
-        <translation>%1 mm</translation>
     </message>
     <message>
         <source>Not felt: %1</source>

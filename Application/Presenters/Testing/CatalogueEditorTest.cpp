@@ -262,6 +262,22 @@ TEST_F(CatalogueEditorTest, KnowsWhichMaterialsCasesWouldMiss)
   EXPECT_TRUE(editor.lostMaterials().empty());
 }
 
+TEST_F(CatalogueEditorTest, KnowsWhichBurrsCasesWouldMiss)
+{
+  CatalogueEditor editor(folder);
+  const std::size_t row = editor.addBurr(1);
+  const std::string name = editor.burrs()[row].name;
+  editor.removeBurr(row);
+  EXPECT_TRUE(editor.lostBurrs().empty()) << "no case has had it";
+  editor.addBurr(1);
+  editor.save();
+  EXPECT_TRUE(editor.lostBurrs().empty());
+  editor.removeBurr(row);
+  EXPECT_EQ(editor.lostBurrs(), std::vector<std::string>{name});
+  editor.save();
+  EXPECT_TRUE(editor.lostBurrs().empty());
+}
+
 TEST_F(CatalogueEditorTest, NamesTheFileThatCannotBeUnderstood)
 {
   std::ofstream(folder / "materials.json") << "{";

@@ -386,6 +386,22 @@ TEST_F(RegistrationSessionTest, ASignatureOfAnMrThatUndoDoesNotMoveStays)
   ASSERT_NE(scene::validSignOff(model.value().mr[1]), nullptr);
 }
 
+TEST_F(RegistrationSessionTest, TheModelKnowsWhetherAStepMovesAnMr)
+{
+  EXPECT_FALSE(model.undoMovesMr() || model.redoMovesMr());
+  session.shift({1, 0, 0});
+  EXPECT_TRUE(model.undoMovesMr());
+  EXPECT_FALSE(model.redoMovesMr());
+  model.setIso(model.value().iso + 10.0);
+  EXPECT_FALSE(model.undoMovesMr()) << "the threshold comes first";
+  model.undo();
+  EXPECT_TRUE(model.undoMovesMr());
+  EXPECT_FALSE(model.redoMovesMr());
+  model.undo();
+  EXPECT_FALSE(model.undoMovesMr());
+  EXPECT_TRUE(model.redoMovesMr());
+}
+
 TEST_F(RegistrationSessionTest, StructuresFollowUndoAndTheirVoxelsForTouchAreMadeAnew)
 {
   model.changeMr(

@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "petrous/Presenters/AppearanceEditor.h"
 #include "petrous/Presenters/StructureList.h"
 
 using namespace petrous;
@@ -184,20 +185,20 @@ TEST_F(StructureListTest, OnlyThisIsOneStep)
 TEST_F(StructureListTest, APresetKeepsFlagsAndBoneTakesNoLumen)
 {
   open({{"a", "other"}, {"b", "other"}});
+  const auto preset = [](const char* name)
+  { return appearance::StructurePresets::builtIn().preset(name); };
   auto look = *model.lookOf("a");
   look.shown = false;
-  const auto nerve = withPreset(model.value(), "a", look, "nerve");
+  model.setLooks({{"a", look}});
+  const auto nerve = withPreset(model.value(), "a", preset("nerve"));
   EXPECT_EQ(nerve.preset, "nerve");
   EXPECT_FALSE(nerve.shown);
   EXPECT_GT(nerve.warning, 0.0);
-  EXPECT_EQ(withPreset(model.value(), "ct", model.value().boneLook, "air-cells").preset,
-            model.value().boneLook.preset);
-  const auto& soft = model.value().softTissue;
-  EXPECT_EQ(withPreset(model.value(), scene::kSoftTissue, soft, "air-cells").preset, soft.preset);
-  const auto muscle = withPreset(model.value(), scene::kSoftTissue, soft, "muscle");
+  for (const char* single : {"ct", scene::kSoftTissue})
+    EXPECT_THROW(withPreset(model.value(), single, preset("air-cells")), core::InvalidParameter);
+  const auto muscle = withPreset(model.value(), scene::kSoftTissue, preset("muscle"));
   EXPECT_EQ(muscle.preset, "muscle");
   EXPECT_EQ(muscle.tissue, "") << "air to the drill";
-  const auto other = withPreset(model.value(), "a", nerve, "other");
+  const auto other = withPreset(model.value(), "a", preset("other"));
   EXPECT_NE(other.color, model.lookOf("b")->color) << "no other has it";
-  EXPECT_THROW(withPreset(model.value(), "a", look, "no such preset"), core::InvalidParameter);
 }

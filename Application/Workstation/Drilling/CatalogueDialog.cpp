@@ -217,6 +217,9 @@ void CatalogueDialog::fill()
   for (const std::string& name : m_editor.lostMaterials())
     lost +=
         tr("Other cases that use “%1” cannot be drilled until it exists again.").arg(words(name));
+  for (const std::string& name : m_editor.lostBurrs())
+    lost += tr("Cases with the burr “%1” get the usual one of its kind until it exists again.")
+                .arg(words(name));
   m_lost->setText(lost.join(' '));
   m_lost->setVisible(!lost.isEmpty());
   m_fault->hide();

@@ -13,6 +13,7 @@
 #include <QToolButton>
 
 #include "Bind.h"
+#include "Commands.h"
 #include "DiameterBox.h"
 #include "Theme.h"
 #include "petrous/Dissection/BurrName.h"
@@ -76,7 +77,6 @@ DrillBar::DrillBar(QWidget* parent)
   m_kind->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   offerBurrs();
   offerDiameters();
-  m_diameter->setValue(4.0);
   m_kind->setToolTip(tr("Kind of the burr: a cutting burr takes some six times as much in "
                         "the same time as a diamond one. More burrs: Drill > Materials and "
                         "burrs…"));
@@ -113,17 +113,25 @@ DrillBar::DrillBar(QWidget* parent)
   addNamed(tr("Thrust"), m_thrust);
   addAction(m_wheel);
   widgetForAction(m_wheel)->setObjectName("wheelButton");
-  connect(m_diameter, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
-          &DrillBar::burrChanged);
+  m_wanted = burr();
+  connect(m_diameter, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &DrillBar::choose);
   connect(m_kind, qOverload<int>(&QComboBox::currentIndexChanged), this,
           [this]
           {
-            m_asked = burr();
-            const QSignalBlocker once(m_diameter);
-            offerDiameters();
+            m_wanted = burr();
+            {
+              const QSignalBlocker once(m_diameter);
+              offerDiameters();
+            }
+            choose();
           });
-  connect(m_kind, qOverload<int>(&QComboBox::currentIndexChanged), this, &DrillBar::burrChanged);
-  connect(m_speed, qOverload<int>(&QSpinBox::valueChanged), this, &DrillBar::burrChanged);
+  connect(m_speed, qOverload<int>(&QSpinBox::valueChanged), this,
+          [this]
+          {
+            m_wanted.rpm = burr().rpm; // the burr is still the one that was wanted
+            emit burrChanged();
+            emit burrChosen();
+          });
   connect(m_thrust, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
           &DrillBar::pressChanged);
   connect(m_wheel, &QAction::toggled, this, &DrillBar::pressChanged);
@@ -131,16 +139,24 @@ DrillBar::DrillBar(QWidget* parent)
 
 void DrillBar::setBurrs(const dissection::BurrCatalogue& burrs)
 {
-  const std::string before = nameOf(burr());
+  const dissection::Burr before = burr();
   m_burrs = burrs;
   {
     const QSignalBlocker kind(m_kind);
+    const QSignalBlocker diameter(m_diameter);
     offerBurrs();
-    select(m_asked);
+    select(m_wanted);
+    offerDiameters();
   }
-  offerDiameters();
-  if (nameOf(burr()) != before)
+  if (const auto now = burr(); nameOf(now) != nameOf(before) || now.diameter != before.diameter)
     emit burrChanged();
+}
+
+void DrillBar::choose()
+{
+  m_wanted = burr();
+  emit burrChanged();
+  emit burrChosen();
 }
 
 void DrillBar::offerBurrs()
@@ -169,7 +185,7 @@ void DrillBar::select(const dissection::Burr& burr)
 
 void DrillBar::offerDiameters()
 {
-  m_diameter->setDiameters(m_burrs.model(burr()).diameters);
+  m_diameter->setDiameters(m_burrs.model(burr()).diameters, m_wanted.diameter);
 }
 
 void DrillBar::stepDiameter(int steps)
@@ -197,10 +213,9 @@ void DrillBar::setBurr(const dissection::Burr& burr)
     const QSignalBlocker kind(m_kind);
     const QSignalBlocker diameter(m_diameter);
     const QSignalBlocker speed(m_speed);
-    m_asked = burr;
+    m_wanted = burr;
     select(burr);
-    m_diameter->setValue(burr.diameter);
-    offerDiameters(); // takes the nearest
+    offerDiameters();
     m_speed->setValue(static_cast<int>(std::lround(burr.rpm / 1000.0)));
   }
   emit burrChanged();
@@ -216,6 +231,15 @@ void DrillBar::setInstrument(const QString& name)
     widget->setEnabled(name.isEmpty());
 }
 
+QString DrillBar::insteadText() const
+{
+  if (nameOf(burr()) == nameOf(m_wanted))
+    return {};
+  return tr("This library has no burr “%1”; “%2” is taken in its place (Drill > Materials and "
+            "burrs…)")
+      .arg(words(nameOf(m_wanted)), m_kind->currentText());
+}
+
 void DrillBar::setThrust(double newtons)
 {
   m_thrust->setValue(newtons);
@@ -223,8 +247,8 @@ void DrillBar::setThrust(double newtons)
 
 void DrillBar::setPresses(bool byWheel, bool byThrust)
 {
-  m_wheel->setEnabled(byWheel);
-  m_thrust->setEnabled(byThrust);
+  enable(*m_wheel, byWheel, tr("The hand on the device moves the burr in depth"));
+  enable(*m_thrust, byThrust, tr("The hand on the device presses the burr itself"));
 }
 
 double DrillBar::thrust() const

@@ -34,10 +34,15 @@ public:
   QAction* instrumentAction() const noexcept { return m_instrument; }
   void stepDiameter(int steps); ///< among those available
   void nextBurr();              ///< the next one of the catalogue, then the first
-  /// The available burrs and their diameters. The one that was last selected or set stays if it is
-  /// there, else the usual one of its kind takes its place.
+  /// The available burrs and their diameters. The wanted one is taken up if it is there, else the
+  /// usual one of its kind, in the nearest diameter that is available.
   void setBurrs(const dissection::BurrCatalogue& burrs);
   dissection::Burr burr() const;
+  /// The one that the user last selected or that was set, also while the catalogue does not have
+  /// it.
+  const dissection::Burr& wanted() const noexcept { return m_wanted; }
+  /// That another one is taken in place of the wanted one; empty: it is not.
+  QString insteadText() const;
   /// In the nearest diameter that is available; for one that is not in the catalogue, or of another
   /// kind there, the usual one of its kind.
   void setBurr(const dissection::Burr& burr);
@@ -58,15 +63,17 @@ public:
 
 signals:
   void burrChanged();
+  void burrChosen();   ///< by the user
   void pressChanged(); ///< thrust, or how depth is controlled
 
 private:
   void offerBurrs();
   void select(const dissection::Burr& burr);
   void offerDiameters();
+  void choose(); // what is shown
 
   dissection::BurrCatalogue m_burrs = dissection::BurrCatalogue::builtIn();
-  dissection::Burr m_asked; // also while the catalogue does not have it
+  dissection::Burr m_wanted;
   QAction* m_drill;
   QAction* m_pointer;
   QAction* m_instrument;

@@ -166,7 +166,7 @@ ViewStateController::State ViewStateController::present() const
   state.view.slices->overlay = m_registration.overlay();
   state.view.light = m_picture.settings().lightState();
   state.view.stereo = m_picture.settings().stereoState();
-  state.view.tool = {m_bar.burr(), m_bar.thrust(), m_bar.wheelAction()->isChecked()};
+  state.view.tool = {m_bar.wanted(), m_bar.thrust(), m_bar.wheelAction()->isChecked()};
   return state;
 }
 

@@ -234,6 +234,7 @@ void RegistrationController::caseChanged()
   m_panel->setRunning(false);
   m_overlay->reset();
   showMarks();
+  emit runningChanged();
 }
 
 void RegistrationController::partsChanged()
@@ -294,6 +295,7 @@ void RegistrationController::begin(Way way)
         library.checkVoxels(value, progress); // the result for damaged images is worthless
         return [this, outcome] { finished(outcome); };
       });
+  emit runningChanged();
 }
 
 void RegistrationController::heard(const registration::MetricSample& sample,
@@ -311,6 +313,7 @@ void RegistrationController::endRun(const QString& line)
   m_panel->say(line);
   m_panel->refresh();
   m_overlay->setUnderWay({});
+  emit runningChanged();
 }
 
 void RegistrationController::finished(const presenters::RegistrationOutcome& outcome)

@@ -51,6 +51,7 @@ public:
 
 signals:
   void shownChanged();
+  void runningChanged();
   void sceneStale(); ///< views of the MR or of what was drawn on it are outdated; throttled
   void statusMessage(const QString& line);
   void panelWanted(); ///< it says something that must be seen

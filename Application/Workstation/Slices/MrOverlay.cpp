@@ -87,6 +87,7 @@ bool MrOverlay::load(const scene::ImagePart& part)
     return false;
   m_overlay.reset();
   m_readingOf = part.name;
+  const bool beginsAtOnce = !m_reading.busy();
   std::promise<presenters::SliceOverlay> made;
   auto soon = made.get_future();
   m_reading.replace(
@@ -104,7 +105,7 @@ bool MrOverlay::load(const scene::ImagePart& part)
           refresh();
         };
       });
-  if (soon.wait_for(kSoon) != std::future_status::ready)
+  if (!beginsAtOnce || soon.wait_for(kSoon) != std::future_status::ready)
     return false;
   try
   {

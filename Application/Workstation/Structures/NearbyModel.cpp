@@ -66,12 +66,6 @@ QPixmap signOf(const NearbyStructure& structure)
   return pixmap;
 }
 
-QString distanceOf(const NearbyStructure& structure)
-{
-  return NearbyModel::tr("%1 mm ± %2")
-      .arg(numberText(structure.distance, 1), numberText(structure.unsure(), 1));
-}
-
 QString noteOf(const NearbyStructure& structure)
 {
   QStringList notes;
@@ -92,6 +86,12 @@ QString noteOf(const NearbyStructure& structure)
 }
 
 } // namespace
+
+QString distanceOf(const NearbyStructure& structure)
+{
+  return NearbyModel::tr("%1 mm ± %2")
+      .arg(numberText(structure.distance, 1), numberText(structure.unsure(), 1));
+}
 
 void NearbyModel::show(std::vector<presenters::NearbyStructure> structures)
 {
@@ -160,14 +160,14 @@ QVariant NearbyModel::headerData(int section, Qt::Orientation orientation, int r
     return {};
   if (role == Qt::DisplayRole)
     return section == Name       ? tr("Structure")
-           : section == Distance ? tr("From the burr")
+           : section == Distance ? tr("From the tool")
                                  : QString();
   if (role == Qt::ToolTipRole)
     return section == Name ? tr("The nearest first")
            : section == Distance
-               ? tr("From the burr's ball to the structure's surface, and how well "
-                    "that surface is known to either side")
-               : tr("Whether the burr is within the warning distance, and what was "
+               ? tr("From the burr's ball, or the instrument, to the structure's surface, and how "
+                    "well that is known to either side")
+               : tr("Whether the tool is within the warning distance, and what was "
                     "taken");
   return {};
 }

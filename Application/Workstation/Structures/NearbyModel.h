@@ -9,7 +9,10 @@
 namespace petrous::workstation
 {
 
-/// The structures near the burr as rows. Danger is shown by a sign and in words, not by colour
+/// "1.8 mm ± 0.3"
+QString distanceOf(const presenters::NearbyStructure& structure);
+
+/// The structures near the tool as rows. Danger is shown by a sign and in words, not by colour
 /// alone.
 class NearbyModel : public QAbstractTableModel
 {

@@ -26,7 +26,7 @@ NearbyPanel::NearbyPanel(presenters::WorkstationModel& model, QWidget* parent)
 {
   auto* list = new QTreeView;
   list->setObjectName("nearby");
-  list->setAccessibleName(tr("Structures near the burr"));
+  list->setAccessibleName(tr("Structures near the tool"));
   list->setModel(m_structures);
   list->setRootIsDecorated(false);
   list->setUniformRowHeights(true);

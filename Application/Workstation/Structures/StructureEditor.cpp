@@ -23,6 +23,7 @@
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Dissection/Catalogues.h"
+#include "petrous/Presenters/AppearanceEditor.h"
 #include "petrous/Presenters/BoneOpacity.h"
 #include "petrous/Presenters/StructureList.h"
 
@@ -228,10 +229,16 @@ QComboBox* StructureEditor::addPresets()
   connect(box, qOverload<int>(&QComboBox::activated), this,
           [this, box, &property](int row)
           {
-            const std::string preset = bytes(box->itemData(row).toString());
-            change([this, preset](const std::string& part, StructureAppearance& look)
-                   { look = presenters::withPreset(m_model.value(), part, look, preset); },
-                   property);
+            const auto preset = appearance::StructurePresets::builtIn().preset(
+                bytes(box->itemData(row).toString()));
+            change(
+                [this, preset](const std::string& part, StructureAppearance& look)
+                {
+                  const bool isStructure = part != kBone && part != scene::kSoftTissue;
+                  if (isStructure || preset.solid) // a lumen can be neither
+                    look = presenters::withPreset(m_model.value(), part, preset);
+                },
+                property);
             refresh();
           });
   m_texts.push_back({&property, box});

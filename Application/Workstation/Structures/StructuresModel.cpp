@@ -10,6 +10,7 @@
 #include <QPixmap>
 #include <QPixmapCache>
 
+#include "NearbyModel.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Appearance/StructureProperties.h"
@@ -417,9 +418,8 @@ void StructuresModel::setNear(std::vector<presenters::NearbyStructure> structure
     QString near;
     for (const presenters::NearbyStructure& one : structures)
       if (one.name == row.row.part && !isSingle(row.row.kind))
-        near = one.state == presenters::NearbyStructure::State::Touched
-                   ? tr("touched")
-                   : tr("%1 mm").arg(numberText(one.distance, 1));
+        near = one.state == presenters::NearbyStructure::State::Touched ? tr("touched")
+                                                                        : distanceOf(one);
     if (near == row.near)
       continue;
     row.near = near;

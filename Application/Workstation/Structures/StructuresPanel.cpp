@@ -22,6 +22,7 @@
 #include <QTreeView>
 #include <QVBoxLayout>
 
+#include "NearbyModel.h"
 #include "StructureEditor.h"
 #include "StructuresModel.h"
 #include "Theme.h"
@@ -452,7 +453,14 @@ void StructuresPanel::fitColumns()
     constexpr int kBorder = 2; // px, of a section
     const QString title =
         m_structures->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-    int width = header->fontMetrics().horizontalAdvance(title) + 2 * kPadding + kBorder;
+    int width = header->fontMetrics().horizontalAdvance(title);
+    if (column == StructuresModel::Burr) // its texts come and go, and none is cut off
+    {
+      presenters::NearbyStructure far;
+      far.distance = 20.0; // mm, farther ones are not listed
+      width = std::max(width, header->fontMetrics().horizontalAdvance(distanceOf(far)));
+    }
+    width += 2 * kPadding + kBorder;
     QSet<QString> texts; // what reads the same is as wide, and check boxes read nothing
     for (int top = 0; top < m_structures->rowCount(); ++top)
       for (int row = 0; row < m_structures->rowCount(m_structures->index(top, 0)); ++row)
@@ -586,7 +594,7 @@ void StructuresPanel::toolMoved(const presenters::MeasuredTool& tool, const hapt
     // Distances from where the tool was are none.
     m_structures->setNear(near ? std::move(*near) : std::vector<presenters::NearbyStructure>());
   }
-  catch (const std::exception&) // said in the panel "Near the burr"
+  catch (const std::exception&) // said in the panel "Near the tool"
   {
     m_structures->setNear({});
   }

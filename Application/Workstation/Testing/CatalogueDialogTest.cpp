@@ -9,6 +9,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QStatusBar>
 #include <QTableWidget>
 
 #include "CatalogueDialog.h"
@@ -128,6 +129,8 @@ TEST_F(CatalogueDialogs, DiametersComeToTheDrillBarAndGoBackWithTheProgramsOwn)
   again.findChild<QPushButton*>("catalogueBuiltIn")->click();
   again.findChild<QPushButton*>("catalogueSave")->click();
   EXPECT_FALSE(std::filesystem::exists(folder() / "library" / "burrs.json"));
+  EXPECT_DOUBLE_EQ(window().findChild<QDoubleSpinBox*>("burrDiameter")->value(), 4.0)
+      << "nobody chose another one";
 }
 
 TEST_F(CatalogueDialogs, ABurrThatIsAddedIsOfferedAndDrillsUnderItsName)
@@ -170,10 +173,15 @@ TEST_F(CatalogueDialogs, ABurrThatIsAddedIsOfferedAndDrillsUnderItsName)
   QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
   auto& edit = dialog();
   table(edit, "burrs").selectRow(2);
+  EXPECT_FALSE(isShown(edit, "catalogueLost"));
   edit.findChild<QPushButton*>("removeBurr")->click();
+  EXPECT_TRUE(isShown(edit, "catalogueLost"));
+  EXPECT_TRUE(edit.findChild<QLabel*>("catalogueLost")->text().contains("coarse-diamond"));
   edit.findChild<QPushButton*>("catalogueSave")->click();
   EXPECT_EQ(choice.count(), 2);
   EXPECT_EQ(choice.currentText(), "Diamond");
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("coarse-diamond"))
+      << window().statusBar()->currentMessage().toStdString();
   EXPECT_EQ(window().model().value().dissection.strokes()[0]->info.burr.name, "coarse-diamond");
 }
 

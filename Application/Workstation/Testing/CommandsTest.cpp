@@ -13,11 +13,14 @@
 #include <QLineEdit>
 #include <QMenuBar>
 #include <QSlider>
+#include <QSpinBox>
 #include <QStatusBar>
+#include <QToolBar>
 #include <QTreeWidget>
 
 #include "CommandPalette.h"
 #include "Commands.h"
+#include "DrillBar.h"
 #include "KeyList.h"
 #include "Manual.h"
 #include "ViewArea.h"
@@ -174,6 +177,37 @@ TEST_F(CommandsWindow, ASettingIsFoundByItsNameAndGetsTheFocusInItsPanel)
   EXPECT_TRUE(waitFor([&] { return window().focusWidget() == exposure; }));
   EXPECT_TRUE(waitFor([&] { return !exposure->visibleRegion().isEmpty(); }));
   EXPECT_EQ(exposure->value(), 0.0) << "it is shown, not changed";
+}
+
+TEST_F(CommandsWindow, ASettingOfAHiddenToolBarShowsIt)
+{
+  saveBall("ball");
+  openWindow();
+  auto* bar = window().findChild<QToolBar*>("drillBar");
+  auto* speed = bar->findChild<QSpinBox*>("spindleSpeed");
+  bar->hide();
+  showSetting(*speed);
+  EXPECT_TRUE(bar->isVisible());
+  EXPECT_TRUE(waitFor([&] { return window().focusWidget() == speed; }));
+}
+
+TEST_F(CommandsWindow, ASettingThatIsNotAvailableSaysWhy)
+{
+  openWindow();
+  auto* thrust = window().findChild<QDoubleSpinBox*>("thrust");
+  const auto setting = [&]
+  {
+    for (const Command& one : settingsOf(window(), true))
+      if (one.control == thrust)
+        return one;
+    return Command{};
+  };
+  EXPECT_TRUE(setting().isEnabled && setting().whyNot.isEmpty());
+  window().findChild<DrillBar*>()->setPresses(false, false);
+  EXPECT_FALSE(setting().isEnabled);
+  EXPECT_TRUE(setting().whyNot.contains("presses")) << setting().whyNot.toStdString();
+  window().findChild<DrillBar*>()->setPresses(true, true);
+  EXPECT_TRUE(setting().isEnabled && setting().whyNot.isEmpty());
 }
 
 TEST_F(CommandsWindow, EachSettingThatAPanelShowsIsFoundUnderAName)

@@ -602,6 +602,57 @@ TEST_F(RegistrationWindow, AnMrGoesToTheCtThroughOneThatIsThere)
   EXPECT_TRUE(state().contains("through 'T2'")) << state().toStdString();
 }
 
+// Its result is chained through the place that the other MR had when it began.
+TEST_F(RegistrationWindow, NoStepMovesAnMrWhileARegistrationIsUnderWay)
+{
+  scene::Case value = library().open("ear");
+  scene::ImagePart second = scan(Phantom::Modality::Mr, phantom.mrFromCt(), 1.4);
+  second.name = "DWI";
+  value.mr.push_back(second);
+  scene::applyRegistration(value, "T2", phantom.mrFromCt(), {});
+  library().save(value);
+  const_cast<presenters::WorkstationModel&>(window().model()).open("ear");
+  showPanel();
+  auto& slice = find<SliceView>("axialView");
+  choose(2);
+  QTest::keyClick(&slice, Qt::Key_Right, Qt::AltModifier | Qt::ShiftModifier);
+  const auto place = [this] { return mr().mrFromCt.matrix(); };
+  const Eigen::Matrix4d moved = place();
+  ASSERT_NE(moved, phantom.mrFromCt().matrix());
+  const auto step = [this](const QString& name) -> const Command
+  {
+    for (const Command& command : commandsOf(window(), true))
+      if (command.name.startsWith(name))
+        return command;
+    return {};
+  };
+  ASSERT_TRUE(step("Undo move").isEnabled);
+
+  find<QComboBox>("registrationMr").setCurrentText("DWI");
+  find<QComboBox>("registrationOnto").setCurrentIndex(1);
+  click("register");
+  ASSERT_TRUE(find<QPushButton>("cancelRegistration").isEnabled());
+  EXPECT_FALSE(step("Undo move").isEnabled);
+  EXPECT_TRUE(step("Undo move").whyNot.contains("registration"))
+      << step("Undo move").whyNot.toStdString();
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(place(), moved);
+  stop([](QMessageBox& box) { answer(box, QMessageBox::RejectRole); });
+  ASSERT_FALSE(find<QPushButton>("cancelRegistration").isEnabled());
+  EXPECT_EQ(place(), moved);
+  ASSERT_TRUE(step("Undo move").isEnabled);
+  step("Undo move").action->trigger();
+  EXPECT_LT((place() - phantom.mrFromCt().matrix()).norm(), 1e-12);
+
+  click("register");
+  ASSERT_TRUE(find<QPushButton>("cancelRegistration").isEnabled());
+  EXPECT_FALSE(step("Redo move").isEnabled);
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_LT((place() - phantom.mrFromCt().matrix()).norm(), 1e-12);
+  stop([](QMessageBox& box) { answer(box, QMessageBox::RejectRole); });
+  EXPECT_TRUE(step("Redo move").isEnabled);
+}
+
 TEST_F(RegistrationWindow, AStructureThatIsCreatedLeavesTheViewsAsTheyAre)
 {
   auto& model = const_cast<presenters::WorkstationModel&>(window().model());

@@ -10,6 +10,7 @@
 #include "Bind.h"
 #include "SliceColumn.h"
 #include "WindowSettings.h"
+#include "petrous/Presenters/CatalogueEditor.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -114,6 +115,45 @@ TEST_F(Settings, TheBurrComesBackInTheNextWindowAndTheSlicesWithTheirCase)
   const_cast<presenters::WorkstationModel&>(window().model()).open("another");
   EXPECT_LT((window().model().crosshair() - kBallCenter).norm(), 1e-9);
   EXPECT_EQ(widget<SliceColumn>("slices").shown().width, 4000.0);
+}
+
+// The catalogue comes with the library of the case, after the window.
+TEST_F(Settings, ABurrOfTheLibraryComesBackInItsDiameterAndOutlivesALibraryWithoutIt)
+{
+  saveBall("ball");
+  const std::filesystem::path library = folder() / "library";
+  const std::filesystem::path burrs = library / "burrs.json";
+  {
+    presenters::CatalogueEditor editor(library);
+    const std::size_t row = editor.addBurr(1);
+    auto fine = editor.burrs()[row];
+    fine.name = "fine";
+    fine.diameters = {0.5, 0.8};
+    editor.setBurr(row, fine);
+    editor.save();
+  }
+  openWindow("ball");
+  auto& kind = widget<QComboBox>("burrKind");
+  kind.setCurrentIndex(kind.findText("fine"));
+  widget<QDoubleSpinBox>("burrDiameter").setValue(0.5);
+  closeWindow();
+
+  openWindow("ball");
+  EXPECT_EQ(widget<QComboBox>("burrKind").currentText(), "fine");
+  EXPECT_EQ(widget<QDoubleSpinBox>("burrDiameter").value(), 0.5);
+  closeWindow();
+
+  std::filesystem::rename(burrs, folder() / "burrs.json");
+  openWindow("ball");
+  EXPECT_EQ(widget<QComboBox>("burrKind").currentText(), "Diamond");
+  widget<QSpinBox>("spindleSpeed").setValue(45); // of whatever burr
+  closeWindow();
+
+  std::filesystem::rename(folder() / "burrs.json", burrs);
+  openWindow("ball");
+  EXPECT_EQ(widget<QComboBox>("burrKind").currentText(), "fine");
+  EXPECT_EQ(widget<QDoubleSpinBox>("burrDiameter").value(), 0.5);
+  EXPECT_EQ(widget<QSpinBox>("spindleSpeed").value(), 45);
 }
 
 TEST_F(Settings, WhatNobodyUnderstandsIsTheUsual)

@@ -530,6 +530,7 @@ TEST_F(Structures, NoDistanceOfAnotherPlaceStaysWhereNoneIsKnown)
         ask(9.0);
         return !distance().isEmpty();
       }));
+  EXPECT_TRUE(distance().contains(QString::fromUtf8(" mm ± "))) << distance().toStdString();
   model().forgetNearby();
   ask(100.0); // measured anew
   EXPECT_EQ(distance().toStdString(), "");

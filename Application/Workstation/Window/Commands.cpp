@@ -171,6 +171,10 @@ private:
     command.tip = control.toolTip();
     command.isEnabled = m_whyNot.isEmpty() && control.isEnabled();
     command.whyNot = m_whyNot;
+    for (const QWidget* widget = &control;
+         !command.isEnabled && command.whyNot.isEmpty() && widget != &m_place;
+         widget = widget->parentWidget()) // or a group that is disabled
+      command.whyNot = widget->property(kWhyNot).toString();
     commands.push_back(command);
   }
 
@@ -232,6 +236,12 @@ void enable(QAction& action, bool on, const QString& whyNot)
   action.setProperty(kWhyNot, on ? QVariant() : QVariant(whyNot));
 }
 
+void enable(QWidget& control, bool on, const QString& whyNot)
+{
+  control.setEnabled(on);
+  control.setProperty(kWhyNot, on ? QVariant() : QVariant(whyNot));
+}
+
 std::vector<Command> commandsOf(const QMainWindow& window, bool hasCase)
 {
   Collector collector(hasCase);
@@ -266,6 +276,8 @@ void showSetting(QWidget& control)
     dock->show();
     dock->raise();
   }
+  if (auto* bar = findAbove<QToolBar>(control))
+    bar->show();
   for (auto* section = findAbove<FoldBox>(control); section; section = findAbove<FoldBox>(*section))
     section->setOpen(true);
   control.setFocus(Qt::ShortcutFocusReason);

@@ -16,6 +16,7 @@ namespace petrous::workstation
 
 /// setEnabled, with the reason for which it is not, to be told where it is asked for.
 void enable(QAction& action, bool on, const QString& whyNot);
+void enable(QWidget& control, bool on, const QString& whyNot); ///< a setting, or a group of them
 
 /// Something that the window can do, or a setting that it has.
 struct Command
@@ -39,7 +40,7 @@ std::vector<Command> commandsOf(const QMainWindow& window, bool hasCase);
 /// tool tip. Those that their panel hides at present, as parts of another tool, are not among them;
 /// those in sections that are folded are.
 std::vector<Command> settingsOf(const QMainWindow& window, bool hasCase);
-/// Raises its panel, unfolds and scrolls to it, and gives it the focus.
+/// Shows its tool bar or raises its panel, unfolds and scrolls to it, and gives it the focus.
 void showSetting(QWidget& control);
 
 std::vector<presenters::CommandEntry> entriesOf(const std::vector<Command>& commands);

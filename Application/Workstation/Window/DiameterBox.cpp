@@ -16,17 +16,17 @@ DiameterBox::DiameterBox(QWidget* parent)
   setKeyboardTracking(false); // no values from partial input
 }
 
-void DiameterBox::setDiameters(std::vector<double> diameters)
+void DiameterBox::setDiameters(std::vector<double> diameters, double wanted)
 {
   std::sort(diameters.begin(), diameters.end());
   m_diameters = std::move(diameters);
-  const double present = *nearest(value());
+  const double taken = *nearest(wanted);
   setRange(m_diameters.front(), m_diameters.back());
   QStringList all;
   for (const double diameter : m_diameters)
     all += QLocale::c().toString(diameter, 'g', 3);
   setProperty("possible", tr("Burrs of %1 mm").arg(all.join(", ")));
-  setValue(present);
+  setValue(taken);
 }
 
 std::vector<double>::const_iterator DiameterBox::nearest(double diameter) const

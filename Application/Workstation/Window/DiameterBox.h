@@ -14,8 +14,8 @@ class DiameterBox : public QDoubleSpinBox
 public:
   explicit DiameterBox(QWidget* parent = nullptr);
 
-  /// Not empty. The current value becomes the nearest of them.
-  void setDiameters(std::vector<double> diameters);
+  /// Not empty. The value becomes the one of them that is nearest to `wanted`.
+  void setDiameters(std::vector<double> diameters, double wanted);
 
   void stepBy(int steps) override;
   QValidator::State validate(QString& text, int& at) const override;

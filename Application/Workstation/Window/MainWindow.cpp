@@ -550,17 +550,13 @@ void MainWindow::connectModel()
             if (!m_viewState->isShowing()) // a case's is not the user's own
               m_settings->keepThrust(m_bar->thrust());
           });
-  connect(m_bar, &DrillBar::burrChanged, this,
-          [this]
-          {
-            if (!m_viewState->isShowing())
-              m_settings->keepBurr(m_bar->burr());
-          });
+  connect(m_bar, &DrillBar::burrChosen, this, [this] { m_settings->keepBurr(m_bar->wanted()); });
   const auto showMessage = [this](const QString& line)
   { statusBar()->showMessage(line, kMessage); };
   connect(m_keeper, &CaseDocumentController::statusMessage, this, showMessage);
   connect(m_thickness, &ThicknessController::statusMessage, this, showMessage);
   connect(m_registration, &RegistrationController::statusMessage, this, showMessage);
+  connect(m_registration, &RegistrationController::runningChanged, this, &MainWindow::showUndo);
   connect(m_registration, &RegistrationController::panelWanted, this,
           [this] { raisePanel("registrationDock"); });
   connect(m_keeper, &CaseDocumentController::ready, m_drill, &DrillController::tissueCame);
@@ -873,9 +869,10 @@ void MainWindow::showUndo()
   const auto show = [this](QAction& action, const QString& text, bool can, const QString& what)
   {
     enable(action, can,
-           !m_model.hasCase()           ? tr("Open a case first")
-           : &action == m_actions->undo ? tr("Nothing was changed")
-                                        : tr("Nothing was undone"));
+           !m_model.hasCase()                                 ? tr("Open a case first")
+           : disturbsRegistration(&action == m_actions->undo) ? disturbsText()
+           : &action == m_actions->undo                       ? tr("Nothing was changed")
+                                                              : tr("Nothing was undone"));
     action.setText(what.isEmpty() ? text : text + ' ' + QString(what).replace('&', "&&"));
   };
   const QString undo = tr("&Undo"), redo = tr("&Redo");
@@ -884,13 +881,26 @@ void MainWindow::showUndo()
   else if (undoesSegment())
     show(*m_actions->undo, undo, m_segment->canUndoStep(), m_segment->undoText());
   else
-    show(*m_actions->undo, undo, m_model.canUndo(), phrase(m_model.undoText()));
+    show(*m_actions->undo, undo, m_model.canUndo() && !disturbsRegistration(true),
+         phrase(m_model.undoText()));
   if (undoesMeasure())
     show(*m_actions->redo, redo, m_measure->canRedo(), m_measure->redoText());
   else if (redoesSegment())
     show(*m_actions->redo, redo, m_segment->canRedoStep(), m_segment->redoText());
   else
-    show(*m_actions->redo, redo, m_model.canRedo(), phrase(m_model.redoText()));
+    show(*m_actions->redo, redo, m_model.canRedo() && !disturbsRegistration(false),
+         phrase(m_model.redoText()));
+}
+
+// A run's result holds for the places that the MRs had when it began.
+bool MainWindow::disturbsRegistration(bool back) const
+{
+  return m_registration->running() && (back ? m_model.undoMovesMr() : m_model.redoMovesMr());
+}
+
+QString MainWindow::disturbsText() const
+{
+  return tr("It would move an MR while a registration is under way: wait for that, or cancel it");
 }
 
 // A tool's steps first; and no stroke as long as the drill is put away for it.
@@ -912,6 +922,8 @@ bool MainWindow::redoesSegment() const
 
 void MainWindow::step(bool back)
 {
+  if (disturbsRegistration(back))
+    return statusBar()->showMessage(disturbsText(), kMessage);
   const bool isStroke = back ? m_model.undoesStroke() : m_model.redoesStroke();
   const QString what = phrase(back ? m_model.undoText() : m_model.redoText());
   const auto act = [this, back] { back ? m_model.undo() : m_model.redo(); };
@@ -1033,6 +1045,7 @@ void MainWindow::caseChanged()
     warnOfSides();
   showUnregistered(true);
   m_stamps->caseOpened();
+  tellOtherBurr();
 }
 
 // Without a registration an MR is not seen: that it came along is said until it is registered or
@@ -1107,6 +1120,12 @@ void MainWindow::offerBurrs()
   }
 }
 
+void MainWindow::tellOtherBurr()
+{
+  if (const QString text = m_bar->insteadText(); !text.isEmpty())
+    statusBar()->showMessage(text);
+}
+
 // A tool in use is taken up again with them.
 void MainWindow::editCatalogues()
 {
@@ -1132,6 +1151,7 @@ void MainWindow::editCatalogues()
               offerBurrs();
               if (m_model.touching())
                 m_drill->renewTool();
+              tellOtherBurr();
             });
     dialog->open();
   };

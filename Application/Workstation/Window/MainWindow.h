@@ -107,6 +107,7 @@ private:
   void warnOfSides();
   void showFault(const QString& why);
   void offerBurrs();
+  void tellOtherBurr(); // taken in place of the wanted one
   void editCatalogues();
   void maskChanged(const core::IndexBox& box);
   void stateChanged();
@@ -114,7 +115,9 @@ private:
   void showUndo();
   bool undoesSegment() const;
   bool redoesSegment() const;
-  void step(bool back); // undo or redo
+  void step(bool back);                       // undo or redo
+  bool disturbsRegistration(bool back) const; // that step of the case
+  QString disturbsText() const;
   bool undoesMeasure() const;
   void notice(const QString& text);
   void showView(rendering::StandardView view);

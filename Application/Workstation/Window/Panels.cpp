@@ -76,7 +76,7 @@ std::vector<PanelEntry> panelEntries()
        [](C c) -> Panel* { return c.picture.panel(); }},
       {"slicesDock", tr("Slices"), Qt::SHIFT + Qt::Key_F8, Qt::LeftDockWidgetArea, kTabbed, kHidden,
        kNeedsCase, [](C c) -> Panel* { return c.slices.panel(); }},
-      {"nearbyDock", tr("Near the burr"), Qt::Key_F7, Qt::LeftDockWidgetArea, kAlone, kHidden,
+      {"nearbyDock", tr("Near the tool"), Qt::Key_F7, Qt::LeftDockWidgetArea, kAlone, kHidden,
        kNeedsCase, [](C c) -> Panel* { return new NearbyPanel(c.model); }},
       {"registrationDock", tr("Registration"), Qt::Key_F5, Qt::LeftDockWidgetArea, kTabbed, kHidden,
        kNeedsCase, [](C c) -> Panel* { return c.registration.panel(); }},

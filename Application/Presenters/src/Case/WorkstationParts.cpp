@@ -477,8 +477,6 @@ void WorkstationModel::rename(const std::string& name, const std::string& to)
     }
     forEachLook(*m_case, [&](const std::string&, appearance::StructureAppearance& look)
                 { follow(look.sourceImage); });
-    follow(m_case->boneLook.sourceImage);
-    follow(m_case->softTissue.sourceImage);
     if (auto& slices = m_case->view.slices; slices && slices->overlay)
       follow(slices->overlay->mr);
     for (RemovedPart& removed : m_removed) // may come back

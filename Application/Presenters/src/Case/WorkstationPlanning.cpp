@@ -301,4 +301,15 @@ void WorkstationModel::redoMr()
     stepEdit([this] { m_edits.redoOf(kMrEdits); });
 }
 
+bool WorkstationModel::undoMovesMr() const noexcept
+{
+  return !undoesStroke() && canUndo() && m_edits.next(m_case->applied())->group == kMrEdits;
+}
+
+bool WorkstationModel::redoMovesMr() const noexcept
+{
+  return !redoesStroke() && canRedo() &&
+         m_edits.nextRedo(m_case->dissection.history().ahead())->group == kMrEdits;
+}
+
 } // namespace petrous::presenters

@@ -88,6 +88,17 @@ std::string freeName(const std::vector<Row>& rows, const std::string& base)
   return name;
 }
 
+template <typename Row>
+std::vector<std::string> lostNames(const std::vector<Row>& before, const std::vector<Row>& now)
+{
+  std::vector<std::string> names;
+  for (const Row& saved : before)
+    if (std::none_of(now.begin(), now.end(),
+                     [&saved](const Row& one) { return one.name == saved.name; }))
+      names.push_back(saved.name);
+  return names;
+}
+
 // As the file of a library, or no file where it would be the program's own.
 void put(const std::filesystem::path& file, const std::string& text, const std::string& builtIn)
 {
@@ -235,12 +246,12 @@ bool CatalogueEditor::isUsualBurr(std::size_t burr) const
 
 std::vector<std::string> CatalogueEditor::lostMaterials() const
 {
-  std::vector<std::string> names;
-  for (const Material& saved : m_saved.materials)
-    if (std::none_of(m_now.materials.begin(), m_now.materials.end(),
-                     [&saved](const Material& one) { return one.name == saved.name; }))
-      names.push_back(saved.name);
-  return names;
+  return lostNames(m_saved.materials, m_now.materials);
+}
+
+std::vector<std::string> CatalogueEditor::lostBurrs() const
+{
+  return lostNames(m_saved.burrs, m_now.burrs);
 }
 
 void CatalogueEditor::setMaterial(std::size_t row, const Material& material)

@@ -4,7 +4,6 @@
 #include <map>
 
 #include "LookEdits.h"
-#include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Scene/Placement.h"
@@ -62,21 +61,6 @@ void changeLooks(
       change(part, looks.back().look);
     }
   model.setLooks(looks);
-}
-
-appearance::StructureAppearance withPreset(const scene::Case& value, const std::string& part,
-                                           appearance::StructureAppearance look,
-                                           const std::string& preset)
-{
-  const auto presets = appearance::StructurePresets::builtIn();
-  const appearance::StructureAppearance chosen = presets.preset(preset);
-  const bool isSoftTissue = part == scene::kSoftTissue;
-  if ((part == kBone || isSoftTissue) && !chosen.solid)
-    return look;
-  (isSoftTissue ? appearance::applySoftTissuePreset : appearance::applyPreset)(look, chosen);
-  if (chosen.preset == presets.lookFor({}).preset)
-    appearance::setColor(look, appearance::distinctColor(structureColors(value)));
-  return look;
 }
 
 OnlyThese::OnlyThese(WorkstationModel& model)

@@ -55,6 +55,7 @@ public:
 
   /// Names of materials that cases may refer to and that would no longer exist once saved.
   std::vector<std::string> lostMaterials() const;
+  std::vector<std::string> lostBurrs() const; ///< likewise
 
   // These throw InvalidParameter, without effect. A number out of its range is told by the range in
   // the table's unit: "must lie above 0 GPa, it is -3".

@@ -49,13 +49,6 @@ void changeLooks(
     WorkstationModel& model, const std::vector<std::string>& parts,
     const std::function<void(const std::string& part, appearance::StructureAppearance&)>& change);
 
-/// The appearance with a preset of the catalogue, as `petrous appearance --set` gives it: one that
-/// says nothing of what a structure is gets a colour that no other has. Bone takes no preset of a
-/// lumen. Throws InvalidParameter for an unknown one.
-appearance::StructureAppearance withPreset(const scene::Case& value, const std::string& part,
-                                           appearance::StructureAppearance look,
-                                           const std::string& preset);
-
 /// Shows some structures alone, and again what was shown before. Bone stays as it is, unless it is
 /// one of them.
 class OnlyThese

@@ -302,6 +302,8 @@ public:
   std::string redoMrText() const;
   void undoMr();
   void redoMr();
+  bool undoMovesMr() const noexcept; ///< `undo` would take one of these back
+  bool redoMovesMr() const noexcept;
 
   /// The scene contents of the case; requires a case; see SceneAssembly.
   rendering::SceneContents sceneContents();

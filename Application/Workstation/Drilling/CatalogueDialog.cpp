@@ -28,7 +28,7 @@ namespace
 
 enum MaterialColumn
 {
-  Name,
+  MaterialName,
   Title,
   Energy,
   Friction,
@@ -240,7 +240,7 @@ void CatalogueDialog::fillMaterial(int row)
 {
   const auto at = static_cast<std::size_t>(row);
   const auto& one = m_editor.materials()[at];
-  put(*m_materials, row, Name, words(one.name), !m_editor.isBuiltIn(at));
+  put(*m_materials, row, MaterialName, words(one.name), !m_editor.isBuiltIn(at));
   put(*m_materials, row, Title, phrase(one.title));
   put(*m_materials, row, Energy, number(one.specificEnergy));
   put(*m_materials, row, Friction, number(one.friction));
@@ -296,7 +296,7 @@ void CatalogueDialog::materialEntered(int row, int column)
       {
         const auto at = static_cast<std::size_t>(row);
         auto one = m_editor.materials()[at];
-        const std::string name = bytes(m_materials->item(row, Name)->text().trimmed());
+        const std::string name = bytes(m_materials->item(row, MaterialName)->text().trimmed());
         if (name != one.name)
           checkUnused(one.name);
         one.name = name;
@@ -343,9 +343,9 @@ void CatalogueDialog::addMaterial()
       });
   if (added < 0)
     return;
-  m_materials->setCurrentCell(added, Name);
+  m_materials->setCurrentCell(added, MaterialName);
   m_materials->setFocus();
-  m_materials->editItem(m_materials->item(added, Name));
+  m_materials->editItem(m_materials->item(added, MaterialName));
 }
 
 void CatalogueDialog::removeMaterial()

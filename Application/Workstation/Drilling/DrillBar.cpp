@@ -23,7 +23,7 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr int kNameWidth = 160; // px
+constexpr int kNameWidth = 120; // px
 } // namespace
 
 DrillBar::DrillBar(QWidget* parent)
@@ -66,8 +66,11 @@ DrillBar::DrillBar(QWidget* parent)
       tr("Pick, dissector or curette from a file (I): the left button, or Space, presses it on the "
          "tissue, and it removes nothing");
   m_instrument->setToolTip(m_instrumentTip);
-  addAction(m_instrument);
-  widgetForAction(m_instrument)->setObjectName("instrumentButton");
+  auto* button = new QToolButton;
+  button->setObjectName("instrumentButton");
+  button->setDefaultAction(m_instrument);
+  m_instrumentButton = addWidget(button);
+  m_instrumentButton->setVisible(false); // a device's settings need the room
 
   m_diameter->setSuffix(tr(" mm"));
   m_diameter->setObjectName("burrDiameter");
@@ -226,6 +229,7 @@ void DrillBar::setInstrument(const QString& name)
   const QString shown =
       fontMetrics().elidedText(name, Qt::ElideMiddle, kNameWidth).replace('&', "&&");
   m_instrument->setIconText(name.isEmpty() ? tr("Instrument") : shown);
+  m_instrumentButton->setVisible(!name.isEmpty());
   m_instrument->setToolTip(name.isEmpty() ? m_instrumentTip : name + '\n' + m_instrumentTip);
   for (QWidget* widget : std::initializer_list<QWidget*>{m_diameter, m_kind, m_speed})
     widget->setEnabled(name.isEmpty());

@@ -77,6 +77,7 @@ private:
   QAction* m_drill;
   QAction* m_pointer;
   QAction* m_instrument;
+  QAction* m_instrumentButton; // in the bar, while it is in the hand
   QAction* m_wheel;
   DiameterBox* m_diameter;
   QComboBox* m_kind;

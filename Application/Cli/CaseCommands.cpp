@@ -388,9 +388,20 @@ void warnOfParts(const Context& context, const presenters::CaseSources& sources,
                          [&](const auto& one)
                          { return one == canonical || one.parent_path() == canonical; });
     };
-    // The same structures in another form, each a file of its name.
+    // The same structures in another form, each a file of its name. One that no voxel carries was
+    // left out with a note.
     const auto isTaken = [&value](const std::filesystem::path& path)
-    { return scene::kindOfPart(value, imaging::baseName(path)) != nullptr; };
+    {
+      const std::string name = imaging::baseName(path);
+      return scene::kindOfPart(value, name) ||
+             std::any_of(value.labels.begin(), value.labels.end(),
+                         [&](const scene::LabelPart& part)
+                         {
+                           return std::any_of(part.notes.begin(), part.notes.end(),
+                                              [&](const std::string& note)
+                                              { return note.find("'" + name + "'") != note.npos; });
+                         });
+    };
     if (!std::any_of(files.paths.begin(), files.paths.end(), isGiven) &&
         !std::all_of(files.paths.begin(), files.paths.end(), isTaken))
       text += (text.empty() ? "" : "; ") +

@@ -5022,8 +5022,8 @@ Verletzt: %1, %2</translation>
         <translation>Kant&amp;en</translation>
     </message>
     <message>
-        <source>Translucent surfaces are more opaque where they are seen from the side, as a shell is, so that bone keeps its shape</source>
-        <translation>Durchscheinende Oberflächen sind dort, wo man sie von der Seite sieht, deckender, wie eine Schale, sodass Knochen seine Form behält</translation>
+        <source>Translucent surfaces are more opaque where they are seen from the side, as a shell is, so that they keep their shape</source>
+        <translation>Durchscheinende Oberflächen sind dort, wo man sie von der Seite sieht, deckender, wie eine Schale, sodass sie ihre Form behalten</translation>
     </message>
 </context>
 <context>

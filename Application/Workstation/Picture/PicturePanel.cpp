@@ -72,7 +72,7 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
       form, tr("Ed&ges"),
       m_bound.add(
           percentSlider("edges", tr("Translucent surfaces are more opaque where they are seen from "
-                                    "the side, as a shell is, so that bone keeps its shape")),
+                                    "the side, as a shell is, so that they keep their shape")),
           [this] { return percent(m_settings.light().edges); },
           [this](int percent) { m_settings.setEdges(0.01 * percent); }));
   addCheck(

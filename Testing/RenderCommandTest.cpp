@@ -339,7 +339,7 @@ TEST_F(RenderCommand, DoctorNamesTheRayCastersVariants)
   EXPECT_TRUE(answer["gl_renderer"].is_string());
   EXPECT_GE(answer["largest_3d_texture"].get<int>(), 256);
   EXPECT_TRUE(answer["ray_caster"]["works"].get<bool>());
-  EXPECT_EQ(answer["ray_caster"]["variants"].size(), 10u);
+  EXPECT_EQ(answer["ray_caster"]["variants"].size(), 11u);
   EXPECT_NE(run("doctor").out.find("ray caster"), std::string::npos);
 }
 

@@ -348,7 +348,8 @@ TEST_F(AppearanceCommand, APresetOfMrValuesIsNotPutOnTheCt)
   json("appearance ear --source cochlea=ct --source soft-tissue=ct");
   json("appearance ear --save-preset cochlea=of-ct");
   std::map<std::string, nlohmann::json> valuesOf;
-  for (const auto& preset : json("appearance --presets")["presets"])
+  const auto listed = json("appearance --presets");
+  for (const auto& preset : listed["presets"])
     valuesOf[preset["name"]] = preset["values_of"];
   EXPECT_EQ(valuesOf.at("of-mr"), "mr");
   EXPECT_EQ(valuesOf.at("of-ct"), "ct");

@@ -390,7 +390,7 @@ void warnOfParts(const Context& context, const presenters::CaseSources& sources,
     };
     // The same structures in another form, each a file of its name. One that no voxel carries was
     // left out with a note.
-    const auto isTaken = [&value](const std::filesystem::path& path)
+    const auto isOne = [&value](const std::filesystem::path& path)
     {
       const std::string name = imaging::baseName(path);
       return scene::kindOfPart(value, name) ||
@@ -401,6 +401,13 @@ void warnOfParts(const Context& context, const presenters::CaseSources& sources,
                                               [&](const std::string& note)
                                               { return note.find("'" + name + "'") != note.npos; });
                          });
+    };
+    const auto isTaken = [&](const std::filesystem::path& path)
+    {
+      using Folder = std::filesystem::directory_iterator;
+      return std::filesystem::is_directory(path, error)
+                 ? std::all_of(Folder(path, error), Folder(), isOne)
+                 : isOne(path);
     };
     if (!std::any_of(files.paths.begin(), files.paths.end(), isGiven) &&
         !std::all_of(files.paths.begin(), files.paths.end(), isTaken))

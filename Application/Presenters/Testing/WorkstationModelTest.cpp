@@ -63,8 +63,15 @@ protected:
   {
     HeldTool held({6, 6, 8.5});
     model.startTouch(held.device, held.setup);
+    const auto whole = model.surfaceAt(line());
     held.drill(true);
-    EXPECT_TRUE(until([&model] { return !model.advanceTouch().bricks.empty(); }));
+    EXPECT_TRUE(until(
+        [&]
+        {
+          model.advanceTouch();
+          const auto cut = model.surfaceAt(line());
+          return whole && cut && cut->z() < whole->z() - 0.1;
+        }));
     EXPECT_TRUE(model.drilling());
     held.drill(false);
     EXPECT_TRUE(until([&model] { return model.advanceTouch().strokes.size() == 1; }));

@@ -572,16 +572,18 @@ TEST(ToolInteraction, APedalPresses)
   record.proxy = session::PoseValues::of(*program.aim.wanted());
   record.input.pedal = 0.6;
   program.tool->See(record);
-  EXPECT_EQ(program.hand().buttons, PointerDevice::kDrill);
+  EXPECT_EQ(program.hand().buttons, 0U) << "a button would drill at full speed";
   EXPECT_EQ(program.tool->GetParameters().constantThrust, kPresses);
+  EXPECT_EQ(program.tool->GetParameters().drill, session::ServoParameters::kPedalSpeed);
   record.input.pedal = 0.4;
   program.tool->See(record);
-  EXPECT_EQ(program.hand().buttons, 0U);
+  EXPECT_EQ(program.tool->GetParameters().constantThrust, kHovers);
   program.tool->DrillModeOff();
   program.tool->ProbeModeOn();
   record.input.pedal = 1.0;
   program.tool->See(record);
-  EXPECT_EQ(program.hand().buttons, 0U);
+  EXPECT_EQ(program.tool->GetParameters().constantThrust, kHovers);
+  EXPECT_EQ(program.tool->GetParameters().drill, 0);
 }
 
 TEST(ToolInteraction, AWheelsFractionsAndHeapsCount)

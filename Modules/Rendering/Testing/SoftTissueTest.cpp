@@ -262,7 +262,8 @@ TEST(SoftTissueSection, IsNoneWhereNothingIsCutOrSeen)
   SceneContents contents = block(40.0, 0.08F, cube(33, 0.5));
   const auto drawn = [](const SceneContents& scene, const core::CameraPose& pose)
   {
-    const std::uint8_t* pixel = draw(scene, pose).pixel(kWidth / 2, kHeight / 2);
+    const Picture picture = draw(scene, pose);
+    const std::uint8_t* pixel = picture.pixel(kWidth / 2, kHeight / 2);
     return std::array<int, 3>{pixel[0], pixel[1], pixel[2]};
   };
   const auto expectNoFace = [&](SceneContents scene, const core::CameraPose& pose)

@@ -149,7 +149,8 @@ TEST(TonePicture, FalloffLeavesTheFocalPointAsBrightFromEveryDistance)
   const auto middle = [&](double distance)
   {
     const core::CameraPose pose = from({0.0, -distance, 0.0}, {0.0, 0.0, 0.0}, 300.0 / distance);
-    const std::uint8_t* pixel = draw(contents, pose).pixel(kWidth / 2, kHeight / 2);
+    const Picture picture = draw(contents, pose);
+    const std::uint8_t* pixel = picture.pixel(kWidth / 2, kHeight / 2);
     return std::array<int, 3>{pixel[0], pixel[1], pixel[2]};
   };
   for (const bool isMesh : {false, true})

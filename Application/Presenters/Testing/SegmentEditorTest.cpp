@@ -68,6 +68,19 @@ protected:
     model.adopt(ballCase());
     editor.caseChanged();
   }
+  // Of the case: a registered MR of the same voxels, 2 mm beside them.
+  scene::ImagePart openWithMr()
+  {
+    scene::Case value = ballCase();
+    scene::ImagePart mr = value.ct;
+    mr.name = "T2";
+    mr.registered = true;
+    mr.mrFromCt = core::RigidTransform(Eigen::Quaterniond::Identity(), Vector3d(2.0, 0, 0));
+    value.mr.push_back(mr);
+    model.adopt(std::move(value));
+    editor.caseChanged();
+    return mr;
+  }
   // As the window does, in one thread.
   void work()
   {
@@ -574,14 +587,7 @@ TEST_F(SegmentEditorTest, AStructureIsFollowedWhenItIsRenamedWhileItIsEdited)
 // another one.
 TEST_F(SegmentEditorTest, WhatComesBackLiesOnTheMrThatItWasDrawnOn)
 {
-  scene::Case value = ballCase();
-  scene::ImagePart mr = value.ct;
-  mr.name = "T2";
-  mr.registered = true;
-  mr.mrFromCt = core::RigidTransform(Eigen::Quaterniond::Identity(), Vector3d(2.0, 0, 0));
-  value.mr.push_back(mr);
-  model.adopt(std::move(value));
-  editor.caseChanged();
+  const scene::ImagePart mr = openWithMr();
   editor.setTool(Tool::Paint);
   stroke(kBall, kBall);
   const std::uint64_t drawn = editor.voxels();
@@ -613,14 +619,7 @@ TEST_F(SegmentEditorTest, WhatComesBackLiesOnTheMrThatItWasDrawnOn)
 
 TEST_F(SegmentEditorTest, WhatIsMadeFromAnMrKeepsWhichAndWhereItLay)
 {
-  scene::Case value = ballCase();
-  scene::ImagePart mr = value.ct;
-  mr.name = "T2";
-  mr.registered = true;
-  mr.mrFromCt = core::RigidTransform(Eigen::Quaterniond::Identity(), Vector3d(2.0, 0, 0));
-  value.mr.push_back(mr);
-  model.adopt(std::move(value));
-  editor.caseChanged();
+  openWithMr();
   editor.setTool(Tool::Paint);
   stroke(kBall, kBall);
   editor.setName("of CT");

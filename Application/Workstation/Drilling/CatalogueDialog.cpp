@@ -332,20 +332,27 @@ void CatalogueDialog::burrEntered(int row, int column)
       cellOf(*m_burrs, words(m_editor.burrs()[static_cast<std::size_t>(row)].name), column));
 }
 
-void CatalogueDialog::addMaterial()
+// A copy of the current row, whose name is edited next.
+void CatalogueDialog::addRow(QTableWidget& table, int nameColumn,
+                             std::size_t (presenters::CatalogueEditor::*add)(std::size_t like))
 {
   int added = -1;
   enter(
       [&]
       {
-        const auto like = static_cast<std::size_t>(std::max(m_materials->currentRow(), 0));
-        added = static_cast<int>(m_editor.addMaterial(like));
+        const auto like = static_cast<std::size_t>(std::max(table.currentRow(), 0));
+        added = static_cast<int>((m_editor.*add)(like));
       });
   if (added < 0)
     return;
-  m_materials->setCurrentCell(added, MaterialName);
-  m_materials->setFocus();
-  m_materials->editItem(m_materials->item(added, MaterialName));
+  table.setCurrentCell(added, nameColumn);
+  table.setFocus();
+  table.editItem(table.item(added, nameColumn));
+}
+
+void CatalogueDialog::addMaterial()
+{
+  addRow(*m_materials, MaterialName, &presenters::CatalogueEditor::addMaterial);
 }
 
 void CatalogueDialog::removeMaterial()
@@ -364,18 +371,7 @@ void CatalogueDialog::removeMaterial()
 
 void CatalogueDialog::addBurr()
 {
-  int added = -1;
-  enter(
-      [&]
-      {
-        const auto like = static_cast<std::size_t>(std::max(m_burrs->currentRow(), 0));
-        added = static_cast<int>(m_editor.addBurr(like));
-      });
-  if (added < 0)
-    return;
-  m_burrs->setCurrentCell(added, BurrName);
-  m_burrs->setFocus();
-  m_burrs->editItem(m_burrs->item(added, BurrName));
+  addRow(*m_burrs, BurrName, &presenters::CatalogueEditor::addBurr);
 }
 
 void CatalogueDialog::removeBurr()

@@ -35,6 +35,8 @@ private:
   void checkUnused(const std::string& material) const;
   void materialEntered(int row, int column);
   void burrEntered(int row, int column);
+  void addRow(QTableWidget& table, int nameColumn,
+              std::size_t (presenters::CatalogueEditor::*add)(std::size_t like));
   void addMaterial();
   void addBurr();
   void removeMaterial();

@@ -76,16 +76,17 @@ void checkNumbers(const CatalogueEditor::Burr& burr)
                 "within -" + steepest + " to " + steepest + " degrees", burr.constant);
 }
 
-// Of a row that is copied.
+// Appends a copy of a row under a free name.
 template <typename Row>
-std::string freeName(const std::vector<Row>& rows, const std::string& base)
+void appendLike(std::vector<Row>& rows, std::size_t like)
 {
-  std::string name = base;
-  for (int n = 2;
-       std::any_of(rows.begin(), rows.end(), [&name](const Row& one) { return one.name == name; });
+  Row added = rows.at(like);
+  const std::string base = added.name;
+  for (int n = 2; std::any_of(rows.begin(), rows.end(),
+                              [&added](const Row& one) { return one.name == added.name; });
        ++n)
-    name = base + "-" + std::to_string(n);
-  return name;
+    added.name = base + "-" + std::to_string(n);
+  rows.push_back(std::move(added));
 }
 
 template <typename Row>
@@ -276,9 +277,7 @@ void CatalogueEditor::setMaterial(std::size_t row, const Material& material)
 std::size_t CatalogueEditor::addMaterial(std::size_t like)
 {
   Tables next = m_now;
-  Material added = next.materials.at(like);
-  added.name = freeName(next.materials, added.name);
-  next.materials.push_back(std::move(added));
+  appendLike(next.materials, like);
   take(std::move(next));
   return m_now.materials.size() - 1;
 }
@@ -312,9 +311,7 @@ void CatalogueEditor::setBurr(std::size_t row, const Burr& burr)
 std::size_t CatalogueEditor::addBurr(std::size_t like)
 {
   Tables next = m_now;
-  Burr added = next.burrs.at(like);
-  added.name = freeName(next.burrs, added.name);
-  next.burrs.push_back(std::move(added));
+  appendLike(next.burrs, like);
   take(std::move(next));
   return m_now.burrs.size() - 1;
 }

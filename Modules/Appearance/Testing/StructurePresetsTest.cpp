@@ -381,6 +381,8 @@ TEST(StructurePresets, BoneGrowsPalerAndShinierWithDensity)
   // Cellular bone at the surface's 300 HU, cortical bone 1100 HU higher.
   const auto cells = bone.at(300.0).color;
   const auto cortex = bone.at(1400.0).color;
+  EXPECT_FLOAT_EQ(float(cells[2]), 0.58F);
+  EXPECT_FLOAT_EQ(float(cortex[2]), 0.79F);
   for (int channel = 0; channel < 3; ++channel)
     EXPECT_GT(cortex[channel], cells[channel]);
   // Pink, not orange: of green and blue about as much, of red more.

@@ -46,7 +46,7 @@ private:
     Eigen::Vector3d center;
     double radius = 0.0;
     std::size_t begin = 0, end = 0; // of the points
-    std::size_t halves = 0;         // the first of two in m_balls; 0: none
+    std::size_t halves = 0;         // the first of two in Part::balls; 0: none
   };
   struct Part // points of one spacing
   {

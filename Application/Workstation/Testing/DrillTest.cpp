@@ -487,7 +487,7 @@ TEST_F(Drill, TheBurrComesWhereThePointerRestsWhenTheDrillIsTurnedOn)
   QTest::qWait(100);
   EXPECT_FALSE(view().display().tool());
   QTest::keyClick(&view(), Qt::Key_D);
-  ASSERT_TRUE(waitFor([this] { return view().display().tool().has_value(); }, 10000));
+  ASSERT_TRUE(waitFor([this] { return view().display().tool().has_value(); }));
   EXPECT_NEAR((view().display().tool()->center - kBallCenter).norm(), kBallRadius + 2.0 + 1.0, 0.3);
 }
 

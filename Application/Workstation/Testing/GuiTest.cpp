@@ -191,7 +191,7 @@ QModelIndex GuiTest::structureCell(const std::string& part, int column)
 QImage GuiTest::picture()
 {
   QTest::qWait(400); // fine rendering starts 150 ms after the last motion
-  waitFor([this] { return !m_window->model().hasCase() || view().display().isFine(); }, 2000);
+  waitFor([this] { return !m_window->model().hasCase() || view().display().isFine(); }, 20000);
   const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
   if (!pictures.isEmpty()) // for visual inspection
   {

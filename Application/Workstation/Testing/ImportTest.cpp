@@ -472,9 +472,8 @@ TEST_F(Import, LabelsThatLieOutsideTheCtAreToldInALine)
   drop(true);
   ASSERT_TRUE(waitFor([this] { return window().model().value().labels.size() == 2; }));
   EXPECT_TRUE(settled());
-  QTest::qWait(100);
   auto* banner = window().findChild<Banner*>("notesBanner");
-  EXPECT_TRUE(banner->isVisible());
+  EXPECT_TRUE(waitFor([banner] { return banner->isVisible(); }));
   EXPECT_TRUE(banner->text().contains("'vein' lies wholly outside the CT"))
       << banner->text().toStdString();
 }

@@ -486,13 +486,13 @@ TEST_F(Manners, NoVolumeOutlivesItsCaseAndMemoryComesBack)
     QTest::qWait(20); // it is drawn
     action("Close the case")->trigger();
     ASSERT_TRUE(waitFor([this] { return !window().model().hasCase() && !window().busy(); }));
-    EXPECT_TRUE(waitFor([&] { return ct.expired(); }, 3000)) << ct.use_count();
-    EXPECT_TRUE(waitFor([&] { return labels.expired(); }, 3000)) << labels.use_count();
+    EXPECT_TRUE(waitFor([&] { return ct.expired(); })) << ct.use_count();
+    EXPECT_TRUE(waitFor([&] { return labels.expired(); })) << labels.use_count();
     if (HasFailure())
       return;
   }
   double after = used();
-  waitFor([&] { return (after = used()) < 1.05 * before; }, 3000); // work in the background ends
+  waitFor([&] { return (after = used()) < 1.05 * before; }, 10000); // work in the background ends
   std::printf("memory in use: %.1f MB before, %.1f MB after %d cases\n", 1e-6 * before,
               1e-6 * after, kTimes);
   EXPECT_LT(after, 1.05 * before);

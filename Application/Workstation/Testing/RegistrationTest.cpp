@@ -434,7 +434,7 @@ TEST_F(RegistrationWindow, TheSlicesShowTheRegionThatCountsWhileThePanelIsOpen)
   EXPECT_NEAR(changed.center().x(), middle.x(), 3.0);
   EXPECT_NEAR(changed.center().y(), middle.y(), 3.0);
   showPanel(); // hides it
-  EXPECT_TRUE(waitFor([&] { return same(axial(), whole); }, 5000));
+  EXPECT_TRUE(waitFor([&] { return same(axial(), whole); }));
 }
 
 TEST_F(RegistrationWindow, TheHandMovesTheMrByKeyAndButtonAndCanBeUndone)

@@ -260,6 +260,18 @@ TEST_F(AppearanceCommand, SaysHowAStructureYieldsUnderTheHand)
   EXPECT_TRUE(part("incus")["stiffness_n_per_mm"].is_null()) << "the preset is rigid";
 }
 
+TEST_F(AppearanceCommand, SaysThatALumenIsNotFeltWhateverItsFlags)
+{
+  json("appearance ear --set cochlea=ear-canal");
+  EXPECT_NE(run("appearance ear --list").out.find(", a lumen, not felt,"), std::string::npos);
+  const auto outcome = run("appearance ear --flags cochlea=shown,touchable");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("'cochlea' is not felt: it is a lumen"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(part("cochlea")["flags"], "shown,touchable") << "as it will be with a preset of tissue";
+  EXPECT_TRUE(run("appearance ear --flags cochlea=shown,drillable").err.empty());
+}
+
 TEST_F(AppearanceCommand, SaysHowNearABurrMayCome)
 {
   EXPECT_EQ(part("cochlea")["warn_mm"], 1.0) << "as its preset";

@@ -119,6 +119,10 @@ StructureEditor::StructureEditor(presenters::WorkstationModel& model, QWidget* p
   grid->addWidget(priority, 6, 1);
   grid->setColumnStretch(1, 1);
   grid->setColumnStretch(3, 1);
+  for (Number& one : m_numbers)
+    one.tip = one.box->toolTip();
+  for (Flag& one : m_flags)
+    one.tip = one.box->toolTip();
   refresh();
 }
 
@@ -287,25 +291,41 @@ void StructureEditor::materialsChanged()
   refresh();
 }
 
+std::vector<std::string> StructureEditor::partsWith(const StructureProperty& property) const
+{
+  std::vector<std::string> parts;
+  for (const std::string& part : m_parts)
+    if (const auto* look = m_model.lookOf(part);
+        look && has(part, property) && StructuresModel::idleText(*look, property).isEmpty())
+      parts.push_back(part);
+  return parts;
+}
+
 void StructureEditor::change(
     const std::function<void(const std::string&, StructureAppearance&)>& to,
     const StructureProperty& property)
 {
-  std::vector<std::string> parts;
-  for (const std::string& part : m_parts)
-    if (has(part, property))
-      parts.push_back(part);
-  presenters::changeLooks(m_model, parts, to);
+  presenters::changeLooks(m_model, partsWith(property), to);
 }
 
 std::vector<const StructureAppearance*>
 StructureEditor::looks(const StructureProperty& property) const
 {
   std::vector<const StructureAppearance*> all;
-  for (const std::string& part : m_parts)
-    if (const auto* look = m_model.lookOf(part); look && has(part, property))
-      all.push_back(look);
+  for (const std::string& part : partsWith(property))
+    all.push_back(m_model.lookOf(part));
   return all;
+}
+
+QString StructureEditor::withIdle(const QString& tip, const StructureProperty& property) const
+{
+  if (!partsWith(property).empty())
+    return tip;
+  for (const std::string& part : m_parts)
+    if (const auto* look = m_model.lookOf(part))
+      if (const QString idle = StructuresModel::idleText(*look, property); !idle.isEmpty())
+        return tip + '\n' + idle;
+  return tip;
 }
 
 bool StructureEditor::differ(const StructureProperty& property) const
@@ -335,12 +355,14 @@ void StructureEditor::refresh()
         {
           one.box->setEnabled(!looks(*one.property).empty());
           one.box->setPrefix(differ(*one.property) ? differs : QString());
+          one.box->setToolTip(withIdle(one.tip, *one.property));
         }
         for (const Flag& one : m_flags)
         {
           const auto flag = std::get<StructureProperty::Flag>(one.property->member);
           const auto all = looks(*one.property);
           one.box->setEnabled(!all.empty());
+          one.box->setToolTip(withIdle(one.tip, *one.property));
           const bool isMixed = differ(*one.property);
           one.box->setTristate(isMixed);
           one.box->setCheckState(isMixed                              ? Qt::PartiallyChecked

@@ -1,6 +1,7 @@
 #include "petrous/Presenters/RegistrationSession.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "petrous/Presenters/CaseNaming.h"
@@ -156,6 +157,47 @@ std::vector<std::string> RegistrationSession::ontoNames() const
 std::vector<std::string> RegistrationSession::placeNames() const
 {
   return m_model.hasCase() ? presenters::placeNames(m_model.value()) : std::vector<std::string>();
+}
+
+namespace
+{
+
+// "cochlea" of "cochlea 2" (scene::freeName).
+std::string withoutNumber(const std::string& name)
+{
+  const std::size_t last = name.find_last_not_of("0123456789");
+  const bool isNumbered = last != std::string::npos && last + 1 < name.size() && last > 0 &&
+                          (name[last] == ' ' || name[last] == '_' || name[last] == '-');
+  return isNumbered ? name.substr(0, last) : name;
+}
+
+} // namespace
+
+std::vector<PlaceChoice> RegistrationSession::placeChoices() const
+{
+  std::vector<PlaceChoice> choices;
+  std::map<std::string, int> alike;
+  for (const std::string& name : placeNames())
+  {
+    ++alike[withoutNumber(name)];
+    PlaceChoice choice{name};
+    const scene::Case& value = m_model.value();
+    choice.isMesh = !scene::findStructure(value, name);
+    for (const scene::LabelPart& part : value.labels)
+      for (const scene::StructurePart& structure : part.structures)
+        if (structure.name == name)
+        {
+          choice.drawnOn = part.drawnOn.value_or(std::string());
+          choice.volume = structure.volume;
+        }
+    for (const scene::MeshPart& mesh : value.meshes)
+      if (choice.isMesh && mesh.name == name)
+        choice.drawnOn = mesh.drawnOn;
+    choices.push_back(std::move(choice));
+  }
+  for (PlaceChoice& choice : choices)
+    choice.isAlike = alike.at(withoutNumber(choice.name)) > 1;
+  return choices;
 }
 
 std::string RegistrationSession::placeNote() const

@@ -3824,6 +3824,30 @@
         <translation>der Name einer Fräse muss aus a bis z, 0 bis 9 und Bindestrichen bestehen, höchstens 40</translation>
     </message>
     <message>
+        <source>not a catalogue</source>
+        <translation>kein Katalog</translation>
+    </message>
+    <message>
+        <source>material '%1': '%2' must be above 0, it is %3</source>
+        <translation>Material „%1“: „%2“ muss über 0 liegen, es ist %3</translation>
+    </message>
+    <message>
+        <source>a material has an empty name</source>
+        <translation>ein Material hat einen leeren Namen</translation>
+    </message>
+    <message>
+        <source>material '%1' stands there twice</source>
+        <translation>das Material „%1“ steht zweimal da</translation>
+    </message>
+    <message>
+        <source>bone: 'from_hu' must lie below 'to_hu'</source>
+        <translation>Knochen: „from_hu“ muss unter „to_hu“ liegen</translation>
+    </message>
+    <message>
+        <source>there is no material '%1'; there are %2</source>
+        <translation>es gibt kein Material „%1“; es gibt %2</translation>
+    </message>
+    <message>
         <source>%1, line %#2: %~3</source>
         <translation>%1, Zeile %#2: %~3</translation>
     </message>

@@ -420,6 +420,11 @@ TEST_F(AppearanceCommand, RefusalsNameWhatIsWrongAndLeaveTheCase)
   expectRefused("appearance ear --set zebra=nerve", 3, "cochlea");
   expectRefused("appearance ear --set cochlea=zebra", 3, "bone-translucent");
   expectRefused("appearance ear --set ct=air-cells", 3, "lumen");
+  const auto listed = [&](const std::string& part)
+  { return run("appearance ear --set " + part + "=zebra").err.find("air-cells"); };
+  EXPECT_NE(listed("cochlea"), std::string::npos);
+  EXPECT_EQ(listed("ct"), std::string::npos) << "it would be refused";
+  EXPECT_EQ(listed("soft-tissue"), std::string::npos);
   expectRefused("appearance ear --set cochlea", 2, "PART=");
   expectRefused("appearance ear --tf cochlea=" + quoted(m_folder / "no.json"), 3, "no.json");
   expectRefused("appearance ear --tf cochlea=" + file("bad.json", "{"), 3, "bad.json");

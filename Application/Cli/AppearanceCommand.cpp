@@ -268,7 +268,8 @@ void setPreset(const library::Library& library, scene::Case& value, const std::s
                const std::vector<std::string>& sources)
 {
   const auto [part, name] = split(value, assignment, "--set PART=PRESET");
-  const auto preset = appearance::OwnPresets(library.folder()).preset(name);
+  const auto preset =
+      presenters::presetFor(value, part.name, appearance::OwnPresets(library.folder()), name);
   if (!preset.sourceImage.empty() && !part.meshOnly)
     for (const std::string& source : sources)
       if (const auto [reader, image] = split(value, source, "--source PART=MR|ct");

@@ -2967,6 +2967,10 @@
         <translation>muss {"presets": [...]} sein, wie die Vorgaben in structures.json</translation>
     </message>
     <message>
+        <source>there is no preset '%1'; there are %2</source>
+        <translation>es gibt keine Vorgabe „%1“; es gibt %2</translation>
+    </message>
+    <message>
         <source>preset '%1' is built in and cannot be removed</source>
         <translation>die Vorgabe „%1“ ist eingebaut und lässt sich nicht entfernen</translation>
     </message>

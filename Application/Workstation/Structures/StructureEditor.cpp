@@ -14,6 +14,7 @@
 #include <QPushButton>
 #include <QSlider>
 #include <QSpinBox>
+#include <QStandardItemModel>
 
 #include "AppearancePanel.h"
 #include "ColorChooser.h"
@@ -38,6 +39,7 @@ using appearance::StructureProperty;
 using presenters::EditHistory;
 
 constexpr char kBone[] = "ct";
+constexpr int kIsSolid = Qt::UserRole + 1; // of a preset: whether bone can have it
 
 const StructureProperty& propertyOf(const char* key)
 {
@@ -229,7 +231,10 @@ QComboBox* StructureEditor::addPresets()
                                       "structure; marks stay as they are"));
   const auto presets = appearance::StructurePresets::builtIn();
   for (const auto& look : presets.all())
+  {
     box->addItem(AppearancePanel::tr(look.preset.c_str()), words(look.preset));
+    box->setItemData(box->count() - 1, look.solid, kIsSolid);
+  }
   connect(box, qOverload<int>(&QComboBox::activated), this,
           [this, box, &property](int row)
           {
@@ -238,8 +243,7 @@ QComboBox* StructureEditor::addPresets()
             change(
                 [this, preset](const std::string& part, StructureAppearance& look)
                 {
-                  const bool isStructure = part != kBone && part != scene::kSoftTissue;
-                  if (isStructure || preset.solid) // a lumen can be neither
+                  if (presenters::canBeLookOf(m_model.value(), part, preset))
                     look = presenters::withPreset(m_model.value(), part, preset);
                 },
                 property);
@@ -378,6 +382,14 @@ void StructureEditor::refresh()
           const auto text = std::get<StructureProperty::Text>(one.property->member);
           const auto all = looks(*one.property);
           one.box->setEnabled(!all.empty());
+          // Those that none of them can have stay in the list, greyed.
+          const bool isAnyStructure = std::any_of(
+              m_parts.begin(), m_parts.end(),
+              [](const std::string& part) { return part != kBone && part != scene::kSoftTissue; });
+          auto* rows = qobject_cast<QStandardItemModel*>(one.box->model());
+          for (int row = 0; rows && row < rows->rowCount(); ++row)
+            if (const QVariant isSolid = rows->item(row)->data(kIsSolid); isSolid.isValid())
+              rows->item(row)->setEnabled(isAnyStructure || isSolid.toBool());
           one.box->setCurrentIndex(all.empty() || differ(*one.property)
                                        ? -1
                                        : one.box->findData(words(all.front()->*text)));

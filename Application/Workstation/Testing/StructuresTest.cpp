@@ -193,6 +193,25 @@ TEST_F(Structures, BoneIsARowThatIsHiddenAndRecolouredLikeOthers)
   EXPECT_EQ(action("Undo")->text(), "&Undo colour of bone");
 }
 
+TEST_F(Structures, BoneIsNotOfferedThePresetsOfLumens)
+{
+  openWith({});
+  const auto* presets = find<QComboBox>("structurePreset");
+  const auto isOffered = [presets](const QString& preset)
+  {
+    const int row = presets->findData(preset);
+    return row >= 0 && (presets->model()->index(row, 0).flags() & Qt::ItemIsEnabled);
+  };
+  structureList().setCurrentIndex(structureCell("ct"));
+  EXPECT_TRUE(isOffered("bone-translucent"));
+  EXPECT_FALSE(isOffered("ear-canal") || isOffered("air-cells"));
+  structureList().selectionModel()->select(structureCell("nerve"),
+                                           QItemSelectionModel::Select | QItemSelectionModel::Rows);
+  EXPECT_TRUE(isOffered("ear-canal")) << "the nerve can have it";
+  structureList().setCurrentIndex(structureCell(scene::kSoftTissue));
+  EXPECT_FALSE(isOffered("ear-canal"));
+}
+
 TEST_F(Structures, SoftTissueIsARowBelowBoneThatIsDrawnOnly)
 {
   openWith({});

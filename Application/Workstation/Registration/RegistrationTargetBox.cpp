@@ -34,9 +34,12 @@ public:
 
   void showPopup() override
   {
+    constexpr int kBeside = 16; // px, margins and frame
     view()->setTextElideMode(Qt::ElideMiddle);
-    const int wanted =
-        view()->sizeHintForColumn(0) + view()->verticalScrollBar()->sizeHint().width();
+    int wanted = 0;
+    for (int row = 0; row < count(); ++row)
+      wanted = std::max(wanted, view()->fontMetrics().horizontalAdvance(itemText(row)));
+    wanted += kBeside + view()->verticalScrollBar()->sizeHint().width();
     view()->setMinimumWidth(std::min(wanted, kWidestList));
     QComboBox::showPopup();
   }

@@ -306,8 +306,8 @@ TEST_F(RegistrationWindow, PlacesOfTheErrorAreToldApart)
   box.refresh(); // again the same ones
   auto& places = *box.findChild<QComboBox*>("registrationPlace");
   ASSERT_EQ(places.count(), 6);
-  EXPECT_EQ(places.itemText(2), QString::fromUtf8("cochlea (74.0 mm³)"));
-  EXPECT_EQ(places.itemText(3), QString::fromUtf8("cochlea 2 (80.0 mm³)"));
+  EXPECT_EQ(places.itemText(2), QString::fromUtf8("cochlea (74.00 mm³)"));
+  EXPECT_EQ(places.itemText(3), QString::fromUtf8("cochlea 2 (80.00 mm³)"));
   EXPECT_EQ(places.itemText(4), QString::fromStdString(canal + "a").replace('_', ' '));
   EXPECT_TRUE(places.itemData(4, Qt::ToolTipRole).toString().contains("mm³"));
 

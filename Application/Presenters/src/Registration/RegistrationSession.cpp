@@ -6,6 +6,7 @@
 
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Scene/ApplyRegistration.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::presenters
 {
@@ -182,14 +183,13 @@ std::vector<PlaceChoice> RegistrationSession::placeChoices() const
     ++alike[withoutNumber(name)];
     PlaceChoice choice{name};
     const scene::Case& value = m_model.value();
-    choice.isMesh = !scene::findStructure(value, name);
+    const scene::StructurePart* structure = scene::findStructure(value, name);
+    choice.isMesh = !structure;
+    choice.volume = structure ? structure->volume : 0.0;
     for (const scene::LabelPart& part : value.labels)
-      for (const scene::StructurePart& structure : part.structures)
-        if (structure.name == name)
-        {
-          choice.drawnOn = part.drawnOn.value_or(std::string());
-          choice.volume = structure.volume;
-        }
+      for (const scene::StructurePart& one : part.structures)
+        if (&one == structure)
+          choice.drawnOn = scene::placementOf(value, part).drawnOn;
     for (const scene::MeshPart& mesh : value.meshes)
       if (choice.isMesh && mesh.name == name)
         choice.drawnOn = mesh.drawnOn;

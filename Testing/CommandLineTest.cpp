@@ -1145,6 +1145,21 @@ TEST_F(CommandLine, SaysWhichStructuresLieWithTheSlices)
   EXPECT_EQ(with.err.find("were not taken"), std::string::npos) << with.err;
 }
 
+// More than a sentence names.
+TEST_F(CommandLine, StructuresThatNoVoxelCarriesCountAsTaken)
+{
+  makePatient("--dims 16,16,16 --spacing 4.5");
+  const auto patient = m_folder / "patient";
+  const Outcome built = run("new ear --json --ct " + quoted(patient / "ct") + " --labels " +
+                            quoted(patient / "labels.seg.nrrd"));
+  ASSERT_EQ(built.code, 0) << built.err;
+  const auto info = nlohmann::json::parse(built.out);
+  const auto empty = std::count_if(info["structures"].begin(), info["structures"].end(),
+                                   [](const auto& one) { return one["status"] == "empty"; });
+  ASSERT_GT(empty, 6);
+  EXPECT_EQ(built.err.find("were not taken"), std::string::npos) << built.err;
+}
+
 TEST_F(CommandLine, StrictScanTakesASegmentationForWhatItIs)
 {
   makePatient("--dims 32,32,40 --spacing 2");

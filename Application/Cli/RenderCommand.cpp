@@ -173,9 +173,10 @@ void takeSoftTissue(const RenderOptions& options, const library::Library& librar
   if (options.softTissue.empty())
     return;
   if (options.softTissue != "true" && options.softTissue != "false")
-    value.softTissue =
-        presenters::withPreset(value, scene::kSoftTissue,
-                               appearance::OwnPresets(library.folder()).preset(options.softTissue));
+    value.softTissue = presenters::withPreset(
+        value, scene::kSoftTissue,
+        presenters::presetFor(value, scene::kSoftTissue, appearance::OwnPresets(library.folder()),
+                              options.softTissue));
   value.softTissue.shown = options.softTissue != "false";
 }
 

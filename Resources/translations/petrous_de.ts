@@ -5866,6 +5866,22 @@ Verletzt: %1, %2</translation>
         <source>the %1</source>
         <translation>das %1</translation>
     </message>
+    <message>
+        <source>mesh</source>
+        <translation>Netz</translation>
+    </message>
+    <message>
+        <source>drawn on %1</source>
+        <translation>gezeichnet auf %1</translation>
+    </message>
+    <message>
+        <source>%1 (%2)</source>
+        <translation>%1 (%2)</translation>
+    </message>
+    <message>
+        <source>Chosen: %1</source>
+        <translation>Gewählt: %1</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::RepairDialog</name>
@@ -7951,6 +7967,10 @@ Nichts verlässt diesen Rechner.</translation>
     <message>
         <source>Drilled: %1</source>
         <translation>Abgetragen: %1</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
     </message>
 </context>
 <context>

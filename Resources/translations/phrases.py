@@ -287,8 +287,8 @@ def said(group, found):
 WITHOUT = set("""
     BurrShell Catalogue CheckedParameters ClippedRegion ConstrainedProxy ContactQp
     DicomWriter DistanceField ForceDisplay ForceLimits GlProgram GoneNames HapticField
-    HeaderCache IdentityText IntensityHistogram IntensityVolume JsonFault LabelField LabelMap
-    LabelPriority LevelImage Log MaterialCatalogue NotedProvenance OccupancyGrid PassivityGuard
+    HeaderCache IdentityText IntensityHistogram IntensityVolume LabelField LabelMap
+    LabelPriority LevelImage Log NotedProvenance OccupancyGrid PassivityGuard
     Pedal PedalledDevice Phantom PhantomShapes PixelRays PointProxy PointerDevice
     PointerToolController RateControl RayCaster RayShader RayView ReferenceRayCaster
     RemovalDepthSolver RemovalLaw RenderQuality ReportHtml ReportWords SamplePatient SceneCheck

@@ -2967,6 +2967,10 @@
         <translation>muss {"presets": [...]} sein, wie die Vorgaben in structures.json</translation>
     </message>
     <message>
+        <source>there is no preset '%1'; there are %2</source>
+        <translation>es gibt keine Vorgabe „%1“; es gibt %2</translation>
+    </message>
+    <message>
         <source>preset '%1' is built in and cannot be removed</source>
         <translation>die Vorgabe „%1“ ist eingebaut und lässt sich nicht entfernen</translation>
     </message>
@@ -3822,6 +3826,30 @@
     <message>
         <source>a burr's name must have a to z, 0 to 9 and hyphens, at most 40</source>
         <translation>der Name einer Fräse muss aus a bis z, 0 bis 9 und Bindestrichen bestehen, höchstens 40</translation>
+    </message>
+    <message>
+        <source>not a catalogue</source>
+        <translation>kein Katalog</translation>
+    </message>
+    <message>
+        <source>material '%1': '%2' must be above 0, it is %3</source>
+        <translation>Material „%1“: „%2“ muss über 0 liegen, es ist %3</translation>
+    </message>
+    <message>
+        <source>a material has an empty name</source>
+        <translation>ein Material hat einen leeren Namen</translation>
+    </message>
+    <message>
+        <source>material '%1' stands there twice</source>
+        <translation>das Material „%1“ steht zweimal da</translation>
+    </message>
+    <message>
+        <source>bone: 'from_hu' must lie below 'to_hu'</source>
+        <translation>Knochen: „from_hu“ muss unter „to_hu“ liegen</translation>
+    </message>
+    <message>
+        <source>there is no material '%1'; there are %2</source>
+        <translation>es gibt kein Material „%1“; es gibt %2</translation>
     </message>
     <message>
         <source>%1, line %#2: %~3</source>

@@ -195,6 +195,10 @@ TEST(GermanPhrases, AreThoseOfMessagesAsTheyAreShown)
        "/x/labels.nrrd: sagt nicht, welche Seite des Patienten links ist; die Achsen wurden als "
        "LPS "
        "genommen, wie gewünscht"},
+      {"/x/materials.json: material 'bone': 'friction' must be above 0, it is -0.5",
+       "/x/materials.json: Material „bone“: „friction“ muss über 0 liegen, es ist -0.5"},
+      {"/x/materials.json: there is no material 'enamel'; there are cellular-bone, nerve",
+       "/x/materials.json: es gibt kein Material „enamel“; es gibt cellular-bone, nerve"},
       {"3 structures read, 1 left out, 2 not read",
        "3 Strukturen gelesen, 1 blieben weg, 2 nicht gelesen"},
   };

@@ -524,14 +524,16 @@ void AppearancePanel::fillPresets(QMenu& menu)
     const QString name = words(preset.look.preset);
     const QString shown =
         QString(preset.isOwn ? name : tr(preset.look.preset.c_str())).replace('&', "&&");
+    if (preset.isOwn)
+      connect(remove->addAction(shown), &QAction::triggered, this,
+              [this, name] { attempt([&] { m_editor.deletePreset(bytes(name)); }); });
+    if (!m_editor.canHave(preset))
+      continue;
     QAction* action = menu.addAction(swatch(toColor(preset.look.color)), shown);
     action->setCheckable(true);
     action->setChecked(preset.look.preset == present);
     connect(action, &QAction::triggered, this,
             [this, name] { attempt([&] { m_editor.applyPreset(bytes(name)); }); });
-    if (preset.isOwn)
-      connect(remove->addAction(shown), &QAction::triggered, this,
-              [this, name] { attempt([&] { m_editor.deletePreset(bytes(name)); }); });
   }
   menu.addSeparator();
   QAction* save = menu.addAction(tr("&Save as a preset…"), this, &AppearancePanel::savePreset);

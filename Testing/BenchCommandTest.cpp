@@ -253,6 +253,52 @@ TEST_F(BenchCommand, ImportsWhatWasWritten)
   expectPlots(out, {"import.svg"});
 }
 
+// How long a tick takes is the machine's; what is said of it must hold together.
+TEST_F(BenchCommand, RunsTheServoLiveAndGivesTheDistributionOfItsTicks)
+{
+  const auto out = m_folder / "figures";
+  const auto report = json("bench servo --quick --seconds 1 --out " + quoted(out));
+  std::map<std::string, double> last; // points and kind -> s of the quantile before
+  std::map<std::string, int> quantiles;
+  std::vector<int> tools;
+  for (const auto& point : report.at("points"))
+  {
+    const auto& setting = point.at("setting");
+    if (std::string(setting.at("scene")).rfind("live: phantom 96^3", 0) != 0)
+      continue;
+    const std::string of = setting.at("of");
+    const std::string name = std::string(setting.at("points")) + " " + of;
+    if (of != "session")
+    {
+      EXPECT_GE(point.at("seconds").get<double>(), last[name]) << point;
+      last[name] = point.at("seconds");
+      ++quantiles[name];
+      continue;
+    }
+    const auto& extra = point.at("extra");
+    tools.push_back(std::stoi(std::string(setting.at("points"))));
+    EXPECT_GT(extra.at("ticks").get<double>(), 0.0);
+    EXPECT_GE(extra.at("ran_s").get<double>(), 1.0);
+    EXPECT_LE(extra.at("ticks").get<double>(), 1000.0 * extra.at("ran_s").get<double>() + 1.0);
+    EXPECT_LE(extra.at("ticks_late"), extra.at("ticks"));
+    for (const char* kind : {"wall_us_", "lateness_us_"})
+      EXPECT_LE(extra.at(std::string(kind) + "p99.99"), extra.at(std::string(kind) + "max"));
+    EXPECT_NEAR(1e-6 * extra.at("wall_us_p50").get<double>(), point.at("seconds"), 1e-12);
+  }
+  ASSERT_EQ(tools.size(), 2u);
+  EXPECT_GT(tools[0], 1000);
+  EXPECT_LE(tools[0], 2000);
+  EXPECT_GT(tools[1], 5000);
+  EXPECT_LE(tools[1], 10000);
+  ASSERT_EQ(quantiles.size(), 4u);
+  for (const auto& [name, count] : quantiles)
+  {
+    EXPECT_EQ(count, 10) << name;
+    EXPECT_GT(last[name], 0.0) << name;
+  }
+  expectPlots(out, {"servo.svg", "servo-live.svg"});
+}
+
 // A plot that cannot be drawn costs no figures.
 TEST_F(BenchCommand, NamesWhatDrawsThePlotsThatCouldNotBeDrawn)
 {

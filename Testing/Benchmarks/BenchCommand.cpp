@@ -1,5 +1,6 @@
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "HistoryBenchmark.h"
 #include "ImportBenchmark.h"
 #include "LibraryBenchmark.h"
+#include "LiveServo.h"
 #include "NerveBenchmark.h"
 #include "NodeBenchmark.h"
 #include "Numbers.h"
@@ -45,6 +47,7 @@ struct BenchOptions
   std::string name, out, data, pairs, rire;
   std::vector<std::string> parts;
   std::vector<int> edges;
+  std::optional<double> seconds;
   bool quick = false;
 };
 
@@ -96,8 +99,15 @@ constexpr Benchmark kBenchmarks[] = {
            options.quick, progress.part(0.1, 1.0),
            touchBenchmarkScenes(options.quick, options.data, progress.part(0.0, 0.1)));
      }},
-    {"servo", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
-     { return session::runServoBenchmark(work, options.quick, progress); }},
+    {"servo",
+     [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     {
+       auto report = session::runServoBenchmark(work, options.quick, progress.part(0.0, 0.1));
+       const auto live = runLiveServo(options.seconds.value_or(options.quick ? 2.0 : 20.0),
+                                      options.quick, options.data, progress.part(0.1, 1.0));
+       report.points.insert(report.points.end(), live.begin(), live.end());
+       return report;
+     }},
     {"removal", [](const auto&, const BenchOptions& options, const core::Progress& progress)
      { return session::runRemovalBenchmark(options.quick, progress); }},
     {"registration",
@@ -262,7 +272,7 @@ void addBenchCommand(CLI::App& app, Context& context)
       ->required();
   command
       ->add_option("--data", options->data,
-                   "Folder that holds a real CT, for renderer, touch and registration, and "
+                   "Folder that holds a real CT, for renderer, touch, servo and registration, and "
                    "structure sets, for structures")
       ->type_name("DIR");
   command
@@ -281,6 +291,10 @@ void addBenchCommand(CLI::App& app, Context& context)
       ->add_option("--part", options->parts,
                    "Of registration: pairs, capture, schedule, conditions, calibration, stress")
       ->delimiter(',');
+  command
+      ->add_option("--seconds", options->seconds,
+                   "Length of each live session, for servo, in s (20; 2 with --quick)")
+      ->check(within({0.1, 86400.0, "s"}));
   command->add_flag("--quick", options->quick, "Smaller volumes, fewer repeats");
 }
 

@@ -510,6 +510,72 @@ def growth(report, by, extra, unit):
     return page
 
 
+def tail(report, title, points):
+    """Distribution of the live sessions' times: x the time, y the share of the ticks that took
+    longer, to the last of them. Only the largest time lies on the axis below; its share is that of
+    one tick."""
+    sessions = [point for point in points if point.set("of") == "session"]
+    kinds = {"tick": "wall time of a tick", "lateness": "start of a tick after it was due"}
+    wide, high, between = 400, 330, 60
+    page = Page(report, LEFT + 2 * wide + between + 40, TOP + high + 110 + 20 * len(sessions),
+                title)
+    quantiles = [point for point in points if point.set("of") in kinds]
+    least = min((1.0 / point.extra("ticks") for point in sessions), default=1e-4)
+    x = LogAxis([max(point.seconds, 1e-6) for point in quantiles] + [2.5e-4, 5e-4], 8, duration)
+    y = LogAxis([least, 1.0], 9, number)
+    names = [f"{point.set('points')} points" for point in sessions]
+    for n, (kind, label) in enumerate(kinds.items()):
+        axes = page.axes(LEFT + n * (wide + between), TOP, wide, high)
+        x.apply(axes.xaxis)
+        y.apply(axes.yaxis)
+        axes.set_xlabel(label)
+        if n == 0:
+            axes.set_ylabel("share of the ticks above")
+            for seconds, share in ((2.5e-4, 1e-3), (5e-4, 1e-4)):
+                if y.low < share:
+                    axes.plot(seconds, share, marker="v", color="#555555", linestyle="none")
+        for session, name in zip(sessions, names):
+            line = [point for point in quantiles if point.set("of") == kind and
+                    point.set("points") == session.set("points")]
+            shares = [1.0 - float(point.set("percent")) / 100.0 for point in line]
+            one = 1.0 / session.extra("ticks")
+            axes.plot([max(point.seconds, 1e-6) for point in line],
+                      [max(share, one) for share in shares], **style_of(names, name), zorder=3,
+                      clip_on=False)
+    entries = {name: style_of(names, name) for name in names}
+    if any(y.low < share for share in (1e-3, 1e-4)):
+        entries["wanted: 250 µs at 99.9 %, 500 µs at 99.99 %"] = {
+            "marker": "v", "color": "#555555", "linestyle": "none"}
+    page.legend(entries, LEFT - 8, TOP + high + 44, columns=3)
+    for n, (session, name) in enumerate(zip(sessions, names)):
+        priority = ("real-time priority" if session.extra("real_time_priority") > 0.5
+                    else "no real-time priority")
+        page.text(LEFT, TOP + high + 92 + 20 * n,
+                  f"{name}: {session.extra('ticks'):.0f} ticks, {priority}, "
+                  f"{session.extra('ticks_late'):.0f} late, "
+                  f"{session.extra('records_lost'):.0f} records lost, "
+                  f"{session.extra('page_faults'):.0f} page faults, "
+                  f"{session.extra('ticks_that_left_motion'):.0f} left motion to the next",
+                  fontsize=9, color="#555555")
+    return page
+
+
+def servo(report):
+    """"": the block's ticks; "-live": the tails of the live sessions."""
+    live = [point for point in report.points if point.scene.startswith("live: ")]
+    block = [point for point in report.points if point not in live]
+    pages = {}
+    if block:
+        words = distinguishing(block)
+        pages[""] = rows(report, report.title, block,
+                         lambda p: ", ".join(filter(None, (p.scene, words(p)))),
+                         lambda p: duration(p.seconds))
+    if live:
+        pages["-live"] = tail(report, "Live session at 1 kHz: " + live[0].scene[len("live: "):],
+                              live)
+    return pages
+
+
 # Registration -----------------------------------------------------------------------------------
 
 
@@ -662,6 +728,8 @@ def pages_of(report):
         return {"": measured_rows(report)}
     if report.name == "tilt":
         return {"": tilt(report)}
+    if report.name == "servo" and any(p.scene.startswith("live: ") for p in report.points):
+        return servo(report)
     plain = [point for point in report.points if not point.series]
     scenes = unique(point.scene for point in report.points if point.series)
     if not scenes:

@@ -172,6 +172,29 @@ class Plots(unittest.TestCase):
         self.assertEqual(list(zip(*time.lines[0].get_data())), [(1.0, 0.5), (1000.0, 0.25)])
         self.assertEqual(list(zip(*memory.lines[0].get_data())), [(1.0, 3.0), (1000.0, 30.0)])
 
+    def test_the_servo_shows_the_tail_of_its_live_sessions(self):
+        extra = {"ticks": 2000.0, "real_time_priority": 0.0, "ticks_late": 3.0, "records_lost": 0.0,
+                 "page_faults": 0.0, "ticks_that_left_motion": 7.0}
+        points = [point("block", error=0.0), point("live: ear", points="500", of="session",
+                                                   extra=extra)]
+        points += [point("live: ear", points="500", of=of, percent=percent, seconds=seconds,
+                         error=None)
+                   for of, factor in (("tick", 1.0), ("lateness", 0.1))
+                   for percent, seconds in (("50", 1e-4 * factor), ("99.9", 5e-4 * factor),
+                                            ("100", 2e-3 * factor))]
+        pages = self.pages(points, "servo")
+        self.assertEqual(list(pages), ["", "-live"])
+        tick, late = pages["-live"].figure.axes
+        for axes, factor in ((tick, 1.0), (late, 0.1)):
+            line = [line for line in axes.lines if len(line.get_xdata()) == 3][0]
+            for value, expected in zip(line.get_xdata(), (1e-4, 5e-4, 2e-3)):
+                self.assertAlmostEqual(value, expected * factor, 12)
+            for value, expected in zip(line.get_ydata(), (0.5, 1e-3, 1 / 2000)):
+                self.assertAlmostEqual(value, expected, 12, "the longest is one tick of all")
+        words = [text.get_text() for text in pages["-live"].figure.texts]
+        self.assertIn("500 points: 2000 ticks, no real-time priority, 3 late, 0 records lost, "
+                      "0 page faults, 7 left motion to the next", words)
+
     def test_counts_stress_trials_by_kind_and_names_each_wrong_one(self):
         pages = self.pages(
             [trial("noise", "failed", None, False), trial("noise", "good", None, True),

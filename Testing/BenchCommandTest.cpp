@@ -299,6 +299,52 @@ TEST_F(BenchCommand, RunsTheServoLiveAndGivesTheDistributionOfItsTicks)
   expectPlots(out, {"servo.svg", "servo-live.svg"});
 }
 
+// Truth: the bound of Colgate and Schenkel, with the delay added, for mass and damper alone.
+TEST_F(BenchCommand, SweepsTheStiffnessOfDevicesOverTheirDelay)
+{
+  const auto out = m_folder / "figures";
+  const auto report = json("bench devices --quick --out " + quoted(out));
+  std::set<std::string> rows;
+  int borders = 0;
+  for (const auto& point : report.at("points"))
+  {
+    const auto& setting = point.at("setting");
+    const auto& extra = point.at("extra");
+    const std::string device = setting.at("scene");
+    const std::string delay = setting.at("delay_ms");
+    rows.insert(device + setting.at("guard").get<std::string>() + delay +
+                setting.at("missed_percent").get<std::string>());
+    const double largest = extra.at("largest_stable_n_per_mm");
+    const double described = extra.at("described_n_per_mm");
+    EXPECT_NEAR(described, device == "Touch" ? 0.4 : 1.0, 1e-12) << device;
+    EXPECT_NEAR(extra.at("described_margin").get<double>(), largest / described, 1e-12);
+    // Up to the largest stable one, all are.
+    for (const char* at : {"0.25", "1", "10"})
+      if (std::stod(at) <= largest)
+      {
+        EXPECT_LE(extra.at(std::string("energy_mj_at_") + at).get<double>(), 0.1) << point;
+        EXPECT_LE(extra.at(std::string("cycle_n_pp_at_") + at).get<double>(), 0.1) << point;
+      }
+    if (device == "Touch")
+      continue;
+    EXPECT_EQ(largest, delay == "0" ? 1.0 : 0.0) << point;
+    EXPECT_NEAR(extra.at("passive_n_per_mm").get<double>(), delay == "0" ? 6.0 : 0.003 / 0.0085,
+                1e-9);
+    if (!extra.contains("border_n_per_mm"))
+      continue;
+    ++borders;
+    EXPECT_NEAR(extra.at("border_n_per_mm").get<double>() /
+                    extra.at("passive_n_per_mm").get<double>(),
+                1.0, 0.12)
+        << point;
+    EXPECT_GT(extra.at("energy_mj_at_10").get<double>(), 0.1);
+    EXPECT_GT(extra.at("cycle_n_pp_at_10").get<double>(), 0.1);
+  }
+  EXPECT_EQ(rows.size(), 2u * 2u * 2u * 2u);
+  EXPECT_EQ(borders, 2);
+  expectPlots(out, {"devices.svg", "devices-2.svg"});
+}
+
 // A plot that cannot be drawn costs no figures.
 TEST_F(BenchCommand, NamesWhatDrawsThePlotsThatCouldNotBeDrawn)
 {

@@ -9,6 +9,7 @@
 #include "BenchCommand.h"
 #include "ChildProcess.h"
 #include "CutBenchmark.h"
+#include "DevicesBenchmark.h"
 #include "DistanceBenchmark.h"
 #include "HistoryBenchmark.h"
 #include "ImportBenchmark.h"
@@ -108,6 +109,8 @@ constexpr Benchmark kBenchmarks[] = {
        report.points.insert(report.points.end(), live.begin(), live.end());
        return report;
      }},
+    {"devices", [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     { return runDevicesBenchmark(options.quick, progress); }},
     {"removal", [](const auto&, const BenchOptions& options, const core::Progress& progress)
      { return session::runRemovalBenchmark(options.quick, progress); }},
     {"registration",
@@ -261,7 +264,7 @@ void addBenchCommand(CLI::App& app, Context& context)
   command
       ->add_option("NAME", options->name,
                    "import, structures, tilt, cut, distance, history, save, library, node, qp, "
-                   "touch, servo, "
+                   "touch, servo, devices, "
                    "removal, registration, "
                    "nerve, segment, renderer or all")
       ->required();

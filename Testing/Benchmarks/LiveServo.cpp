@@ -71,7 +71,7 @@ private:
     Sweep,
     Lift
   };
-  static constexpr double kArea = 16.0;     // mm, radius: 8 mm on the patient
+  static constexpr double kArea = 24.0;     // mm, radius: 12 mm on the patient
   static constexpr double kAbove = 20.0;    // mm, where it crosses
   static constexpr double kDeepest = 50.0;  // mm below the cortex
   static constexpr double kWall = 3.0;      // N

@@ -253,6 +253,98 @@ TEST_F(BenchCommand, ImportsWhatWasWritten)
   expectPlots(out, {"import.svg"});
 }
 
+// How long a tick takes is the machine's; what is said of it must hold together.
+TEST_F(BenchCommand, RunsTheServoLiveAndGivesTheDistributionOfItsTicks)
+{
+  const auto out = m_folder / "figures";
+  const auto report = json("bench servo --quick --seconds 1 --out " + quoted(out));
+  std::map<std::string, double> last; // points and kind -> s of the quantile before
+  std::map<std::string, int> quantiles;
+  std::vector<int> tools;
+  for (const auto& point : report.at("points"))
+  {
+    const auto& setting = point.at("setting");
+    if (std::string(setting.at("scene")).rfind("live: phantom 96^3", 0) != 0)
+      continue;
+    const std::string of = setting.at("of");
+    const std::string name = std::string(setting.at("points")) + " " + of;
+    if (of != "session")
+    {
+      EXPECT_GE(point.at("seconds").get<double>(), last[name]) << point;
+      last[name] = point.at("seconds");
+      ++quantiles[name];
+      continue;
+    }
+    const auto& extra = point.at("extra");
+    tools.push_back(std::stoi(std::string(setting.at("points"))));
+    EXPECT_GT(extra.at("ticks").get<double>(), 0.0);
+    EXPECT_GE(extra.at("ran_s").get<double>(), 1.0);
+    EXPECT_LE(extra.at("ticks").get<double>(), 1000.0 * extra.at("ran_s").get<double>() + 1.0);
+    EXPECT_LE(extra.at("ticks_late"), extra.at("ticks"));
+    for (const char* kind : {"wall_us_", "lateness_us_"})
+      EXPECT_LE(extra.at(std::string(kind) + "p99.99"), extra.at(std::string(kind) + "max"));
+    EXPECT_NEAR(1e-6 * extra.at("wall_us_p50").get<double>(), point.at("seconds"), 1e-12);
+  }
+  ASSERT_EQ(tools.size(), 2u);
+  EXPECT_GT(tools[0], 1000);
+  EXPECT_LE(tools[0], 2000);
+  EXPECT_GT(tools[1], 5000);
+  EXPECT_LE(tools[1], 10000);
+  ASSERT_EQ(quantiles.size(), 4u);
+  for (const auto& [name, count] : quantiles)
+  {
+    EXPECT_EQ(count, 10) << name;
+    EXPECT_GT(last[name], 0.0) << name;
+  }
+  expectPlots(out, {"servo.svg", "servo-live.svg"});
+}
+
+// Truth: the bound of Colgate and Schenkel, with the delay added, for mass and damper alone.
+TEST_F(BenchCommand, SweepsTheStiffnessOfDevicesOverTheirDelay)
+{
+  const auto out = m_folder / "figures";
+  const auto report = json("bench devices --quick --out " + quoted(out));
+  std::set<std::string> rows;
+  int borders = 0;
+  for (const auto& point : report.at("points"))
+  {
+    const auto& setting = point.at("setting");
+    const auto& extra = point.at("extra");
+    const std::string device = setting.at("scene");
+    const std::string delay = setting.at("delay_ms");
+    rows.insert(device + setting.at("guard").get<std::string>() + delay +
+                setting.at("missed_percent").get<std::string>());
+    const double largest = extra.at("largest_stable_n_per_mm");
+    const double described = extra.at("described_n_per_mm");
+    EXPECT_NEAR(described, device == "Touch" ? 0.4 : 1.0, 1e-12) << device;
+    EXPECT_NEAR(extra.at("described_margin").get<double>(), largest / described, 1e-12);
+    // Up to the largest stable one, all are.
+    for (const char* at : {"0.25", "1", "10"})
+      if (std::stod(at) <= largest)
+      {
+        EXPECT_LE(extra.at(std::string("energy_mj_at_") + at).get<double>(), 0.1) << point;
+        EXPECT_LE(extra.at(std::string("cycle_n_pp_at_") + at).get<double>(), 0.1) << point;
+      }
+    if (device == "Touch")
+      continue;
+    EXPECT_EQ(largest, delay == "0" ? 1.0 : 0.0) << point;
+    EXPECT_NEAR(extra.at("passive_n_per_mm").get<double>(), delay == "0" ? 6.0 : 0.003 / 0.0085,
+                1e-9);
+    if (!extra.contains("border_n_per_mm"))
+      continue;
+    ++borders;
+    EXPECT_NEAR(extra.at("border_n_per_mm").get<double>() /
+                    extra.at("passive_n_per_mm").get<double>(),
+                1.0, 0.12)
+        << point;
+    EXPECT_GT(extra.at("energy_mj_at_10").get<double>(), 0.1);
+    EXPECT_GT(extra.at("cycle_n_pp_at_10").get<double>(), 0.1);
+  }
+  EXPECT_EQ(rows.size(), 2u * 2u * 2u * 2u);
+  EXPECT_EQ(borders, 2);
+  expectPlots(out, {"devices.svg", "devices-2.svg"});
+}
+
 // A plot that cannot be drawn costs no figures.
 TEST_F(BenchCommand, NamesWhatDrawsThePlotsThatCouldNotBeDrawn)
 {

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -8,10 +9,12 @@
 #include "BenchCommand.h"
 #include "ChildProcess.h"
 #include "CutBenchmark.h"
+#include "DevicesBenchmark.h"
 #include "DistanceBenchmark.h"
 #include "HistoryBenchmark.h"
 #include "ImportBenchmark.h"
 #include "LibraryBenchmark.h"
+#include "LiveServo.h"
 #include "NerveBenchmark.h"
 #include "NodeBenchmark.h"
 #include "Numbers.h"
@@ -45,6 +48,7 @@ struct BenchOptions
   std::string name, out, data, pairs, rire;
   std::vector<std::string> parts;
   std::vector<int> edges;
+  std::optional<double> seconds;
   bool quick = false;
 };
 
@@ -96,8 +100,17 @@ constexpr Benchmark kBenchmarks[] = {
            options.quick, progress.part(0.1, 1.0),
            touchBenchmarkScenes(options.quick, options.data, progress.part(0.0, 0.1)));
      }},
-    {"servo", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
-     { return session::runServoBenchmark(work, options.quick, progress); }},
+    {"servo",
+     [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     {
+       auto report = session::runServoBenchmark(work, options.quick, progress.part(0.0, 0.1));
+       const auto live = runLiveServo(options.seconds.value_or(options.quick ? 2.0 : 20.0),
+                                      options.quick, options.data, progress.part(0.1, 1.0));
+       report.points.insert(report.points.end(), live.begin(), live.end());
+       return report;
+     }},
+    {"devices", [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     { return runDevicesBenchmark(options.quick, progress); }},
     {"removal", [](const auto&, const BenchOptions& options, const core::Progress& progress)
      { return session::runRemovalBenchmark(options.quick, progress); }},
     {"registration",
@@ -251,7 +264,7 @@ void addBenchCommand(CLI::App& app, Context& context)
   command
       ->add_option("NAME", options->name,
                    "import, structures, tilt, cut, distance, history, save, library, node, qp, "
-                   "touch, servo, "
+                   "touch, servo, devices, "
                    "removal, registration, "
                    "nerve, segment, renderer or all")
       ->required();
@@ -262,7 +275,7 @@ void addBenchCommand(CLI::App& app, Context& context)
       ->required();
   command
       ->add_option("--data", options->data,
-                   "Folder that holds a real CT, for renderer, touch and registration, and "
+                   "Folder that holds a real CT, for renderer, touch, servo and registration, and "
                    "structure sets, for structures")
       ->type_name("DIR");
   command
@@ -281,6 +294,10 @@ void addBenchCommand(CLI::App& app, Context& context)
       ->add_option("--part", options->parts,
                    "Of registration: pairs, capture, schedule, conditions, calibration, stress")
       ->delimiter(',');
+  command
+      ->add_option("--seconds", options->seconds,
+                   "Length of each live session, for servo, in s (20; 2 with --quick)")
+      ->check(within({0.1, 86400.0, "s"}));
   command->add_flag("--quick", options->quick, "Smaller volumes, fewer repeats");
 }
 

@@ -138,6 +138,7 @@ BenchmarkPatient phantomPatient(int edge, const core::Progress& progress)
     patient.structures.push_back(solidMaterial(structure.color));
     patient.structures.back().lumen = !structure.solid;
   }
+  patient.labelMap = labels;
   patient.labels = volume::makeLabelField(sources, progress.part(0.7, 0.9));
   openMastoid(patient, phantom::Phantom::center() + Eigen::Vector3d(0.0, 8.0, 5.0));
   return patient;
@@ -184,6 +185,7 @@ std::optional<BenchmarkPatient> realPatient(const std::filesystem::path& data,
     sources.push_back({labels, i, i, true});
     patient.structures.push_back(solidMaterial(colors[i - 1]));
   }
+  patient.labelMap = labels;
   patient.labels = volume::makeLabelField(sources, progress.part(0.8, 1.0));
   return patient;
 }

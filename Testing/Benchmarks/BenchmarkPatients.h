@@ -11,6 +11,7 @@
 #include "petrous/Volume/CutMask.h"
 #include "petrous/Volume/IntensityVolume.h"
 #include "petrous/Volume/LabelField.h"
+#include "petrous/Volume/LabelMap.h"
 
 namespace petrous::cli
 {
@@ -23,8 +24,9 @@ struct BenchmarkPatient
 {
   std::string name; ///< anonymous
   std::shared_ptr<const volume::IntensityVolume> ct;
-  std::shared_ptr<const volume::LabelField> labels;
-  std::vector<appearance::Material> structures; ///< row i - 1: index i of the labels
+  std::shared_ptr<const volume::LabelMap> labelMap;
+  std::shared_ptr<const volume::LabelField> labels; ///< of labelMap
+  std::vector<appearance::Material> structures;     ///< row i - 1: index i of the labels
   std::shared_ptr<volume::CutMask> mask;
   Eigen::Vector3d entry{0.0, 0.0, 0.0};   ///< on the cortex, at the cavity's centre; patient LPS mm
   Eigen::Vector3d lateral{1.0, 0.0, 0.0}; ///< unit, out of the head

@@ -21,8 +21,10 @@ from pathlib import Path
 try:
     import matplotlib
     from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.colors import LogNorm
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
+    from matplotlib.patheffects import withStroke
     from matplotlib.ticker import FixedFormatter, FixedLocator
 except ImportError as error:
     sys.exit(f"plots.py: {error}; install python3-matplotlib")
@@ -510,6 +512,178 @@ def growth(report, by, extra, unit):
     return page
 
 
+def tail(report, title, points):
+    """Distribution of the live sessions' times: x the time, y the share of the ticks that took
+    longer, to the last of them. Only the largest time lies on the axis below; its share is that of
+    one tick."""
+    sessions = [point for point in points if point.set("of") == "session"]
+    kinds = {"tick": "wall time of a tick", "lateness": "start of a tick after it was due"}
+    wide, high, between = 400, 330, 60
+    page = Page(report, LEFT + 2 * wide + between + 40, TOP + high + 110 + 20 * len(sessions),
+                title)
+    quantiles = [point for point in points if point.set("of") in kinds]
+    least = min((1.0 / point.extra("ticks") for point in sessions), default=1e-4)
+    x = LogAxis([max(point.seconds, 1e-6) for point in quantiles] + [2.5e-4, 5e-4], 8, duration)
+    y = LogAxis([least, 1.0], 9, number)
+    names = [f"{point.set('points')} points" for point in sessions]
+    for n, (kind, label) in enumerate(kinds.items()):
+        axes = page.axes(LEFT + n * (wide + between), TOP, wide, high)
+        x.apply(axes.xaxis)
+        y.apply(axes.yaxis)
+        axes.set_xlabel(label)
+        if n == 0:
+            axes.set_ylabel("share of the ticks above")
+            for seconds, share in ((2.5e-4, 1e-3), (5e-4, 1e-4)):
+                if y.low < share:
+                    axes.plot(seconds, share, marker="v", color="#555555", linestyle="none")
+        for session, name in zip(sessions, names):
+            line = [point for point in quantiles if point.set("of") == kind and
+                    point.set("points") == session.set("points")]
+            shares = [1.0 - float(point.set("percent")) / 100.0 for point in line]
+            one = 1.0 / session.extra("ticks")
+            axes.plot([max(point.seconds, 1e-6) for point in line],
+                      [max(share, one) for share in shares], **style_of(names, name), zorder=3,
+                      clip_on=False)
+    entries = {name: style_of(names, name) for name in names}
+    if any(y.low < share for share in (1e-3, 1e-4)):
+        entries["wanted: 250 µs at 99.9 %, 500 µs at 99.99 %"] = {
+            "marker": "v", "color": "#555555", "linestyle": "none"}
+    page.legend(entries, LEFT - 8, TOP + high + 44, columns=3)
+    for n, (session, name) in enumerate(zip(sessions, names)):
+        priority = ("real-time priority" if session.extra("real_time_priority") > 0.5
+                    else "no real-time priority")
+        page.text(LEFT, TOP + high + 92 + 20 * n,
+                  f"{name}: {session.extra('ticks'):.0f} ticks, {priority}, "
+                  f"{session.extra('ticks_late'):.0f} late, "
+                  f"{session.extra('records_lost'):.0f} records lost, "
+                  f"{session.extra('page_faults'):.0f} page faults, "
+                  f"{session.extra('ticks_that_left_motion'):.0f} left motion to the next",
+                  fontsize=9, color="#555555")
+    return page
+
+
+def servo(report):
+    """"": the block's ticks; "-live": the tails of the live sessions."""
+    live = [point for point in report.points if point.scene.startswith("live: ")]
+    block = [point for point in report.points if point not in live]
+    pages = {}
+    if block:
+        words = distinguishing(block)
+        pages[""] = rows(report, report.title, block,
+                         lambda p: ", ".join(filter(None, (p.scene, words(p)))),
+                         lambda p: duration(p.seconds))
+    if live:
+        pages["-live"] = tail(report, "Live session at 1 kHz: " + live[0].scene[len("live: "):],
+                              live)
+    return pages
+
+
+# Devices ----------------------------------------------------------------------------------------
+
+ENERGY, CYCLE = 0.1, 0.1  # mJ; N, peak to peak: above it a coupling is not stable
+
+
+def edges_of(values, logarithmic):
+    """Borders of the cells around these values."""
+    at = [math.log(value) for value in values] if logarithmic else list(values)
+    if len(at) == 1:
+        at = [at[0] - 0.5, at[0] + 0.5]
+        edges = at
+    else:
+        middle = [0.5 * (a + b) for a, b in zip(at, at[1:])]
+        edges = [2 * at[0] - middle[0], *middle, 2 * at[-1] - middle[-1]]
+    return [math.exp(edge) for edge in edges] if logarithmic else edges
+
+
+def device(report, points):
+    """Of one device: a panel for each share of missed ticks, with the guard and without. x the
+    delay, y the stiffness; the colour is the force's range at rest; crossed out where energy comes
+    out."""
+    guards = unique(point.set("guard") for point in points)
+    missed = unique(point.set("missed_percent") for point in points)
+    wide, high, step_x, step_y = 250, 220, 290, 290
+    page = Page(report, LEFT + step_x * len(missed) + 90, TOP + 30 + step_y * len(guards) + 90,
+                f"{report.title}: {points[0].scene}")
+    stiffnesses = sorted(float(key[len("cycle_n_pp_at_"):]) for key in points[0].extras
+                         if key.startswith("cycle_n_pp_at_"))
+    keys = {float(key[len("cycle_n_pp_at_"):]): key[len("cycle_n_pp_at_"):]
+            for key in points[0].extras if key.startswith("cycle_n_pp_at_")}
+    if not stiffnesses:
+        raise BadReport(f"{points[0].where}, 'extra' has no 'cycle_n_pp_at_'")
+    y_edges = edges_of(stiffnesses, True)
+    labels = {k: number(k) for k in (0.25, 0.5, 1.0, 2.0, 4.0, 10.0)}
+    lines = {"passive_n_per_mm": ("b / (T/2 + delay)", {"color": "#000000", "linewidth": 1.4}),
+             "border_n_per_mm": ("measured border", {"color": "#D55E00", "marker": "s",
+                                                     "markersize": 5, "linestyle": "none"}),
+             "described_n_per_mm": ("set by the server's description",
+                                    {"color": "#009E73", "linestyle": "--", "linewidth": 1.6}),
+             "tested_n_per_mm": ("set by device-test", {"color": "#CC79A7", "marker": "D",
+                                                        "markersize": 5, "linewidth": 1.2})}
+    entries = {}
+    for row, guard in enumerate(guards):
+        for column, share in enumerate(missed):
+            part = sorted((point for point in points if point.set("guard") == guard and
+                           point.set("missed_percent") == share),
+                          key=lambda point: float(point.set("delay_ms")))
+            delays = [float(point.set("delay_ms")) for point in part]
+            axes = page.axes(LEFT + step_x * column, TOP + 30 + step_y * row, wide, high)
+            cycles = [[max(point.extra("cycle_n_pp_at_" + keys[k]), 1e-3) for point in part]
+                      for k in stiffnesses]
+            mesh = axes.pcolormesh(edges_of(delays, False), y_edges, cycles, cmap="cividis",
+                                   norm=LogNorm(1e-2, 1e1))
+            wild = [(d, k) for d, point in zip(delays, part) for k in stiffnesses
+                    if point.extra("energy_mj_at_" + keys[k]) > ENERGY]
+            axes.plot([d for d, _ in wild], [k for _, k in wild], **ENERGETIC, zorder=2)
+            edges = edges_of(delays, False)
+            stable = [y_edges[0] if point.extra("largest_stable_n_per_mm") == 0.0 else
+                      y_edges[1 + min(range(len(stiffnesses)), key=lambda n, p=point: abs(
+                          stiffnesses[n] - p.extra("largest_stable_n_per_mm")))]
+                      for point in part]
+            axes.stairs(stable, edges, baseline=None, **STABLE, zorder=3)
+            for name, (words, style) in lines.items():
+                line = [(d, point.extra(name)) for d, point in zip(delays, part)
+                        if name in point.extras]
+                if line:
+                    axes.plot(*zip(*line), **style, zorder=4)
+                    entries[words] = style
+            axes.set_yscale("log")
+            axes.set_ylim(y_edges[0], y_edges[-1])
+            axes.yaxis.set_major_locator(FixedLocator(list(labels)))
+            axes.yaxis.set_major_formatter(FixedFormatter(list(labels.values())))
+            axes.yaxis.set_minor_locator(FixedLocator([]))
+            axes.set_xticks(delays)
+            axes.xaxis.set_major_formatter(FixedFormatter([number(d) for d in delays]))
+            axes.tick_params(length=0, pad=6)
+            axes.set_title(f"guard {guard}, {share} % of the ticks missed")
+            axes.set_xlabel("delay, ms")
+            if column == 0:
+                axes.set_ylabel("stiffness, N/mm")
+    bar = page.axes(LEFT + step_x * len(missed) + 6, TOP + 30, 12, high)
+    page.figure.colorbar(mesh, cax=bar)
+    marks = (1e-2, 1e-1, 1.0, 1e1)
+    bar.yaxis.set_major_locator(FixedLocator(list(marks)))
+    bar.yaxis.set_major_formatter(FixedFormatter([number(mark) for mark in marks]))
+    bar.yaxis.set_minor_locator(FixedLocator([]))
+    bar.set_ylabel("range of the force at rest, N")
+    entries["largest stable"] = STABLE
+    entries["energy out over 0.1 mJ"] = ENERGETIC
+    page.legend(entries, LEFT - 8, TOP + 30 + step_y * len(guards) - 6,
+                columns=3 if len(missed) > 2 else 2)
+    return page
+
+
+STABLE = {"color": "#ffffff", "linewidth": 2.4,
+          "path_effects": [withStroke(linewidth=4.0, foreground="#333333")]}
+ENERGETIC = {"marker": "x", "markersize": 5, "color": "#D55E00", "linestyle": "none"}
+
+
+def devices(report):
+    """A page for each device."""
+    return {"" if n == 0 else f"-{n + 1}":
+            device(report, [point for point in report.points if point.scene == scene])
+            for n, scene in enumerate(unique(point.scene for point in report.points))}
+
+
 # Registration -----------------------------------------------------------------------------------
 
 
@@ -662,6 +836,10 @@ def pages_of(report):
         return {"": measured_rows(report)}
     if report.name == "tilt":
         return {"": tilt(report)}
+    if report.name == "devices":
+        return devices(report)
+    if report.name == "servo" and any(p.scene.startswith("live: ") for p in report.points):
+        return servo(report)
     plain = [point for point in report.points if not point.series]
     scenes = unique(point.scene for point in report.points if point.series)
     if not scenes:

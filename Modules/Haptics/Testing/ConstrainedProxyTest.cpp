@@ -233,21 +233,54 @@ TEST(ConstrainedProxy, MakesAWayTooLongForOneTickInThoseThatFollow)
   for (int t = 0; t < 20; ++t)
     atOnce.step(goal);
   int ticks = 0;
+  int postponed = 0;
   std::size_t most = 0;
   for (; ticks < 400; ++ticks)
   {
     const Vector3d before = inTicks.pose().position;
     const ProxyTick& tick = inTicks.step(goal);
     most = std::max(most, tick.samples);
+    postponed += tick.postponed > 0.0;
     ASSERT_LE(deepest(*scene.tissue, shell, tick.pose), 0.0);
     if ((inTicks.pose().position - before).norm() < 1e-6)
       break;
   }
   EXPECT_GT(ticks, 3);
   EXPECT_LT(ticks, 400);
+  EXPECT_GT(postponed, 1);
+  EXPECT_EQ(inTicks.step(goal).postponed, 0.0);
+  EXPECT_EQ(atOnce.step(goal).postponed, 0.0);
   // Beyond the bound: the last stretch, where every point may be examined a few times.
   EXPECT_LT(most, 400u + 6u * 800u);
   EXPECT_LT((inTicks.pose().position - atOnce.pose().position).norm(), 0.02 * h);
   EXPECT_NEAR(inTicks.step(goal).wrench.linear.norm(), atOnce.step(goal).wrench.linear.norm(),
               0.02);
+}
+
+// Along a plane that is near enough to be examined and not touched, it is the distance left.
+TEST(ConstrainedProxy, TellsHowMuchOfItsWayATickLeavesToTheNext)
+{
+  const Scene scene = floorScene();
+  ProxyParameters bounded;
+  bounded.samples = 100;
+  ConstrainedProxy proxy(scene.field, ballShell(1.0, 800), bounded);
+  proxy.place(poseAt({-3.0, 0.0, 1.03}));
+  const Pose goal = poseAt({3.0, 0.0, 1.03});
+  int postponed = 0;
+  for (int t = 0; t < 200; ++t)
+  {
+    const double left = proxy.step(goal).postponed;
+    const double distance = (proxy.pose().position - goal.position).norm();
+    if (left > 0.0)
+    {
+      EXPECT_NEAR(left, distance, 1e-6) << t;
+    }
+    else
+    {
+      EXPECT_LT(distance, bounded.deadband) << t;
+    }
+    postponed += left > 0.0;
+  }
+  EXPECT_GT(postponed, 2);
+  EXPECT_LT(postponed, 150);
 }

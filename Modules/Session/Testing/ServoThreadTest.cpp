@@ -72,6 +72,22 @@ private:
   int m_reads = 0;
 };
 
+// Leaves a quarter of a millimetre to the next tick, in every second tick.
+class SlowProxy : public PlaneProxy
+{
+public:
+  const haptics::ProxyTick& step(const haptics::Pose& goal) noexcept override
+  {
+    m_tick = PlaneProxy::step(goal);
+    m_tick.postponed = m_steps++ % 2 ? 0.25 : 0.0;
+    return m_tick;
+  }
+
+private:
+  haptics::ProxyTick m_tick;
+  int m_steps = 0;
+};
+
 // Touch in one thread; cuts, undo and redo in another; a window's queries in this one.
 void touchCutAndUndo(LoopScene& scene, Servo& tool)
 {
@@ -132,6 +148,12 @@ TEST(ServoThread, TicksPublishesAndStopsWithTheForceGone)
   EXPECT_FALSE(state.running);
   EXPECT_EQ(state.dropped, 0u);
   EXPECT_GT(state.worstWall, 0.0);
+  EXPECT_EQ(state.worstWall, thread.wallTimes().max());
+  EXPECT_EQ(thread.wallTimes().count(), state.ticks);
+  EXPECT_EQ(thread.lateness().count(), state.ticks);
+  EXPECT_GE(thread.wallTimes().max(), thread.wallTimes().quantile(0.5));
+  EXPECT_EQ(state.postponed, 0u);
+  EXPECT_EQ(state.worstPostponed, 0.0);
   EXPECT_EQ(device.sent().linear, Vector3d(0.0, 0.0, 0.0));
 
   const auto records = drained(ring);
@@ -145,6 +167,26 @@ TEST(ServoThread, TicksPublishesAndStopsWithTheForceGone)
     }
   }
   EXPECT_EQ(forceOf(records.back().output), Vector3d(0.0, 0.0, 0.0));
+}
+
+TEST(ServoThread, CountsTheTicksThatLeaveMotionToTheNext)
+{
+  SlowProxy proxy;
+  Servo servo(proxy, Session::plainSetup());
+  haptics::SimulatedDevice device(pressing);
+  SpscRing<TickRecord> ring(1 << 16);
+  ServoThread thread(servo, device, ring, {});
+  EXPECT_TRUE(eventually([&] { return thread.state().ticks > 100; }));
+  thread.stop();
+  const auto records = drained(ring);
+  // The proxy steps from the first usable reading on, which places the tool.
+  std::size_t steps = 0;
+  for (const TickRecord& record : records)
+    steps +=
+        steps > 0 || faultOf(record) == ServoFault::None || faultOf(record) == ServoFault::Stalled;
+  EXPECT_GT(steps, 50u);
+  EXPECT_EQ(thread.state().postponed, steps / 2);
+  EXPECT_EQ(thread.state().worstPostponed, 0.25);
 }
 
 TEST(ServoThread, TakesNewParameters)

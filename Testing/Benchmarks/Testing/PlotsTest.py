@@ -172,6 +172,52 @@ class Plots(unittest.TestCase):
         self.assertEqual(list(zip(*time.lines[0].get_data())), [(1.0, 0.5), (1000.0, 0.25)])
         self.assertEqual(list(zip(*memory.lines[0].get_data())), [(1.0, 3.0), (1000.0, 30.0)])
 
+    def test_the_servo_shows_the_tail_of_its_live_sessions(self):
+        extra = {"ticks": 2000.0, "real_time_priority": 0.0, "ticks_late": 3.0, "records_lost": 0.0,
+                 "page_faults": 0.0, "ticks_that_left_motion": 7.0}
+        points = [point("block", error=0.0), point("live: ear", points="500", of="session",
+                                                   extra=extra)]
+        points += [point("live: ear", points="500", of=of, percent=percent, seconds=seconds,
+                         error=None)
+                   for of, factor in (("tick", 1.0), ("lateness", 0.1))
+                   for percent, seconds in (("50", 1e-4 * factor), ("99.9", 5e-4 * factor),
+                                            ("100", 2e-3 * factor))]
+        pages = self.pages(points, "servo")
+        self.assertEqual(list(pages), ["", "-live"])
+        tick, late = pages["-live"].figure.axes
+        for axes, factor in ((tick, 1.0), (late, 0.1)):
+            line = [line for line in axes.lines if len(line.get_xdata()) == 3][0]
+            for value, expected in zip(line.get_xdata(), (1e-4, 5e-4, 2e-3)):
+                self.assertAlmostEqual(value, expected * factor, 12)
+            for value, expected in zip(line.get_ydata(), (0.5, 1e-3, 1 / 2000)):
+                self.assertAlmostEqual(value, expected, 12, "the longest is one tick of all")
+        words = [text.get_text() for text in pages["-live"].figure.texts]
+        self.assertIn("500 points: 2000 ticks, no real-time priority, 3 late, 0 records lost, "
+                      "0 page faults, 7 left motion to the next", words)
+
+    def test_devices_show_what_is_stable_over_stiffness_and_delay(self):
+        def coupling(delay, largest, cycles):
+            extra = {f"cycle_n_pp_at_{k}": cycle for k, cycle in zip(("0.5", "2"), cycles)}
+            extra |= {f"energy_mj_at_{k}": 10.0 * cycle for k, cycle in zip(("0.5", "2"), cycles)}
+            extra |= {"largest_stable_n_per_mm": largest, "passive_n_per_mm": 3.0 / (1 + delay),
+                      "described_n_per_mm": 1.0}
+            return point("Touch", error=None, guard="on", missed_percent="0",
+                         delay_ms=str(delay), extra=extra)
+
+        pages = self.pages([coupling(0, 2.0, (0.001, 0.002)), coupling(4, 0.5, (0.002, 5.0))],
+                           "devices")
+        self.assertEqual(list(pages), [""])
+        axes = pages[""].figure.axes[0]
+        cells = axes.collections[0].get_array().flatten().tolist()
+        self.assertEqual(cells, [0.001, 0.002, 0.002, 5.0], "a row for each stiffness")
+        lines = [list(zip(*line.get_data())) for line in axes.lines]
+        self.assertIn([(4.0, 2.0)], lines, "energy comes out there alone")
+        self.assertIn([(0.0, 3.0), (4.0, 0.6)], lines)
+        self.assertIn([(0.0, 1.0), (4.0, 1.0)], lines)
+        values = axes.patches[0].get_data().values
+        self.assertAlmostEqual(values[0], 4.0, 12, "above the cell of 2 N/mm")
+        self.assertAlmostEqual(values[1], 1.0, 12, "between 0.5 and 2 N/mm")
+
     def test_counts_stress_trials_by_kind_and_names_each_wrong_one(self):
         pages = self.pages(
             [trial("noise", "failed", None, False), trial("noise", "good", None, True),

@@ -220,11 +220,16 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
     const double part = m_soft ? m_soft->share(found) : 1.0;
     const Motion motion{part * found.linear, part * found.angular};
     const double way = maxDisplacement(motion, reach);
-    if (way < m_parameters.deadband || (made > 0.0 && spent()))
+    m_tick.postponed = 0.0;
+    if (way < m_parameters.deadband)
+      break;
+    m_tick.postponed = way;
+    if (made > 0.0 && spent())
       break;
     const ShellSweep::Hit hit = advance(motion, way);
     m_backtracker->remember();
     made += hit.free * way;
+    m_tick.postponed = maxDisplacement(found, reach) - hit.free * way;
     if (hit.any)
     {
       ++m_tick.rounds;
@@ -245,6 +250,8 @@ void ConstrainedProxy::follow(const Pose& goal) noexcept
       m_lift = std::min(2.0 * m_lift, kMaxLift * h);
     }
   }
+  if (m_tick.postponed < m_parameters.deadband)
+    m_tick.postponed = 0.0;
   m_caught = made < kSkin * h && m_hitCount > 0;
   m_caughtIn = m_sweep.state().number();
   if (m_soft && m_soft->spent())

@@ -235,10 +235,12 @@ void PointProxy::follow(const Vector3d& goal) noexcept
     const Vector3d found = solve(goal - m_sweep.pose().position, kSkin * h);
     const double part = m_soft ? m_soft->share({found, Vector3d::Zero()}) : 1.0;
     const Vector3d motion = part * found;
+    m_tick.postponed = 0.0;
     if (motion.norm() < m_parameters.deadband)
       return;
     const ShellSweep::Hit hit = advance(motion);
     m_backtracker->remember();
+    m_tick.postponed = found.norm() - hit.free * motion.norm();
     if (!hit.any && hit.free >= 1.0 && part >= 1.0)
       return;
     if (!hit.any)
@@ -256,6 +258,8 @@ void PointProxy::follow(const Vector3d& goal) noexcept
       lift = std::min(2.0 * lift, kMaxLift * h);
     }
   }
+  if (m_tick.postponed < m_parameters.deadband)
+    m_tick.postponed = 0.0;
 }
 
 void PointProxy::addContact(const Vector3d& normal, double thrust, double gap) noexcept

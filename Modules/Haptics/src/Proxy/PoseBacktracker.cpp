@@ -25,6 +25,7 @@ void PoseBacktracker::clear(ProxyTick& tick) noexcept
   tick.thrust = 0.0;
   tick.penetration = 0.0;
   tick.rounds = 0;
+  tick.postponed = 0.0;
   tick.nearPoints = 0;
   tick.samples = 0;
 }

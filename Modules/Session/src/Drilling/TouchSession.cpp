@@ -202,8 +202,10 @@ void TouchSession::logEnd() const
   const ServoThread::State state = m_servoThread->state();
   core::log::info(
       "servo: " + std::to_string(state.ticks) + " ticks, " + std::to_string(state.late) +
-      " late, longest " + core::fixedText(kMicro * state.worstWall, 0) + " us (" +
+      " late, p99.9 " + core::fixedText(kMicro * m_servoThread->wallTimes().quantile(0.999), 0) +
+      " us, longest " + core::fixedText(kMicro * state.worstWall, 0) + " us (" +
       core::fixedText(kMicro * state.worstProcessor, 0) + " us of the processor), " +
+      std::to_string(state.postponed) + " left motion to the next, " +
       std::to_string(state.dropped) + " records lost, " + std::to_string(state.majorFaults) +
       " page faults" + (state.realTime ? "" : ", no real-time priority"));
 }

@@ -344,6 +344,7 @@ const TickRecord& Servo::tick(const TickInput& input) noexcept
   const Eigen::Vector3d before = m_proxy.pose().position;
   const Pose goal = leapt ? m_proxy.pose() : goalOf(step);
   const ProxyTick& tick = m_placed ? m_proxy.step(goal) : m_none;
+  m_postponed = tick.postponed;
   m_touches = tick.contactCount > 0;
   m_inside = tick.status == ProxyStatus::Inside;
   if (step.usable)

@@ -104,9 +104,11 @@ ServoThread::State ServoThread::state() const noexcept
   state.realTime = m_realTime.load();
   state.ticks = m_ticks.load();
   state.late = m_late.load();
-  state.worstWall = m_worstWall.load();
+  state.worstWall = m_wall.max();
   state.worstProcessor = m_worstProcessor.load();
   state.dropped = m_records.dropped();
+  state.postponed = m_postponed.load();
+  state.worstPostponed = m_worstPostponed.load();
   state.majorFaults = m_majorFaults.load();
   return state;
 }
@@ -122,7 +124,12 @@ void ServoThread::tickOnce(const ServoParameters& parameters) noexcept
   m_records.push(record);
   m_ticks.store(m_ticks.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   raise(m_worstProcessor, secondsOf(CLOCK_THREAD_CPUTIME_ID) - processor);
-  raise(m_worstWall, secondsOf(CLOCK_MONOTONIC) - start);
+  if (const double left = m_servo.postponed(); left > 0.0)
+  {
+    m_postponed.store(m_postponed.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    raise(m_worstPostponed, left);
+  }
+  m_wall.add(secondsOf(CLOCK_MONOTONIC) - start);
 }
 
 void ServoThread::run() noexcept
@@ -141,6 +148,7 @@ void ServoThread::run() noexcept
     due += m_period;
     sleepUntil(due);
     const double behind = secondsOf(CLOCK_MONOTONIC) - due;
+    m_lateness.add(behind);
     if (behind > m_period)
     {
       m_late.store(m_late.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);

@@ -57,6 +57,8 @@ struct ProxyTick
   double penetration =
       0.0; ///< mm, of the deepest shell point in rigid tissue, as sampled; NaN: unknown
   int rounds = 0;
+  double postponed = 0.0; ///< mm, of the fastest point: motion that the tick's limits of work left
+                          ///< to the following ticks, as far as it is known
   std::size_t nearPoints = 0;  ///< shell points examined
   std::size_t samples = 0;     ///< of the field
   std::uint64_t maskState = 0; ///< number of the mask state used (MaskState)

@@ -58,6 +58,9 @@ public:
 
   const ServoSetup& setup() const noexcept { return m_setup; }
 
+  /// haptics::ProxyTick::postponed of the last tick, mm.
+  double postponed() const noexcept { return m_postponed; }
+
   static constexpr double kFarthest = 10.0; ///< mm
 
 private:
@@ -103,8 +106,9 @@ private:
   bool m_inside = false;  ///< at the last tick
   bool m_pedalOn = false; ///< ServoParameters::kPedalSpeed
   bool m_arrived = false; ///< the pressed tool has been where it was pressed
-  double m_back = 0.0;    ///< mm from its target towards the camera, tried next
-  int m_rest = 0;         ///< ticks until the next search for another position
+  double m_postponed = 0.0;
+  double m_back = 0.0; ///< mm from its target towards the camera, tried next
+  int m_rest = 0;      ///< ticks until the next search for another position
 };
 
 static_assert(noexcept(std::declval<Servo&>().tick(std::declval<const TickInput&>())));

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "petrous/Core/SnapshotBuffer.h"
+#include "petrous/Core/TickHistogram.h"
 #include "petrous/Haptics/Device.h"
 #include "petrous/Session/Servo.h"
 #include "petrous/Session/SpscRing.h"
@@ -31,6 +32,8 @@ public:
     double worstWall = 0.0;      ///< s, longest tick, including the device
     double worstProcessor = 0.0; ///< s of the thread's CPU time, longest tick
     std::uint64_t dropped = 0;   ///< records lost because the ring was full
+    std::uint64_t postponed = 0; ///< ticks that left motion of the tool to the following ones
+    double worstPostponed = 0.0; ///< mm, the most that a tick left (haptics::ProxyTick::postponed)
     long majorFaults = 0;        ///< page faults that required I/O
   };
 
@@ -51,6 +54,10 @@ public:
 
   State state() const noexcept;
 
+  /// Wall times of the ticks, including the device, and how long after they were due they started.
+  const core::TickHistogram& wallTimes() const noexcept { return m_wall; }
+  const core::TickHistogram& lateness() const noexcept { return m_lateness; }
+
   /// Lets the force fall to zero, then ends the thread, within about 20 ticks. Idempotent.
   void stop();
 
@@ -69,9 +76,12 @@ private:
   std::atomic<bool> m_realTime{false};
   std::atomic<std::uint64_t> m_ticks{0};
   std::atomic<std::uint64_t> m_late{0};
+  std::atomic<std::uint64_t> m_postponed{0};
   std::atomic<long> m_majorFaults{0};
-  std::atomic<double> m_worstWall{0.0};
+  core::TickHistogram m_wall;
+  core::TickHistogram m_lateness;
   std::atomic<double> m_worstProcessor{0.0};
+  std::atomic<double> m_worstPostponed{0.0};
   std::thread m_thread; // last: uses all other members
 };
 

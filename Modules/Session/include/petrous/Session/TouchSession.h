@@ -102,6 +102,7 @@ public:
   bool failed() const noexcept { return m_dissectionThread.failed(); }
 
   ServoThread::State state() const noexcept { return m_servoThread->state(); }
+  const ServoThread& servo() const noexcept { return *m_servoThread; } ///< its times
 
   /// Only after `stop`; nullptr if nothing is recorded.
   const SessionRecorder* recording() const noexcept { return m_recorder.get(); }

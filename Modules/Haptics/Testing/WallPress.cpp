@@ -1,0 +1,132 @@
+#include "WallPress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "petrous/Haptics/ForceLimits.h"
+#include "petrous/Haptics/PassivityGuard.h"
+
+namespace petrous::haptics
+{
+
+namespace
+{
+
+constexpr double kTick = 0.001; // s
+constexpr int kCycles = 3;
+
+SimulatedDevice::Hand handOf(const RealDevice& real, SimulatedDevice::Hand hand)
+{
+  hand.mass = real.mass;
+  hand.damping = real.damping;
+  hand.friction = real.friction;
+  return hand;
+}
+
+} // namespace
+
+TransmittedDevice::TransmittedDevice(const RealDevice& real, Target target, Hand hand)
+  : SimulatedDevice(std::move(target), handOf(real, hand), {})
+  , m_quantum(real.quantum)
+  , m_underway(static_cast<std::size_t>(real.delay))
+{
+}
+
+DeviceReading TransmittedDevice::read(double now) noexcept
+{
+  DeviceReading reading = SimulatedDevice::read(now);
+  if (m_quantum > 0.0)
+    for (double& x : reading.pose.position)
+      x = m_quantum * std::round(x / m_quantum);
+  return reading;
+}
+
+void TransmittedDevice::send(const Wrench& wrench) noexcept
+{
+  m_underway.push_back(wrench);
+  SimulatedDevice::send(m_underway.front());
+  m_underway.pop_front();
+}
+
+Touching press(const RealDevice& real, const WallPress& how)
+{
+  const double period = how.rest + 0.6; // s
+  const auto target = [period](double time)
+  {
+    const double t = std::fmod(time, period);
+    const double share = std::clamp(std::min(t - 0.1, period - 0.1 - t) / 0.2, 0.0, 1.0);
+    return Pose{{2.0 - 8.0 * share, 0.0, 0.0}, Eigen::Quaterniond::Identity()};
+  };
+  SimulatedDevice::Hand hand;
+  hand.tremor = how.tremor;
+  hand.stiffness = how.handStiffness;
+  hand.subStep = how.subStep;
+  TransmittedDevice device(real, target, hand);
+  PassivityGuard::Parameters parameters;
+  parameters.stiffness = how.stiffness;
+  PassivityGuard guard(parameters);
+  ForceLimits::Limits limits;
+  limits.maxForce = real.maxForce;
+  ForceLimits limited(limits);
+  limited.resume();
+
+  Touching result;
+  double low = 1e9;
+  double high = -1e9;
+  device.read(0.0);
+  double before = device.pose().position.x();
+  double energy = 0.0; // of this cycle, which begins and ends before the wall
+  int cycle = 0;
+  for (int n = 1; n <= static_cast<int>((kCycles + 0.001) * period / kTick); ++n)
+  {
+    const double now = kTick * n;
+    const Pose pose = device.read(now).pose;
+    const double x = device.pose().position.x();
+    const double acting = device.sent().linear.x();
+    energy += acting * (x - before) - real.friction * std::abs(x - before);
+    before = x;
+    if (const int present = static_cast<int>(now / period); present != cycle)
+    {
+      cycle = present;
+      result.energyOut = std::max(result.energyOut, energy);
+      energy = 0.0;
+    }
+    const double at = std::fmod(now, period);
+    if (at > how.rest - 0.2 && at < how.rest + 0.2)
+    {
+      low = std::min(low, acting);
+      high = std::max(high, acting);
+    }
+    result.mostForce = std::max(result.mostForce, std::abs(acting));
+    if (real.dropEvery > 0 && n % real.dropEvery == 0)
+      continue;
+    Wrench wanted;
+    wanted.linear.x() = how.stiffness * std::max(0.0, -pose.position.x());
+    const Wrench output = limited.apply(how.guarded ? guard.apply(wanted, pose, now) : wanted, now);
+    guard.sent(output);
+    device.send(output);
+  }
+  result.ripple = 0.5 * (high - low);
+  return result;
+}
+
+double passiveStiffness(const RealDevice& real) noexcept
+{
+  return real.damping / (kTick * (0.5 + real.delay));
+}
+
+double ringingStiffness(const RealDevice& real, WallPress how)
+{
+  how.guarded = false;
+  double low = 0.05;
+  double high = 100.0;
+  while (high / low > 1.002)
+  {
+    how.stiffness = std::sqrt(low * high);
+    (press(real, how).ripple <= Touching::kMostRipple ? low : high) = how.stiffness;
+  }
+  return low;
+}
+
+} // namespace petrous::haptics

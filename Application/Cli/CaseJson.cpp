@@ -449,6 +449,11 @@ json strokesJson(const scene::Case& value)
          {"removed_mm3", stroke.info.removed},
          {"structures_touched", touchedJson(stroke.info.structures)},
          {"bytes", stroke.bytes}});
+    if (const auto& speed = stroke.info.speed)
+    {
+      strokes.back()["rpm_mean"] = speed->mean;
+      strokes.back()["rpm_max"] = speed->max;
+    }
   }
   return strokes;
 }

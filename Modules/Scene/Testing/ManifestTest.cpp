@@ -1129,6 +1129,32 @@ TEST(Manifest, OpensStoredCasesOfEarlierPrograms)
   }
 }
 
+TEST(Manifest, KeepsTheSpeedThatAPedalGaveOnlyWhereOneDid)
+{
+  scene::Case value = fullCase();
+  dissection::Stroke byPedal;
+  byPedal.info.burr.rpm = 60000.0;
+  byPedal.info.speed = dissection::SpindleSpeed{23456.789, 41000.5};
+  dissection::Stroke other = byPedal;
+  other.info.speed.reset();
+  value.dissection = dissection::Dissection({std::make_shared<const dissection::Stroke>(byPedal),
+                                             std::make_shared<const dissection::Stroke>(other)},
+                                            dissection::History::line(2, 2));
+  const std::string text = scene::toManifest(value);
+  const auto written = nlohmann::json::parse(text);
+  EXPECT_EQ(written["dissection"]["strokes"][0]["rpm"], 60000.0) << "as set";
+  EXPECT_FALSE(written["dissection"]["strokes"][1].contains("rpm_mean"));
+  const auto back = scene::fromManifest(text, "m.json");
+  const auto& speed = back.dissection.strokes()[0]->info.speed;
+  ASSERT_TRUE(speed);
+  EXPECT_EQ(speed->mean, 23456.789);
+  EXPECT_EQ(speed->max, 41000.5);
+  EXPECT_FALSE(back.dissection.strokes()[1]->info.speed);
+  const dissection::Stroke journalled = scene::strokeFromText(scene::toText(byPedal));
+  ASSERT_TRUE(journalled.info.speed);
+  EXPECT_EQ(journalled.info.speed->max, 41000.5);
+}
+
 TEST(Manifest, NamesABurrOfTheUsersOwnBesideItsKind)
 {
   scene::Case value = fullCase();

@@ -72,7 +72,7 @@ void MeasuredTool::divide(Part& part, std::size_t ball)
   const auto middle = begin + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(begin, middle, end,
                    [axis](const Vector3d& a, const Vector3d& b) { return a[axis] < b[axis]; });
-  Ball first{Eigen::Vector3d::Zero()}, second{Eigen::Vector3d::Zero()};
+  Ball first, second;
   first.begin = whole.begin;
   first.end = second.begin = whole.begin + count / 2;
   second.end = whole.end;

@@ -43,7 +43,7 @@ public:
 private:
   struct Ball
   {
-    Eigen::Vector3d center;
+    Eigen::Vector3d center{0.0, 0.0, 0.0}; // frame T, mm
     double radius = 0.0;
     std::size_t begin = 0, end = 0; // of the points
     std::size_t halves = 0;         // the first of two in Part::balls; 0: none

@@ -220,6 +220,8 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
   m_branches->camera = [this] { return m_viewState->camera(); };
   m_branches->showCamera = [this](const core::CameraPose& camera)
   { m_viewState->showCamera(camera); };
+  m_viewState->instrument = [this] { return m_drill->caseInstrument(); };
+  m_viewState->showInstrument = [this](const auto& kept) { m_drill->setCaseInstrument(kept); };
   m_share->releaseTool = [this] { m_drill->releaseTool(); };
   m_share->collectView = [this] { m_viewState->collect(); };
   m_video->goToState = [this](const std::string& branch, std::size_t stroke)

@@ -395,6 +395,9 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
   ct["modality"] = value.ct.modality == scene::Modality::Mr   ? json("MR")
                    : value.ct.modality == scene::Modality::Ct ? json("CT")
                                                               : json(nullptr);
+  json instrument = nullptr;
+  if (const auto& kept = value.view.instrument)
+    instrument = {{"name", kept->name}, {"axis", kept->axis}};
   return {{"case", value.name},
           {"description", descriptionJson(value.description)},
           {"iso_hu", value.iso},
@@ -407,6 +410,7 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
           {"labels", std::move(labels)},
           {"meshes", std::move(meshes)},
           {"measurements", value.measurements.size()},
+          {"instrument", std::move(instrument)},
           {"dissection",
            {{"strokes", value.dissection.strokes().size()},
             {"undo", value.applied()},
@@ -449,6 +453,11 @@ json strokesJson(const scene::Case& value)
          {"removed_mm3", stroke.info.removed},
          {"structures_touched", touchedJson(stroke.info.structures)},
          {"bytes", stroke.bytes}});
+    if (const auto& speed = stroke.info.speed)
+    {
+      strokes.back()["rpm_mean"] = speed->mean;
+      strokes.back()["rpm_max"] = speed->max;
+    }
   }
   return strokes;
 }

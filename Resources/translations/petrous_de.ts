@@ -745,6 +745,10 @@
         <source>%1 of %2</source>
         <translation>%1 von %2</translation>
     </message>
+    <message>
+        <source>Set to %1 turns a minute; by the pedal %2 on average, at most %3</source>
+        <translation>Eingestellt auf %1 Umdrehungen je Minute; durch das Pedal im Mittel %2, höchstens %3</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ArchiveDialog</name>
@@ -2956,6 +2960,10 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
 (length × width, and where its tip is then):</source>
         <translation>Von der Spitze zur Hand liegt das Instrument entlang dieser Achse seiner Datei
 (Länge × Breite, und wo die Spitze dann ist):</translation>
+    </message>
+    <message>
+        <source>instrument</source>
+        <translation>Instrument</translation>
     </message>
 </context>
 <context>
@@ -6166,6 +6174,18 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Choose a recording</source>
         <translation>Aufzeichnung wählen</translation>
+    </message>
+    <message>
+        <source>Mean speed drilling</source>
+        <translation>Mittlere Drehzahl bohrend</translation>
+    </message>
+    <message>
+        <source>/min</source>
+        <translation>/min</translation>
+    </message>
+    <message>
+        <source>Highest speed</source>
+        <translation>Höchste Drehzahl</translation>
     </message>
 </context>
 <context>

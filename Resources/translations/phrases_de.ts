@@ -876,6 +876,10 @@
         <translation>Netze, mit ihren Namen: %~1</translation>
     </message>
     <message>
+        <source>the surface of the instrument, without the name of its file</source>
+        <translation>die Oberfläche des Instruments, ohne den Namen seiner Datei</translation>
+    </message>
+    <message>
         <source>names of structures that are gone, in strokes that touched them: %~1</source>
         <translation>Namen von Strukturen, die nicht mehr da sind, in Bohrzügen, die sie berührten: %~1</translation>
     </message>
@@ -6249,6 +6253,10 @@
         <translation>ein Netz ist nicht lesbar</translation>
     </message>
     <message>
+        <source>an instrument cannot be read</source>
+        <translation>ein Instrument ist nicht lesbar</translation>
+    </message>
+    <message>
         <source>what a stroke removed cannot be read</source>
         <translation>was ein Bohrzug abtrug, ist nicht lesbar</translation>
     </message>
@@ -6569,6 +6577,10 @@
         <translation>%~1. Wer den Fall speichert, nimmt ihn so an, wie er ist; „petrous library repair --accept-changed“ tut dasselbe</translation>
     </message>
     <message>
+        <source>the instrument of case '%1'</source>
+        <translation>das Instrument des Falls „%1“</translation>
+    </message>
+    <message>
         <source>stroke %#1 of case '%2'</source>
         <translation>Bohrzug %#1 des Falls „%2“</translation>
     </message>
@@ -6767,6 +6779,10 @@
     <message>
         <source>%1: the file of case '%2' was changed outside of Petrous, or is damaged: it does not have the checksum that it states. Where images and structures lie, how an MR is registered and all else in it may be wrong: do not rely on it before you have compared it with a copy of the library, or restored it from there</source>
         <translation>%1: die Datei des Falls „%2“ wurde außerhalb von Petrous geändert oder ist beschädigt: Sie hat nicht die Prüfsumme, die sie angibt. Wo Bilder und Strukturen liegen, wie ein MR registriert ist und alles andere darin kann falsch sein: Verlassen Sie sich nicht darauf, bevor Sie sie mit einer Kopie der Bibliothek verglichen oder von dort wiederhergestellt haben</translation>
+    </message>
+    <message>
+        <source>the instrument</source>
+        <translation>das Instrument</translation>
     </message>
     <message>
         <source>%1: %~2 of case '%3' does not lie where its voxels say: what is placed by it may be wrong; restore the file from a copy of the library, or import the images again</source>
@@ -8607,6 +8623,14 @@
     <message>
         <source>a burr must be 0.01 to 100 mm wide and turn at 0 to 1000000 rpm, with a thrust of 0 to 100 N</source>
         <translation>eine Fräse muss 0.01 bis 100 mm breit sein und mit 0 bis 1000000 U/min drehen, bei einem Andruck von 0 bis 100 N</translation>
+    </message>
+    <message>
+        <source>an instrument lies along x+, x-, y+, y-, z+ or z-</source>
+        <translation>ein Instrument liegt entlang x+, x-, y+, y-, z+ oder z-</translation>
+    </message>
+    <message>
+        <source>the name of an instrument must be at most %#1 bytes of UTF-8 without characters that are not seen</source>
+        <translation>der Name eines Instruments darf höchstens %#1 Byte UTF-8 lang sein, ohne Zeichen, die man nicht sieht</translation>
     </message>
 </context>
 <context>

@@ -103,6 +103,37 @@ TEST(PlanReport, HasStrokesAndTimeOfEachApproach)
   EXPECT_THROW(planReport(planned(), second), core::InvalidParameter);
 }
 
+TEST(PlanReport, StatesTheSpeedThatAPedalGaveBesideTheSetOne)
+{
+  scene::Case value = planned();
+  const auto columns = [&value]
+  {
+    const PlanReport report = planReport(value, small());
+    return find(report, "strokes")->table.columns;
+  };
+  const std::vector<std::string> usual{"Stroke", "Burr",    "Set speed",
+                                       "Time",   "Removed", "Of structures"};
+  EXPECT_EQ(columns(), usual);
+  value.dissection.beginStroke({});
+  value.dissection.cut({{10.0, 8.0, 12.0}, {10.0, 8.0, 12.0}, 2.0});
+  value.dissection.openInfo().burr.rpm = 60000.0;
+  value.dissection.openInfo().speed = dissection::SpindleSpeed{24000.0, 41000.0};
+  value.dissection.endStroke();
+  const PlanReport report = planReport(value, small());
+  const ReportTable& strokes = find(report, "strokes")->table;
+  const std::vector<std::string> byPedal{"Stroke",        "Burr", "Set speed", "Mean speed",
+                                         "Highest speed", "Time", "Removed",   "Of structures"};
+  EXPECT_EQ(strokes.columns, byPedal);
+  ASSERT_EQ(strokes.rows.size(), 4U);
+  for (const auto& row : strokes.rows)
+    ASSERT_EQ(row.size(), byPedal.size());
+  EXPECT_EQ(strokes.rows[0][3].text, "") << "of that stroke it is not known";
+  EXPECT_EQ(strokes.rows[2][2].value, 60000.0);
+  EXPECT_EQ(strokes.rows[2][3].value, 24000.0);
+  EXPECT_EQ(strokes.rows[2][4].value, 41000.0);
+  EXPECT_EQ(strokes.rows[3][5].value, 3.5) << "of all strokes, the last one in no time";
+}
+
 TEST(PlanReport, SaysWhatIsNotResolvedAndWhatWasGuessed)
 {
   const PlanReport report = planReport(planned(), small());

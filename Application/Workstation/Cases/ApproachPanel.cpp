@@ -248,6 +248,10 @@ void ApproachPanel::add(QTreeWidgetItem* above, const ApproachNode& node)
     item->setText(Removed, volumeText(info.removed));
     item->setText(Time, durationText(info.duration));
     item->setText(Burr, burrText(info.burr));
+    if (info.speed)
+      item->setToolTip(Burr, tr("Set to %1 turns a minute; by the pedal %2 on average, at most %3")
+                                 .arg(numberText(info.burr.rpm, 0), numberText(info.speed->mean, 0),
+                                      numberText(info.speed->max, 0)));
     item->setToolTip(Stroke, injuryText(info));
     if (!info.structures.empty())
       item->setForeground(Removed, harmColor());

@@ -34,14 +34,13 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr int kPadding = 4;     // px, beside a column's text
-constexpr int kIndent = 8;      // px, of a structure below its kind
-constexpr int kSwatch = 30;     // px, colour and margins of a name
-constexpr int kSwatchHit = 20;  // px, of the colour, to be clicked
-constexpr int kFitAfter = 30;   // ms
-constexpr int kNearAgain = 150; // ms; faster than anyone can read
-constexpr int kLeastName = 12;  // characters; where the panel is narrower it scrolls sideways
-constexpr int kTitleIcon = 16;  // px, of a column without a written title
+constexpr int kPadding = 4;    // px, beside a column's text
+constexpr int kIndent = 8;     // px, of a structure below its kind
+constexpr int kSwatch = 30;    // px, colour and margins of a name
+constexpr int kSwatchHit = 20; // px, of the colour, to be clicked
+constexpr int kFitAfter = 30;  // ms
+constexpr int kLeastName = 12; // characters; where the panel is narrower it scrolls sideways
+constexpr int kTitleIcon = 16; // px, of a column without a written title
 } // namespace
 
 StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* parent)
@@ -582,22 +581,12 @@ void StructuresPanel::appearanceChanged()
   showRange();
 }
 
-// Measured only where it is seen.
-void StructuresPanel::toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose)
+void StructuresPanel::toolMeasured(const presenters::ToolSurroundings& near)
 {
-  if (!isVisible() || (m_sinceNear.isValid() && m_sinceNear.elapsed() < kNearAgain))
+  if (!isVisible() || (near.isMeasured && !near.isWide))
     return;
-  m_sinceNear.start();
-  try
-  {
-    auto near = m_model.nearby(tool, pose);
-    // Distances from where the tool was are none.
-    m_structures->setNear(near ? std::move(*near) : std::vector<presenters::NearbyStructure>());
-  }
-  catch (const std::exception&) // said in the panel "Near the tool"
-  {
-    m_structures->setNear({});
-  }
+  // Distances from where the tool was are none. A fault is said in the panel "Near the tool".
+  m_structures->setNear(near.structures);
   if (m_list->isColumnHidden(StructuresModel::Burr))
   {
     m_list->setColumnHidden(StructuresModel::Burr, false);

@@ -92,6 +92,13 @@ protected:
   }
   DrillController& drillController() { return *window().findChild<DrillController*>(); }
   const std::optional<rendering::ToolPose>& tool() { return view().display().tool(); }
+  void save()
+  {
+    const auto before = window().model().value().revision;
+    action("Save")->trigger();
+    ASSERT_TRUE(
+        waitFor([&] { return window().model().value().revision > before && !window().busy(); }));
+  }
   bool isHeld()
   {
     QTest::mouseMove(&view(), view().rect().center() + QPoint(3, 0));
@@ -189,6 +196,76 @@ TEST_F(InstrumentWindow, IsRememberedAndReadWhenItIsTakenUpAgain)
   ASSERT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
   EXPECT_TRUE(text.contains("lying.obj")) << text.toStdString();
   EXPECT_FALSE(action("Instrument")->isChecked());
+}
+
+TEST_F(InstrumentWindow, IsKeptWithTheCaseAndTakenUpThereThoughItsFileIsGone)
+{
+  saveBall("ball");
+  saveBall("other");
+  openWindow("ball");
+  drillController().readInstrument(writePick("lying.obj", true), "x+");
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  save();
+  closeWindow();
+  const auto kept = library().open("ball").view.instrument;
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->axis, "x+");
+  EXPECT_EQ(kept->name, "lying.obj");
+  EXPECT_EQ(kept->mesh.get()->triangles.size(), 6U);
+  EXPECT_EQ(kept->mesh.get()->bounds()[1].x(), 60.0F) << "as its file has it";
+
+  // The user's own is another one by now.
+  std::filesystem::remove(folder() / "lying.obj");
+  openWindow("other");
+  drillController().readInstrument(writePick("own.obj"), "z+");
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  closeWindow();
+  EXPECT_FALSE(library().open("other").view.instrument) << "it was not saved";
+
+  openWindow("ball");
+  EXPECT_FALSE(action("Instrument")->isChecked()) << "no tool is in the hand";
+  action("Instrument")->trigger();
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  EXPECT_TRUE(action("Instrument")->toolTip().startsWith("lying.obj"));
+  ASSERT_TRUE(isHeld());
+  EXPECT_NEAR(tool()->instrument->bounds()[1].z(), 60.0F, 1e-4F) << "turned as before";
+  save();
+  EXPECT_TRUE(*library().open("ball").view.instrument == *kept) << "the same object";
+  closeWindow();
+
+  // A case without one has the user's own again.
+  openWindow("other");
+  action("Instrument")->trigger();
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  EXPECT_TRUE(action("Instrument")->toolTip().startsWith("own.obj"));
+}
+
+TEST_F(InstrumentWindow, ThatACaseHasLostIsSaidAndStaysInIt)
+{
+  scene::Case value = ballCase("ball");
+  value.view.instrument.emplace();
+  auto mesh = std::make_shared<core::TriangleMesh>();
+  mesh->vertices = {{0, 0, 0}, {20, 0, 0}, {0, 20, 0}, {0, 0, 20}};
+  mesh->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  value.view.instrument->mesh = std::shared_ptr<const core::TriangleMesh>(mesh);
+  library().save(value);
+  const std::string object = value.view.instrument->object;
+  std::filesystem::remove(library().folder() / "objects" / object);
+  openWindow("ball");
+  QString text;
+  onMessage(
+      [&text](QMessageBox& box)
+      {
+        text = box.text();
+        box.accept();
+      });
+  action("Instrument")->trigger();
+  ASSERT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
+  EXPECT_FALSE(action("Instrument")->isChecked());
+  save();
+  closeWindow();
+  ASSERT_TRUE(library().open("ball").view.instrument);
+  EXPECT_EQ(library().open("ball").view.instrument->object, object);
 }
 
 // What is still being read does not take the tool out of the hand.

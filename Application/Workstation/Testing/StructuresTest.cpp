@@ -642,11 +642,12 @@ TEST_F(Structures, NoDistanceOfAnotherPlaceStaysWhereNoneIsKnown)
       static_cast<StructuresModel*>(panel.findChild<QTreeView*>("structures")->model());
   const auto distance = [rows]
   { return rows->rowOf("nerve").siblingAtColumn(StructuresModel::Burr).data().toString(); };
-  const auto ask = [&panel](double away)
+  const auto ask = [this, &panel](double away)
   {
-    QTest::qWait(200); // it answers a few times a second
-    panel.toolMoved(presenters::MeasuredTool(1.0), {kBallCenter + Eigen::Vector3d(0.0, 0.0, away),
-                                                    Eigen::Quaterniond::Identity()});
+    panel.toolMeasured(model().surroundings(
+        presenters::MeasuredTool(1.0),
+        {kBallCenter + Eigen::Vector3d(0.0, 0.0, away), Eigen::Quaterniond::Identity()},
+        panel.showsNear()));
   };
   ASSERT_TRUE(waitFor(
       [&]

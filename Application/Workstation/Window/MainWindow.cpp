@@ -72,6 +72,7 @@
 #include "ThicknessController.h"
 #include "ThreeDView.h"
 #include "ThumbnailDrawer.h"
+#include "ToolDistances.h"
 #include "ToolWarnings.h"
 #include "VideoController.h"
 #include "ViewArea.h"
@@ -219,6 +220,8 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
   m_branches->camera = [this] { return m_viewState->camera(); };
   m_branches->showCamera = [this](const core::CameraPose& camera)
   { m_viewState->showCamera(camera); };
+  m_viewState->instrument = [this] { return m_drill->caseInstrument(); };
+  m_viewState->showInstrument = [this](const auto& kept) { m_drill->setCaseInstrument(kept); };
   m_share->releaseTool = [this] { m_drill->releaseTool(); };
   m_share->collectView = [this] { m_viewState->collect(); };
   m_video->goToState = [this](const std::string& branch, std::size_t stroke)
@@ -521,14 +524,23 @@ void MainWindow::connectModel()
           { m_place->showValues(patient, m_slices->valuesAt(patient)); });
   connect(m_drill, &DrillController::pointed, m_place, &ProbeLabel::showPlace);
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
+  auto* distances = new ToolDistances(m_model, this);
+  distances->isWideWanted = [this]
+  {
+    return std::any_of(m_panels.begin(), m_panels.end(),
+                       [](const auto& one) { return one.second->showsNear(); });
+  };
   for (const auto& [entry, panel] : m_panels)
   {
     connect(m_drill, &DrillController::toolMoved, panel, &Panel::toolMoved);
     connect(m_drill, &DrillController::toolGone, panel, &Panel::toolGone);
+    connect(distances, &ToolDistances::measured, panel, &Panel::toolMeasured);
   }
+  connect(m_drill, &DrillController::toolMoved, distances, &ToolDistances::toolMoved);
+  connect(m_drill, &DrillController::toolGone, distances, &ToolDistances::toolGone);
   connect(m_drill, &DrillController::toolMoved, m_sliceControl, &SliceController::toolMoved);
-  auto* warnings = new ToolWarnings(m_model, this);
-  connect(m_drill, &DrillController::toolMoved, warnings, &ToolWarnings::toolMoved);
+  auto* warnings = new ToolWarnings(this);
+  connect(distances, &ToolDistances::measured, warnings, &ToolWarnings::show);
   connect(m_drill, &DrillController::toolGone, warnings, &ToolWarnings::toolGone);
   connect(warnings, &ToolWarnings::warned, &m_view->display(), &SceneDisplay::setWarning);
   connect(warnings, &ToolWarnings::alarmed, &m_drill->sound(), &DrillSound::setWarning);

@@ -469,7 +469,7 @@ TEST(Manifest, RefusesANewerFormatInWords)
   std::string text = scene::toManifest(fullCase());
   const auto at = text.find("\"petrous_case\": 3");
   ASSERT_NE(at, std::string::npos);
-  text.replace(at, 17, "\"petrous_case\": 9");
+  text.replace(at, 17, "\"petrous_case\": 10");
   try
   {
     scene::fromManifest(text, "m.json");
@@ -478,7 +478,7 @@ TEST(Manifest, RefusesANewerFormatInWords)
   catch (const scene::ManifestError& error)
   {
     EXPECT_EQ(error.reason, scene::ManifestError::Reason::NewerFormat);
-    EXPECT_NE(std::string(error.what()).find("format 9"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("format 10"), std::string::npos);
   }
 }
 
@@ -771,7 +771,7 @@ TEST(Manifest, GivesTheDescriptionAlone)
   EXPECT_EQ(scene::descriptionFromManifest(j.dump(), "m"), value.description);
   j["description"]["side"] = "up";
   EXPECT_THROW(scene::descriptionFromManifest(j.dump(), "m"), scene::ManifestError);
-  j["petrous_case"] = 9;
+  j["petrous_case"] = 10;
   EXPECT_THROW(scene::descriptionFromManifest(j.dump(), "m"), scene::ManifestError);
   EXPECT_THROW(scene::descriptionFromManifest(text.substr(0, text.size() / 2), "m"),
                scene::ManifestError);
@@ -880,6 +880,32 @@ TEST(Manifest, IsOfFormat6OnlyWhereItMustBe)
   EXPECT_EQ(raised([&](auto& v) { v.view.clipping.planes = whole.view.clipping.planes; }), 6);
   EXPECT_EQ(raised([&](auto& v) { v.view.tool = whole.view.tool; }), 6);
   EXPECT_EQ(raised([&](auto& v) { v.attachments = whole.attachments; }), 6);
+}
+
+TEST(Manifest, KeepsAnInstrumentAndIsOfFormat9OnlyWithOne)
+{
+  scene::Case value = viewedCase();
+  value.view.instrument.emplace();
+  auto& instrument = *value.view.instrument;
+  instrument.object = std::string(64, 'd') + ".obj";
+  instrument.axis = "y-";
+  instrument.name = "pick.stl";
+  const std::string text = scene::toManifest(value);
+  EXPECT_NE(text.find("\"petrous_case\": 9"), std::string::npos);
+  const scene::Case back = scene::fromManifest(text, "m.json");
+  EXPECT_EQ(scene::toManifest(back), text);
+  EXPECT_TRUE(*back.view.instrument == instrument);
+  instrument.axis = "y+";
+  EXPECT_FALSE(*back.view.instrument == instrument);
+  value.view.instrument.reset();
+  EXPECT_NE(scene::toManifest(value).find("\"petrous_case\": 6"), std::string::npos);
+
+  for (const auto& [key, wrong] : {std::pair("axis", "w+"), {"axis", "z"}, {"name", "a\nb"}})
+  {
+    auto j = nlohmann::json::parse(text);
+    j["view"]["instrument"][key] = wrong;
+    EXPECT_THROW(scene::fromManifest(j.dump(), "m.json"), scene::ManifestError) << wrong;
+  }
 }
 
 TEST(Manifest, IsOfFormat7OnlyWithSavedViewsTurnedPlanesOrASlab)
@@ -1127,6 +1153,32 @@ TEST(Manifest, OpensStoredCasesOfEarlierPrograms)
     EXPECT_EQ(value.description.date, "2028-02-29");
     EXPECT_EQ(value.description.tags.size(), 2u);
   }
+}
+
+TEST(Manifest, KeepsTheSpeedThatAPedalGaveOnlyWhereOneDid)
+{
+  scene::Case value = fullCase();
+  dissection::Stroke byPedal;
+  byPedal.info.burr.rpm = 60000.0;
+  byPedal.info.speed = dissection::SpindleSpeed{23456.789, 41000.5};
+  dissection::Stroke other = byPedal;
+  other.info.speed.reset();
+  value.dissection = dissection::Dissection({std::make_shared<const dissection::Stroke>(byPedal),
+                                             std::make_shared<const dissection::Stroke>(other)},
+                                            dissection::History::line(2, 2));
+  const std::string text = scene::toManifest(value);
+  const auto written = nlohmann::json::parse(text);
+  EXPECT_EQ(written["dissection"]["strokes"][0]["rpm"], 60000.0) << "as set";
+  EXPECT_FALSE(written["dissection"]["strokes"][1].contains("rpm_mean"));
+  const auto back = scene::fromManifest(text, "m.json");
+  const auto& speed = back.dissection.strokes()[0]->info.speed;
+  ASSERT_TRUE(speed);
+  EXPECT_EQ(speed->mean, 23456.789);
+  EXPECT_EQ(speed->max, 41000.5);
+  EXPECT_FALSE(back.dissection.strokes()[1]->info.speed);
+  const dissection::Stroke journalled = scene::strokeFromText(scene::toText(byPedal));
+  ASSERT_TRUE(journalled.info.speed);
+  EXPECT_EQ(journalled.info.speed->max, 41000.5);
 }
 
 TEST(Manifest, NamesABurrOfTheUsersOwnBesideItsKind)

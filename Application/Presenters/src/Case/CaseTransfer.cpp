@@ -837,6 +837,8 @@ IdentityReport reportOf(scene::Case value, const SendParts& parts,
       report.leaves.push_back(
           std::string(planOnly ? "the names of meshes: " : "meshes, by their names: ") +
           shownName(joined(meshes)));
+    if (value.view.instrument)
+      report.leaves.push_back("the surface of the instrument, without the name of its file");
     if (const auto gone = goneStructures(value); !gone.empty())
       report.leaves.push_back("names of structures that are gone, in strokes that touched them: " +
                               joined(gone));

@@ -98,6 +98,8 @@ const std::map<std::string, std::string>& germanTexts()
       {"cutting", "schneidend"},
       {"diamond", "Diamant"},
       {"Set speed", "Eingestellte Drehzahl"},
+      {"Mean speed", "Mittlere Drehzahl"},
+      {"Highest speed", "Höchste Drehzahl"},
       {"Time", "Zeit"},
       {"All together", "Zusammen"},
       {"Measurements and marks", "Messungen und Marken"},

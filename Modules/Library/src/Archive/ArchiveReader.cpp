@@ -60,6 +60,7 @@ bool fits(const std::string& object, const ObjectUse& use)
   case ObjectUse::Kind::Structures:
     return ending == ".seg.nrrd";
   case ObjectUse::Kind::Mesh:
+  case ObjectUse::Kind::Instrument:
     return ending == ".obj";
   case ObjectUse::Kind::Stroke:
     return ending == ".stroke";
@@ -246,9 +247,7 @@ struct Archive
     {
       if (!fits(use.object, use))
         throwUnsound(path, use.what + " has no valid name of an object");
-      if (objects.count(use.object) == 0 &&
-          (!index.planOnly || use.kind == ObjectUse::Kind::Stroke ||
-           use.kind == ObjectUse::Kind::Attachment))
+      if (objects.count(use.object) == 0 && (!index.planOnly || isOfPlan(use)))
         throwUnsound(path, "it lacks " + use.what);
       needed.insert(use.object);
     }
@@ -537,6 +536,9 @@ void checkContents(const scene::Case& value, const ObjectStore& store, const fs:
           [&] { checkLabels(part, store.path(part.object), file, progress); });
   for (const scene::MeshPart& mesh : value.meshes)
     check("a mesh cannot be read", [&] { imaging::readMesh(store.path(mesh.object)); });
+  if (value.view.instrument)
+    check("an instrument cannot be read",
+          [&] { imaging::readMesh(store.path(value.view.instrument->object)); });
   const volume::CutMask untouched(value.ct.geometry);
   volume::CutMask applied = untouched;
   dissection::BrickDraft draft(applied);

@@ -72,6 +72,11 @@ double TickInput::spindle() const noexcept
   return isSpeed(*this) ? std::min(pedal, 1.0) : 1.0;
 }
 
+bool TickInput::pedalSetsSpeed() const noexcept
+{
+  return isSpeed(*this) && pedalDown() && !fullSpeedWanted(*this);
+}
+
 bool TickInput::clutched() const noexcept
 {
   return parameters.clutch || (buttons & parameters.clutchButtons) != 0;

@@ -30,6 +30,8 @@ struct TickInput
   bool pedalDown() const noexcept; ///< of a tick: the servo sets a pedal that is not on to 0
   /// Fraction of the spindle's speed that is wanted, 0 to 1 (ServoParameters::kPedalSpeed).
   double spindle() const noexcept;
+  /// Whether the pedal's pressure is that fraction, and not a button, key or switch.
+  bool pedalSetsSpeed() const noexcept;
   /// The tool is held in place, by parameter or button.
   bool clutched() const noexcept;
 };

@@ -8173,8 +8173,8 @@
         <translation>%~1: darf keine Steuerzeichen und keine unsichtbaren Zeichen haben (Leerzeichen ohne Breite, Richtungszeichen); geben Sie es neu ein</translation>
     </message>
     <message>
-        <source>%~1: must be a plain name without / \ : * ? " &lt; &gt; |, a dot or space at its ends, or a dash in front</source>
-        <translation>%~1: muss ein einfacher Name sein, ohne / \ : * ? " &lt; &gt; |, Punkt oder Leerzeichen an den Enden oder Strich am Anfang</translation>
+        <source>%~1 '%2': must be a plain name without / \ : * ? " &lt; &gt; |, a dot or space at its ends, or a dash in front</source>
+        <translation>%~1 „%2“: muss ein einfacher Name sein, ohne / \ : * ? " &lt; &gt; |, Punkt oder Leerzeichen an den Enden oder Strich am Anfang</translation>
     </message>
     <message>
         <source>case name</source>

@@ -288,6 +288,18 @@
         <translation>Struktur „%1“ heißt so, da der eigene Name zu lang, vergeben oder reserviert ist oder unsichtbare Zeichen hat</translation>
     </message>
     <message>
+        <source>%1: has %#2 different values, each of which would be a structure, and at most %#3 are taken; an image is added as an MR, and of an atlas only what is needed</source>
+        <translation>%1: hat %#2 verschiedene Werte, von denen jeder eine Struktur würde, und höchstens %#3 werden übernommen; ein Bild wird als MR hinzugefügt, und von einem Atlas nur, was gebraucht wird</translation>
+    </message>
+    <message>
+        <source>label %#1</source>
+        <translation>Label %#1</translation>
+    </message>
+    <message>
+        <source>%#1 values without a name became a structure each; if it is an image, remove them and add it as an MR</source>
+        <translation>%#1 Werte ohne Namen wurden je eine Struktur; ist es ein Bild, entfernen Sie sie und fügen Sie es als MR hinzu</translation>
+    </message>
+    <message>
         <source>states another patient's ID, name or date of birth than the case's images; it was added as asked</source>
         <translation>nennt eine andere Patienten-ID, einen anderen Namen oder ein anderes Geburtsdatum als die Bilder des Falls; wie gewünscht hinzugefügt</translation>
     </message>
@@ -322,6 +334,10 @@
     <message>
         <source>%#1 files of the folder are not a mask of one structure, and left out, among them %~2</source>
         <translation>%#1 Dateien des Ordners sind keine Masken einer Struktur und blieben weg, darunter %~2</translation>
+    </message>
+    <message>
+        <source>reading labels</source>
+        <translation>Labels werden gelesen</translation>
     </message>
     <message>
         <source>%1: none of its structures has a voxel; export it again with what was drawn</source>
@@ -4914,10 +4930,6 @@
         <translation>exportieren Sie weniger ihrer Strukturen auf einmal</translation>
     </message>
     <message>
-        <source>reading labels</source>
-        <translation>Labels werden gelesen</translation>
-    </message>
-    <message>
         <source>of the table of names beside it, %~1; that entry was left out</source>
         <translation>in der Namenstabelle daneben, %~1; dieser Eintrag blieb weg</translation>
     </message>
@@ -4972,10 +4984,6 @@
     <message>
         <source>its structure number %#1 has no label value from 1 to 65535; save it again in 3D Slicer</source>
         <translation>ihre Struktur Nummer %#1 hat keinen Labelwert von 1 bis 65535; speichern Sie sie in 3D Slicer neu</translation>
-    </message>
-    <message>
-        <source>label %#1</source>
-        <translation>Label %#1</translation>
     </message>
     <message>
         <source>gives two structures the label value %#1; each needs its own, save it again in 3D Slicer</source>
@@ -8165,8 +8173,8 @@
         <translation>%~1: darf keine Steuerzeichen und keine unsichtbaren Zeichen haben (Leerzeichen ohne Breite, Richtungszeichen); geben Sie es neu ein</translation>
     </message>
     <message>
-        <source>%~1: must be a plain name without / \ : * ? " &lt; &gt; |, a dot or space at its ends, or a dash in front</source>
-        <translation>%~1: muss ein einfacher Name sein, ohne / \ : * ? " &lt; &gt; |, Punkt oder Leerzeichen an den Enden oder Strich am Anfang</translation>
+        <source>%~1 '%2': must be a plain name without / \ : * ? " &lt; &gt; |, a dot or space at its ends, or a dash in front</source>
+        <translation>%~1 „%2“: muss ein einfacher Name sein, ohne / \ : * ? " &lt; &gt; |, Punkt oder Leerzeichen an den Enden oder Strich am Anfang</translation>
     </message>
     <message>
         <source>case name</source>

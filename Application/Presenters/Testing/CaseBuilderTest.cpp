@@ -1056,6 +1056,43 @@ TEST_F(CaseBuilder, StructuresWithoutANameDifferInColour)
   EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
 }
 
+// An MR that was chosen for a label map: its values are not structures.
+TEST_F(CaseBuilder, TellsAnImageFromALabelMapByTheNumberOfItsValues)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  const auto built = [&](int count)
+  {
+    auto labels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+    for (int n = 0; n < count; ++n)
+      labels->at(n % 16, n / 16 % 12, n / 192) = static_cast<std::uint16_t>(n + 1);
+    imaging::writeLabelFile(m_folder / "many.nii.gz", volume::makeLabelMap(std::move(labels), {}));
+    m_sources.parts.labels = {{"", m_folder / "many.nii.gz"}};
+    return presenters::buildCase("x", m_sources, {});
+  };
+  const auto isNoted = [](const scene::Case& value)
+  {
+    const auto& notes = value.labels.front().notes;
+    return std::any_of(notes.begin(), notes.end(),
+                       [](const std::string& note)
+                       { return note.find("without a name became") != std::string::npos; });
+  };
+  EXPECT_FALSE(isNoted(built(120)));
+  const scene::Case many = built(1000);
+  EXPECT_EQ(many.labels.front().structures.size(), 1000u);
+  EXPECT_TRUE(isNoted(many));
+  try
+  {
+    built(1001);
+    FAIL();
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("many.nii.gz: has 1001 different values"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // Labels and MR on the CT's grid, written in three frames: all coincide with the CT.
 TEST_F(CaseBuilder, PutsImagesAndLabelsOfEveryNrrdSpaceInOnePlace)
 {

@@ -675,7 +675,7 @@ StructureAppearance withPreset(const scene::Case& value, const std::string& part
   for (const scene::MeshPart& mesh : value.meshes)
     if (mesh.name != part)
       taken.push_back(mesh.look.color);
-  appearance::setColor(look, appearance::distinctColor(taken));
+  appearance::setColor(look, appearance::DistinctColors(taken).next());
   return look;
 }
 

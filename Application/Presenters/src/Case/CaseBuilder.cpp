@@ -644,16 +644,12 @@ void settleDrawnOn(scene::Case& value)
   }
 }
 
-// Colours of all parts of the case, and of a part to be added.
-std::vector<std::array<float, 3>> colorsOf(const scene::Case& value,
-                                           const std::vector<scene::StructurePart>& coming = {})
+std::vector<std::array<float, 3>> colorsOf(const scene::Case& value)
 {
   std::vector<std::array<float, 3>> colors;
   for (const auto& part : value.labels)
     for (const auto& structure : part.structures)
       colors.push_back(structure.look.color);
-  for (const auto& structure : coming)
-    colors.push_back(structure.look.color);
   for (const auto& mesh : value.meshes)
     colors.push_back(mesh.look.color);
   return colors;
@@ -898,6 +894,28 @@ std::string validName(const std::string& name, const IsTaken& isTaken,
   return valid;
 }
 
+// An image that was taken for a label map: each of its values would be a structure.
+void noteManyValues(const fs::path& path, const imaging::LoadedLabels& loaded,
+                    std::size_t structures, std::vector<std::string>& notes)
+{
+  constexpr std::size_t kMost = 1000; // the largest published atlases have some hundred
+  constexpr std::size_t kMany = 120;  // TotalSegmentator has 117
+  if (structures > kMost)
+    throw core::InvalidParameter(
+        path.string() + ": has " + std::to_string(structures) +
+        " different values, each of which would be a structure, and at most " +
+        std::to_string(kMost) +
+        " are taken; an image is added as an MR, and of an atlas only what is needed");
+  std::size_t unnamed = 0;
+  for (const volume::LabelMap& map : loaded.maps)
+    for (const volume::Segment& segment : map.segments)
+      unnamed += segment.voxels > 0 && segment.name == "label " + std::to_string(segment.index);
+  if (unnamed > kMany)
+    notes.push_back(std::to_string(unnamed) +
+                    " values without a name became a structure each; if it is an image, remove "
+                    "them and add it as an MR");
+}
+
 void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
                const core::Progress& progress, std::vector<StructureReport>* report)
 {
@@ -961,8 +979,10 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     structures += static_cast<std::size_t>(std::count_if(map.segments.begin(), map.segments.end(),
                                                          [](const volume::Segment& segment)
                                                          { return segment.voxels > 0; }));
+  noteManyValues(source.path, loaded, structures, notes);
   std::vector<std::string> taken;
   std::vector<StructureReport> reports;
+  appearance::DistinctColors colors(colorsOf(value));
   for (const imaging::UnreadStructure& unread : loaded.unread)
   {
     reports.push_back({unread.name, unread.isEmpty ? StructureReport::Status::Empty
@@ -978,6 +998,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     scene::LabelPart part;
     for (volume::Segment& segment : map.segments)
     {
+      progress.check("reading labels");
       if (segment.voxels == 0)
       {
         if (isFolder) // also in the map, which is stored
@@ -1047,10 +1068,6 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
         if (const auto meaning = loaded.meanings.find(segment.name);
             meaning != loaded.meanings.end())
           structure.look = presets.lookFor(meaning->second);
-      const bool colored = segment.color != std::array<float, 3>{};
-      if (isUnknown(structure.look))
-        structure.look.color =
-            colored ? segment.color : appearance::distinctColor(colorsOf(value, part.structures));
       // Of several all that are taken are told at once.
       if (structures > 1 &&
           (!scene::partReadAs(value, structure.name).empty() ||
@@ -1070,6 +1087,14 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
       one.layer = layer;
       one.file = source.path;
       reports.push_back(std::move(one));
+      if (isUnknown(structure.look) && segment.color == std::array<float, 3>{})
+        structure.look.color = colors.next();
+      else
+      {
+        if (isUnknown(structure.look))
+          structure.look.color = segment.color;
+        colors.take(structure.look.color);
+      }
       if (loaded.isNamedAfterFile)
         segment.name = structure.name; // the map is stored, and a file's name may be a patient's
       part.structures.push_back(std::move(structure));
@@ -1162,7 +1187,7 @@ void addMesh(scene::Case& value, const PartSource& source, const core::Progress&
   part.mesh = std::shared_ptr<const core::TriangleMesh>(std::move(mesh));
   part.look = appearance::StructurePresets::builtIn().lookFor(part.name);
   if (isUnknown(part.look))
-    part.look.color = appearance::distinctColor(colorsOf(value));
+    part.look.color = appearance::DistinctColors(colorsOf(value)).next();
   value.meshes.push_back(std::move(part));
 }
 
@@ -1432,6 +1457,7 @@ void addStructures(scene::Case& value, volume::LabelMap labels)
 {
   const auto presets = appearance::StructurePresets::builtIn();
   scene::LabelPart part;
+  appearance::DistinctColors colors(colorsOf(value));
   for (const volume::Segment& segment : labels.segments)
   {
     scene::checkPartName(segment.name);
@@ -1449,7 +1475,9 @@ void addStructures(scene::Case& value, volume::LabelMap labels)
     structure.codes.algorithmName = "Petrous";
     structure.look = presets.lookFor(structure.name);
     if (isUnknown(structure.look))
-      structure.look.color = appearance::distinctColor(colorsOf(value, part.structures));
+      structure.look.color = colors.next();
+    else
+      colors.take(structure.look.color);
     part.structures.push_back(std::move(structure));
   }
   part.drawnOn = std::string();

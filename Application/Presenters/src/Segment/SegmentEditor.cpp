@@ -1975,7 +1975,7 @@ std::array<float, 3> SegmentEditor::colorNow() const
   const auto look = appearance::StructurePresets::builtIn().lookFor(m_draft->name);
   if (look.preset != "other" || !m_model.hasCase())
     return look.color;
-  return appearance::distinctColor(structureColors(m_model.value()));
+  return appearance::DistinctColors(structureColors(m_model.value())).next();
 }
 
 DraftLayer SegmentEditor::layer() const

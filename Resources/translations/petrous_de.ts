@@ -5664,6 +5664,10 @@ Verletzt: %1, %2</translation>
         <source> (%1%2 by hand)</source>
         <translation> (%1%2 von Hand)</translation>
     </message>
+    <message>
+        <source>The registration ended with its case; the MR lies as before</source>
+        <translation>Die Registrierung endete mit ihrem Fall; das MR liegt wie zuvor</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::RegistrationPanel</name>

@@ -222,6 +222,7 @@ bool RegistrationController::running() const
 
 void RegistrationController::caseChanged()
 {
+  const bool stopped = running();
   m_run->drop();
   m_waiting.reset();
   delete m_question; // of the previous case
@@ -235,6 +236,8 @@ void RegistrationController::caseChanged()
   m_overlay->reset();
   showMarks();
   emit runningChanged();
+  if (stopped)
+    emit statusMessage(tr("The registration ended with its case; the MR lies as before"));
 }
 
 void RegistrationController::partsChanged()

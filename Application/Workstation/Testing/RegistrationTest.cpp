@@ -626,6 +626,16 @@ TEST_F(RegistrationWindow, AResultWaitsForTheDrill)
   EXPECT_TRUE(find<QPushButton>("register").isEnabled());
 }
 
+TEST_F(RegistrationWindow, ClosingItsCaseEndsARunAndSaysSo)
+{
+  showPanel();
+  click("register");
+  action("Close the case")->trigger();
+  EXPECT_TRUE(waitFor([this] { return !window().model().hasCase(); }));
+  EXPECT_EQ(window().statusBar()->currentMessage(),
+            "The registration ended with its case; the MR lies as before");
+}
+
 TEST_F(RegistrationWindow, AnMrGoesToTheCtThroughOneThatIsThere)
 {
   scene::Case value = library().open("ear");

@@ -216,6 +216,13 @@ QColor warningColor()
   return QApplication::palette().color(QPalette::LinkVisited);
 }
 
+QIcon untinted(const QPixmap& pixmap)
+{
+  QIcon icon(pixmap);
+  icon.addPixmap(pixmap, QIcon::Selected);
+  return icon;
+}
+
 QColor harmColor()
 {
   // Of the same lightness as the other text of the scheme.

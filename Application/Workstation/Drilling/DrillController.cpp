@@ -809,10 +809,9 @@ QString DrillController::whyStalled(const TickRecord& record) const
                : tr("Shaft and handpiece lie on tissue and hold the burr off");
   if (m_stall.cannotArrive())
     return record.held != 0
-               ? tr("The burr does not get to where you press: shaft or handpiece meet tissue on "
-                    "the way. Turn the handpiece, or press where the burr rests.")
-               : tr("The burr does not get to where you press: tissue is in its way. Press where "
-                    "the burr rests.");
+               ? tr("Shaft or handpiece keep the burr from where you press: turn the handpiece, or "
+                    "press where the burr rests")
+               : tr("Tissue keeps the burr from where you press: press where the burr rests");
   if (!m_stall.stalls())
     return {};
   const Eigen::Vector3d force(record.burrForce[0], record.burrForce[1], record.burrForce[2]);

@@ -2965,6 +2965,14 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <source>instrument</source>
         <translation>Instrument</translation>
     </message>
+    <message>
+        <source>Shaft or handpiece keep the burr from where you press: turn the handpiece, or press where the burr rests</source>
+        <translation>Schaft oder Handstück halten die Fräse von der gedrückten Stelle ab: Handstück drehen oder dort drücken, wo die Fräse anliegt</translation>
+    </message>
+    <message>
+        <source>Tissue keeps the burr from where you press: press where the burr rests</source>
+        <translation>Gewebe hält die Fräse von der gedrückten Stelle ab: dort drücken, wo die Fräse anliegt</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::DrillSound</name>

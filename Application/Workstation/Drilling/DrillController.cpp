@@ -807,6 +807,11 @@ QString DrillController::whyStalled(const TickRecord& record) const
            : held == TickRecord::kHandpiece
                ? tr("The handpiece lies on tissue and holds the burr off")
                : tr("Shaft and handpiece lie on tissue and hold the burr off");
+  if (m_stall.cannotArrive())
+    return record.held != 0
+               ? tr("Shaft or handpiece keep the burr from where you press: turn the handpiece, or "
+                    "press where the burr rests")
+               : tr("Tissue keeps the burr from where you press: press where the burr rests");
   if (!m_stall.stalls())
     return {};
   const Eigen::Vector3d force(record.burrForce[0], record.burrForce[1], record.burrForce[2]);

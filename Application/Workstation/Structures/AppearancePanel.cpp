@@ -56,7 +56,7 @@ QIcon swatch(const QColor& color)
   painter.setPen(QColor(0, 0, 0, 160));
   painter.setBrush(color);
   painter.drawRoundedRect(QRectF(0.5, 0.5, kSize - 1.0, kSize - 1.0), 3.0, 3.0);
-  return QIcon(pixmap);
+  return untinted(pixmap);
 }
 
 QToolButton* menuButton(const QString& text, const char* name, const QString& tip, QMenu* menu)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -442,7 +443,12 @@ void StructureEditor::chooseColor(const std::vector<std::string>& parts, const Q
   const auto hold = std::make_shared<EditHistory::Hold>(m_model.edits()); // dies with the chooser
   const auto before = m_model.edits().last();
   const auto of = m_model.shownAs();
-  const auto paint = [this, parts, of](const QColor& color)
+  // Each colour is tried on these: a dark one in between would flatten their transfer functions.
+  std::map<std::string, StructureAppearance> looks;
+  for (const std::string& part : parts)
+    if (const auto* look = m_model.lookOf(part))
+      looks.emplace(part, *look);
+  const auto paint = [this, parts, of, looks = std::move(looks)](const QColor& color)
   {
     if (m_model.shownAs() != of)
       return;
@@ -450,8 +456,12 @@ void StructureEditor::chooseColor(const std::vector<std::string>& parts, const Q
                                    static_cast<float>(color.greenF()),
                                    static_cast<float>(color.blueF())};
     presenters::changeLooks(m_model, parts,
-                            [&rgb](const std::string&, StructureAppearance& look)
-                            { setColor(look, rgb); });
+                            [&](const std::string& part, StructureAppearance& look)
+                            {
+                              if (const auto found = looks.find(part); found != looks.end())
+                                look = found->second;
+                              setColor(look, rgb);
+                            });
   };
   connect(chooser, &ColorChooser::previewed, this, paint);
   connect(chooser, &ColorChooser::chosen, this,

@@ -550,7 +550,7 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
       return row.row.missing.empty() ? name : tr("%1 (not on the %2)").arg(name, primary());
     }
     if (role == Qt::DecorationRole)
-      return swatch(row.row.look);
+      return untinted(swatch(row.row.look));
     if (role == Qt::AccessibleTextRole)
       return tr("%1, colour %2, %3")
           .arg(title(row.row), colorOf(row.row.look).name(),

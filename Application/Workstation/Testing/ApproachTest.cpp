@@ -245,6 +245,13 @@ TEST_F(Approaches, AreComparedByOneKey)
   EXPECT_NEAR(cell("Distance to nerve", 1).section(' ', 0, 0).toDouble(), 5.0, 0.31);
   const auto [first, second] = comparison()->views();
   EXPECT_TRUE(second->isVisible());
+  // Each picture names the approach that it shows, and then the case.
+  const QString ofCase = view().stamp();
+  EXPECT_FALSE(ofCase.isEmpty());
+  for (const auto& [picture, column] : {std::pair(first, 1), std::pair(second, 2)})
+    EXPECT_EQ(picture->stamp(), comparison()->table().horizontalHeaderItem(column)->text() +
+                                    QString::fromUtf8(" · ") + ofCase);
+  EXPECT_NE(first->stamp(), second->stamp());
   core::CameraPose camera = first->picture().camera();
   camera.position = kBallCenter + Vector3d(0, -60, 30);
   first->setCamera(camera);
@@ -257,6 +264,7 @@ TEST_F(Approaches, AreComparedByOneKey)
   const QImage before = steady([&] { return slice->grab().toImage(); });
   comparison()->findChild<QCheckBox*>("showDifference")->click();
   EXPECT_FALSE(second->isVisible());
+  EXPECT_EQ(first->stamp(), ofCase) << "it shows both";
   // Orange where main alone removed bone.
   QImage drawn;
   int orange = 0, blue = 0;

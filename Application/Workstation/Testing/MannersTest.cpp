@@ -771,3 +771,33 @@ TEST_F(Manners, TabGoesThroughAllOfAPanel)
     dock->hide();
   }
 }
+
+// Around the whole window by Tab: each stop looks different with the focus and without it.
+TEST_F(Manners, EachStopOfTabShowsThatItHasTheFocus)
+{
+  saveBall("ball");
+  openWindow("ball");
+  EXPECT_TRUE(waitFor([this] { return window().model().ready(); }));
+  picture(); // the view at rest
+  QApplication::setActiveWindow(&window());
+  view().setFocus(Qt::OtherFocusReason);
+  std::set<QWidget*> seen;
+  std::set<QString> names;
+  for (int n = 0; n < 200 && QApplication::focusWidget(); ++n)
+  {
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);
+    QWidget* at = QApplication::focusWidget();
+    if (!at || !seen.insert(at).second)
+      break;
+    names.insert(at->objectName());
+    const QImage with = at->grab().toImage();
+    at->clearFocus();
+    EXPECT_TRUE(
+        waitFor([&] { return differentPixels(with, at->grab().toImage(), kSmoothing) > 40; }))
+        << described(*at).toStdString();
+    at->setFocus(Qt::TabFocusReason);
+  }
+  for (const char* name : {"drillButton", "pointerButton", "wheelButton", "deviceMore",
+                           "threeDView", "axialView", "coronalView", "sagittalView"})
+    EXPECT_TRUE(names.count(name)) << name << " is not reached";
+}

@@ -144,6 +144,63 @@ TEST_F(Structures, AStructureIsRecolouredWithTwoClicks)
   EXPECT_EQ(action("Redo")->text(), "&Redo colour of nerve");
 }
 
+// The selection, blue, does not tint what tells structures apart.
+TEST_F(Structures, AColourIsDrawnAsItIsInASelectedRow)
+{
+  openWith({});
+  appearance::StructureAppearance yellow = look("nerve");
+  yellow.color = {247.0F / 255.0F, 222.0F / 255.0F, 115.0F / 255.0F};
+  model().setLooks({{"nerve", yellow}}, {});
+  const auto swatch = [this]
+  {
+    const QRect rect = structureList().visualRect(structureCell("nerve"));
+    const QImage drawn = structureList().viewport()->grab(rect).toImage();
+    return drawn.pixelColor(drawn.width() * kSwatch / rect.width(), drawn.height() / 2);
+  };
+  EXPECT_EQ(swatch().name(), "#f7de73");
+  structureList().setCurrentIndex(structureCell("nerve"));
+  ASSERT_TRUE(structureList().selectionModel()->isSelected(structureCell("nerve")));
+  EXPECT_EQ(swatch().name(), "#f7de73");
+}
+
+// Of a part with a transfer function, which is tinted too; the pointer rests on others first.
+TEST_F(Structures, AColourOfATransferFunctionIsOneStepHoweverManyAreTried)
+{
+  openWith({});
+  using appearance::ControlPoint;
+  const auto pointAt = [](double value, float red, float green, float blue)
+  {
+    ControlPoint point;
+    point.value = value;
+    point.color = {red, green, blue};
+    point.opacity = 0.3F;
+    return point;
+  };
+  appearance::StructureAppearance tinted = look("nerve");
+  tinted.color = {0.97F, 0.87F, 0.45F};
+  tinted.transfer = appearance::TransferFunction(
+      {pointAt(100.0, 0.31F, 0.29F, 0.17F), pointAt(900.0, 0.7F, 0.63F, 0.33F)});
+  model().setLooks({{"nerve", tinted}}, "preparation");
+  const QColor wanted = QColor::fromHsv(90, 110, 255);
+  clickCell("nerve", 0, kSwatch);
+  auto* chooser = find<ColorChooser>("colorChooser");
+  ASSERT_TRUE(chooser);
+  emit chooser->previewed(Qt::black);
+  emit chooser->previewed(wanted);
+  QToolButton* cell = colorCell(wanted);
+  ASSERT_TRUE(cell);
+  click(cell, cell->rect().center());
+  appearance::StructureAppearance expected = tinted;
+  appearance::setColor(expected,
+                       {static_cast<float>(wanted.redF()), static_cast<float>(wanted.greenF()),
+                        static_cast<float>(wanted.blueF())});
+  EXPECT_TRUE(look("nerve") == expected) << "the black in between is not seen";
+  EXPECT_EQ(action("Undo")->text(), "&Undo colour of nerve");
+  action("Undo")->trigger();
+  EXPECT_TRUE(look("nerve") == tinted);
+  EXPECT_EQ(action("Undo")->text(), "&Undo preparation");
+}
+
 TEST_F(Structures, OneOfSixtyIsShownAloneWithTwoClicksAndAllAgainWithOne)
 {
   openMany(60);

@@ -27,6 +27,8 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QTabBar>
+#include <QToolBar>
+#include <QToolButton>
 #include <QUrl>
 #include <QVBoxLayout>
 
@@ -341,6 +343,11 @@ void MainWindow::layOut()
 // was not clicked.
 void MainWindow::guardBoxes()
 {
+  // Of its actions a tool bar makes buttons that Tab passes over.
+  for (auto* bar : findChildren<QToolBar*>())
+    for (QAction* action : bar->actions())
+      if (auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action)))
+        button->setFocusPolicy(Qt::TabFocus);
   for (auto* dock : findChildren<QDockWidget*>()) // those of the slices are turned by the wheel
     for (auto* slider : dock->findChildren<QSlider*>())
     {

@@ -83,7 +83,7 @@ QToolBar::separator { background: @rule; width: 1px; margin: 4px 6px; }
 QToolButton { padding: 5px 10px; border-radius: 4px; border: 1px solid transparent; }
 QToolButton:hover { background: @hover; }
 QToolButton:pressed { background: @pressed; }
-QToolButton:focus { border-color: @accent; }
+QToolButton:focus { border-color: @focus; }
 QToolButton:disabled { color: @off; }
 QFileDialog QToolButton { padding: 3px; }
 QTabBar QToolButton { padding: 0; background: @panel; }
@@ -93,10 +93,12 @@ QToolButton#pointerButton:checked { background: @checked; border-color: @checked
 QToolButton#wheelButton { border: 1px solid @frame; }
 QToolButton#wheelButton:checked { background: @checked; border-color: @checkedEdge; color: #ffffff; }
 QToolButton#drillButton:checked { background: @drill; border-color: @edgeOfDrill; color: #ffffff; }
+QToolButton#drillButton:focus, QToolButton#pointerButton:focus, QToolButton#wheelButton:focus {
+  border-color: @focus; }
 QToolButton#segmentTool, QToolButton#measureTool {
   border: 1px solid @toolEdge; background: @tool; padding: 6px 4px; }
 QToolButton#segmentTool:hover, QToolButton#measureTool:hover { background: @hover; }
-QToolButton#segmentTool:focus, QToolButton#measureTool:focus { border-color: @accent; }
+QToolButton#segmentTool:focus, QToolButton#measureTool:focus { border-color: @focus; }
 QToolButton#segmentTool:checked, QToolButton#measureTool:checked {
   background: @checked; border-color: @checkedEdge; color: #ffffff; }
 QAbstractSpinBox[refused="true"] { color: @drill; }
@@ -135,6 +137,7 @@ QLabel#guessed { color: #ff8c2b; background: rgba(16, 19, 23, 150); border-radiu
                  padding: 1px 6px; }
 QLabel#direction { color: #c9d2dc; font-size: %1px; font-weight: 700;
                    background: rgba(16, 19, 23, 150); border-radius: 4px; padding: 1px 6px; }
+QWidget#focusFrame { background: #62b0ec; }
 QLabel#caseStamp { color: #c9d2dc; background: rgba(16, 19, 23, 150); border-radius: 4px;
                    padding: 1px 6px; }
 QFrame[banner="notice"] { background: @notice; border-bottom: 1px solid @edgeOfNotice; }
@@ -214,6 +217,13 @@ void applyTheme(QApplication& application, const Theme& theme)
 QColor warningColor()
 {
   return QApplication::palette().color(QPalette::LinkVisited);
+}
+
+QIcon untinted(const QPixmap& pixmap)
+{
+  QIcon icon(pixmap);
+  icon.addPixmap(pixmap, QIcon::Selected);
+  return icon;
 }
 
 QColor harmColor()

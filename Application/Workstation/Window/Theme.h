@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QColor>
+#include <QIcon>
 #include <QString>
 
 #include "petrous/Presenters/SliceGeometry.h"
@@ -39,6 +40,9 @@ QColor warningColor();
 /// The same as a style sheet of a widget, which follows the theme.
 constexpr const char* kWarningStyle = "color: palette(link-visited);";
 QColor harmColor();
+
+/// Drawn in its own colours in a selected row, too.
+QIcon untinted(const QPixmap& pixmap);
 
 /// The colour of a slice plane in every view.
 QColor planeColor(presenters::SliceOrientation orientation);

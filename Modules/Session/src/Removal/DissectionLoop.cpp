@@ -35,7 +35,7 @@ bool isInterruption(const TickRecord& record)
   case ServoFault::Clock:
     return true;
   case ServoFault::None:
-    return record.drill == 0 && !record.input.clutched() && !record.input.parameters.pause;
+    return isArriving(record);
   default:
     return false;
   }

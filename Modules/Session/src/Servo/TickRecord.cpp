@@ -88,6 +88,13 @@ bool isHeldOff(const TickRecord& record) noexcept
   return record.drill != 0 && record.held != 0 && record.thrust < 0.5 * force;
 }
 
+bool isArriving(const TickRecord& record) noexcept
+{
+  return record.drill == 0 && record.input.drillWanted() && !record.input.clutched() &&
+         !record.input.parameters.pause &&
+         static_cast<ServoFault>(record.fault) == ServoFault::None;
+}
+
 std::string holderToString(std::uint8_t held)
 {
   const bool shaft = (held & TickRecord::kShaft) != 0;

@@ -97,6 +97,9 @@ std::string holderToString(std::uint8_t held);
 /// The drill is on, and shaft or handpiece carry most of the burr's force.
 bool isHeldOff(const TickRecord& record) noexcept;
 
+/// The drill is to be on, but a pointer's tool is still on its way to where it is pressed.
+bool isArriving(const TickRecord& record) noexcept;
+
 /// Whether two records are bit-identical.
 bool identical(const TickRecord& a, const TickRecord& b) noexcept;
 

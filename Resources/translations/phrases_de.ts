@@ -1132,6 +1132,14 @@
         <translation>Weichteile</translation>
     </message>
     <message>
+        <source>MR '%1' is left out</source>
+        <translation>das MR „%1“ ist weggelassen</translation>
+    </message>
+    <message>
+        <source>there is no MR '%1' to leave out</source>
+        <translation>es gibt kein MR „%1“, das wegzulassen wäre</translation>
+    </message>
+    <message>
         <source>loading structures</source>
         <translation>Strukturen werden geladen</translation>
     </message>
@@ -8269,12 +8277,12 @@
         <translation>%1: %#2 % der Gesichtshaut blieben, da %~3 dort liegt und mit %#4 mm Umgebung bleibt; entfernen Sie es erst aus einer Kopie des Falls</translation>
     </message>
     <message>
-        <source>%1: %~2 with %#3 mm around lies in the masked part and stays, %#4 voxels</source>
-        <translation>%1: %~2 mit %#3 mm Umgebung liegt im maskierten Teil und bleibt, %#4 Voxel</translation>
-    </message>
-    <message>
         <source>%1: %~2; it cannot be masked. Leave the image out, or hand on the region of the ear alone (--roi)</source>
         <translation>%1: %~2; es lässt sich nicht maskieren. Lassen Sie das Bild weg, oder geben Sie allein die Region des Ohrs weiter</translation>
+    </message>
+    <message>
+        <source>%1: %~2 with %#3 mm around lies in the masked part and stays, %#4 voxels</source>
+        <translation>%1: %~2 mit %#3 mm Umgebung liegt im maskierten Teil und bleibt, %#4 Voxel</translation>
     </message>
     <message>
         <source>%1: the face is masked already, but not the auricles, which are found by it; mask both in the image as it was</source>

@@ -44,7 +44,7 @@
     </message>
     <message>
         <source>A face can be recognised in %1.</source>
-        <translation>In %1 ist ein Gesicht erkennbar.</translation>
+        <translation>Hier ist ein Gesicht erkennbar: %1.</translation>
     </message>
     <message>
         <source>An unexpected fault.</source>
@@ -161,6 +161,18 @@
     <message>
         <source>%1: %2</source>
         <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>MR “%1”</source>
+        <translation>MR „%1“</translation>
+    </message>
+    <message>
+        <source>main</source>
+        <translation>Hauptzugang</translation>
     </message>
 </context>
 <context>
@@ -1316,10 +1328,6 @@
         <translation>Es muss vom selben Patienten sein.%1</translation>
     </message>
     <message>
-        <source> An MR is shown over the %1 once it is registered (F5).</source>
-        <translation> Ein MR wird über dem %1 gezeigt, sobald es registriert ist (F5).</translation>
-    </message>
-    <message>
         <source>&amp;Add to “%1”</source>
         <translation>Zu „%1“ &amp;hinzufügen</translation>
     </message>
@@ -1807,7 +1815,7 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     </message>
     <message>
         <source>and %1 of other approaches</source>
-        <translation>und %1 anderer Zugänge</translation>
+        <translation>und %1 in anderen Zugängen</translation>
     </message>
     <message>
         <source>“%1”</source>
@@ -1840,6 +1848,14 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>“%1” states another patient than the images of “%2” do. What differs: %3.</source>
         <translation>„%1“ nennt einen anderen Patienten als die Bilder von „%2“. Es unterscheiden sich: %3.</translation>
+    </message>
+    <message>
+        <source> An MR is shown over the %1 once it is registered.</source>
+        <translation> Ein MR wird über dem %1 gezeigt, sobald es registriert ist.</translation>
+    </message>
+    <message>
+        <source>Put air in place of the &amp;face, and leave out %1</source>
+        <translation>Luft an die Stelle des &amp;Gesichts setzen und weglassen: %1</translation>
     </message>
 </context>
 <context>
@@ -4507,16 +4523,16 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
 <context>
     <name>petrous::workstation::MetricCurve</name>
     <message>
-        <source>Mutual information while the registration runs, nats; higher is better. A vertical line: the next finer level, with a scale of its own</source>
-        <translation>Transinformation, während die Registrierung läuft, nat; höher ist besser. Eine senkrechte Linie: die nächstfeinere Stufe, mit eigener Skala</translation>
-    </message>
-    <message>
         <source>Metric while the registration runs</source>
         <translation>Metrik, während die Registrierung läuft</translation>
     </message>
     <message>
         <source>level %1, metric %2</source>
         <translation>Stufe %1, Metrik %2</translation>
+    </message>
+    <message>
+        <source>Mutual information while the registration runs, nats; within a level, higher is better. A vertical line and a number: the next finer level, with a scale of its own. Values of two levels are not comparable: on finer images it is lower</source>
+        <translation>Transinformation, während die Registrierung läuft, in nat; innerhalb einer Stufe ist höher besser. Eine senkrechte Linie und eine Zahl: die nächste feinere Stufe mit eigener Skala. Werte zweier Stufen sind nicht vergleichbar: Auf feineren Bildern ist sie niedriger</translation>
     </message>
 </context>
 <context>

@@ -1148,6 +1148,14 @@
         <translation>Weichteile</translation>
     </message>
     <message>
+        <source>MR '%1' is left out</source>
+        <translation>das MR „%1“ ist weggelassen</translation>
+    </message>
+    <message>
+        <source>there is no MR '%1' to leave out</source>
+        <translation>es gibt kein MR „%1“, das wegzulassen wäre</translation>
+    </message>
+    <message>
         <source>loading structures</source>
         <translation>Strukturen werden geladen</translation>
     </message>
@@ -2244,8 +2252,8 @@
         <translation>registriert auf %#1 mm (p95) hier</translation>
     </message>
     <message>
-        <source>registered to %#1 mm (p95) at %2, %#3 mm from here, where it may be more</source>
-        <translation>registriert auf %#1 mm (p95) an %2, %#3 mm von hier, wo es mehr sein kann</translation>
+        <source>registered to %#1 mm (p95) %~2, %#3 mm from here, where it may be more</source>
+        <translation>registriert auf %#1 mm (p95) %~2, %#3 mm von hier, wo es mehr sein kann</translation>
     </message>
     <message>
         <source>voxels %#1 x %#2 x %#3 mm, slices %#4 mm apart</source>
@@ -2312,8 +2320,8 @@
         <translation>Wie gut „%1“ auf dem CT liegt, ist nicht bekannt, der Fehler daher auch nicht.</translation>
     </message>
     <message>
-        <source>The error is that of both ways: to '%1', and from there to the CT (%#2 (p95) at %3).</source>
-        <translation>Der Fehler ist der beider Wege: zu „%1“ und von dort zum CT (%#2 (p95) an %3).</translation>
+        <source>The error is that of both ways: to '%1', and from there to the CT (%#2 (p95) %~3).</source>
+        <translation>Der Fehler ist der beider Wege: zu „%1“ und von dort zum CT (%#2 (p95) %~3).</translation>
     </message>
     <message>
         <source>That '%1' lies right on the CT is not sure.</source>
@@ -8045,8 +8053,8 @@
         <translation>registriert: %~1, %~2</translation>
     </message>
     <message>
-        <source>error %#1 mm (p95) at %2</source>
-        <translation>Fehler %#1 mm (p95) an %2</translation>
+        <source>error %#1 mm (p95) %~2</source>
+        <translation>Fehler %#1 mm (p95) %~2</translation>
     </message>
     <message>
         <source>its error unknown</source>
@@ -8277,12 +8285,12 @@
         <translation>%1: %#2 % der Gesichtshaut blieben, da %~3 dort liegt und mit %#4 mm Umgebung bleibt; entfernen Sie es erst aus einer Kopie des Falls</translation>
     </message>
     <message>
-        <source>%1: %~2 with %#3 mm around lies in the masked part and stays, %#4 voxels</source>
-        <translation>%1: %~2 mit %#3 mm Umgebung liegt im maskierten Teil und bleibt, %#4 Voxel</translation>
-    </message>
-    <message>
         <source>%1: %~2; it cannot be masked. Leave the image out, or hand on the region of the ear alone (--roi)</source>
         <translation>%1: %~2; es lässt sich nicht maskieren. Lassen Sie das Bild weg, oder geben Sie allein die Region des Ohrs weiter</translation>
+    </message>
+    <message>
+        <source>%1: %~2 with %#3 mm around lies in the masked part and stays, %#4 voxels</source>
+        <translation>%1: %~2 mit %#3 mm Umgebung liegt im maskierten Teil und bleibt, %#4 Voxel</translation>
     </message>
     <message>
         <source>%1: the face is masked already, but not the auricles, which are found by it; mask both in the image as it was</source>
@@ -9332,6 +9340,77 @@
     </message>
 </context>
 <context>
+    <name>Progress</name>
+    <message>
+        <source>reading DICOM headers</source>
+        <translation>DICOM-Header werden gelesen</translation>
+    </message>
+    <message>
+        <source>writing DICOM slices</source>
+        <translation>DICOM-Schichten werden geschrieben</translation>
+    </message>
+    <message>
+        <source>writing segments</source>
+        <translation>Segmente werden geschrieben</translation>
+    </message>
+    <message>
+        <source>restoring</source>
+        <translation>Wiederherstellung</translation>
+    </message>
+    <message>
+        <source>archiving</source>
+        <translation>Archivierung</translation>
+    </message>
+    <message>
+        <source>saving</source>
+        <translation>Speichern</translation>
+    </message>
+    <message>
+        <source>repairing</source>
+        <translation>Reparatur</translation>
+    </message>
+    <message>
+        <source>checking</source>
+        <translation>Prüfung</translation>
+    </message>
+    <message>
+        <source>scanning the phantom</source>
+        <translation>das Phantom wird gescannt</translation>
+    </message>
+    <message>
+        <source>labelling the phantom</source>
+        <translation>das Phantom wird segmentiert</translation>
+    </message>
+    <message>
+        <source>measuring and writing surfaces</source>
+        <translation>Oberflächen werden vermessen und geschrieben</translation>
+    </message>
+    <message>
+        <source>registration's error</source>
+        <translation>Fehler der Registrierung</translation>
+    </message>
+    <message>
+        <source>registration's verdict</source>
+        <translation>Urteil über die Registrierung</translation>
+    </message>
+    <message>
+        <source>fitting</source>
+        <translation>Anpassung</translation>
+    </message>
+    <message>
+        <source>reference picture</source>
+        <translation>Referenzbild</translation>
+    </message>
+    <message>
+        <source>masking</source>
+        <translation>Maskierung</translation>
+    </message>
+    <message>
+        <source>decimation</source>
+        <translation>Dezimierung</translation>
+    </message>
+</context>
+<context>
     <name>Assembled</name>
     <message>
         <source>%1 touched (± %#2 mm)</source>
@@ -9342,20 +9421,224 @@
         <translation>unter 0.01 mm³</translation>
     </message>
     <message>
-        <source>The folder has another %1 of %#2 slices of %#3 mm</source>
-        <translation>Der Ordner hat noch ein %1 mit %#2 Schichten von %#3 mm</translation>
+        <source>show bone</source>
+        <translation>Knochen zeigen</translation>
     </message>
     <message>
-        <source>The folder has another %1 of %#2 slices of %#3 mm (needs --repair)</source>
-        <translation>Der Ordner hat noch ein %1 mit %#2 Schichten von %#3 mm (braucht Reparatur)</translation>
+        <source>show tissue</source>
+        <translation>Gewebe zeigen</translation>
     </message>
     <message>
-        <source>The folder has another %1 of %#2 slices of %#3 mm (refused)</source>
-        <translation>Der Ordner hat noch ein %1 mit %#2 Schichten von %#3 mm (abgelehnt)</translation>
+        <source>hide bone</source>
+        <translation>Knochen ausblenden</translation>
     </message>
     <message>
-        <source>The folder has another %1 of %#2 slices (refused)</source>
-        <translation>Der Ordner hat noch ein %1 mit %#2 Schichten (abgelehnt)</translation>
+        <source>hide tissue</source>
+        <translation>Gewebe ausblenden</translation>
+    </message>
+    <message>
+        <source>view '%1'</source>
+        <translation>Ansicht „%1“</translation>
+    </message>
+    <message>
+        <source>removal of view '%1'</source>
+        <translation>Entfernen der Ansicht „%1“</translation>
+    </message>
+    <message>
+        <source>at (%#1, %#2, %#3)</source>
+        <translation>bei (%#1, %#2, %#3)</translation>
+    </message>
+    <message>
+        <source>at the middle of '%1'</source>
+        <translation>in der Mitte von „%1“</translation>
+    </message>
+    <message>
+        <source>at the centre of the %~1</source>
+        <translation>in der Mitte des %~1</translation>
+    </message>
+    <message>
+        <source>at the centre of what both images show</source>
+        <translation>in der Mitte dessen, was beide Bilder zeigen</translation>
+    </message>
+    <message>
+        <source>preset of %1</source>
+        <translation>Vorgabe von %1</translation>
+    </message>
+    <message>
+        <source>preset of bone</source>
+        <translation>Vorgabe des Knochens</translation>
+    </message>
+    <message>
+        <source>preset of tissue</source>
+        <translation>Vorgabe des Gewebes</translation>
+    </message>
+    <message>
+        <source>visibility of %1</source>
+        <translation>Sichtbarkeit von %1</translation>
+    </message>
+    <message>
+        <source>visibility of bone</source>
+        <translation>Sichtbarkeit des Knochens</translation>
+    </message>
+    <message>
+        <source>visibility of tissue</source>
+        <translation>Sichtbarkeit des Gewebes</translation>
+    </message>
+    <message>
+        <source>touch of %1</source>
+        <translation>Fühlbarkeit von %1</translation>
+    </message>
+    <message>
+        <source>touch of bone</source>
+        <translation>Fühlbarkeit des Knochens</translation>
+    </message>
+    <message>
+        <source>touch of tissue</source>
+        <translation>Fühlbarkeit des Gewebes</translation>
+    </message>
+    <message>
+        <source>drilling of %1</source>
+        <translation>Bohrbarkeit von %1</translation>
+    </message>
+    <message>
+        <source>drilling of bone</source>
+        <translation>Bohrbarkeit des Knochens</translation>
+    </message>
+    <message>
+        <source>drilling of tissue</source>
+        <translation>Bohrbarkeit des Gewebes</translation>
+    </message>
+    <message>
+        <source>solidity of %1</source>
+        <translation>Art (Gewebe oder Hohlraum) von %1</translation>
+    </message>
+    <message>
+        <source>solidity of bone</source>
+        <translation>Art (Gewebe oder Hohlraum) des Knochens</translation>
+    </message>
+    <message>
+        <source>solidity of tissue</source>
+        <translation>Art (Gewebe oder Hohlraum) des Gewebes</translation>
+    </message>
+    <message>
+        <source>material of %1</source>
+        <translation>Material von %1</translation>
+    </message>
+    <message>
+        <source>material of bone</source>
+        <translation>Material des Knochens</translation>
+    </message>
+    <message>
+        <source>material of tissue</source>
+        <translation>Material des Gewebes</translation>
+    </message>
+    <message>
+        <source>stiffness of %1</source>
+        <translation>Steifigkeit von %1</translation>
+    </message>
+    <message>
+        <source>stiffness of bone</source>
+        <translation>Steifigkeit des Knochens</translation>
+    </message>
+    <message>
+        <source>stiffness of tissue</source>
+        <translation>Steifigkeit des Gewebes</translation>
+    </message>
+    <message>
+        <source>warning distance of %1</source>
+        <translation>Warnabstand von %1</translation>
+    </message>
+    <message>
+        <source>warning distance of bone</source>
+        <translation>Warnabstand des Knochens</translation>
+    </message>
+    <message>
+        <source>warning distance of tissue</source>
+        <translation>Warnabstand des Gewebes</translation>
+    </message>
+    <message>
+        <source>opacity of %1</source>
+        <translation>Deckkraft von %1</translation>
+    </message>
+    <message>
+        <source>opacity of bone</source>
+        <translation>Deckkraft des Knochens</translation>
+    </message>
+    <message>
+        <source>opacity of tissue</source>
+        <translation>Deckkraft des Gewebes</translation>
+    </message>
+    <message>
+        <source>transfer function of %1</source>
+        <translation>Transferfunktion von %1</translation>
+    </message>
+    <message>
+        <source>transfer function of bone</source>
+        <translation>Transferfunktion des Knochens</translation>
+    </message>
+    <message>
+        <source>transfer function of tissue</source>
+        <translation>Transferfunktion des Gewebes</translation>
+    </message>
+    <message>
+        <source>colour of %1</source>
+        <translation>Farbe von %1</translation>
+    </message>
+    <message>
+        <source>colour of bone</source>
+        <translation>Farbe des Knochens</translation>
+    </message>
+    <message>
+        <source>colour of tissue</source>
+        <translation>Farbe des Gewebes</translation>
+    </message>
+    <message>
+        <source>image of %1</source>
+        <translation>Bild für %1</translation>
+    </message>
+    <message>
+        <source>image of bone</source>
+        <translation>Bild für den Knochen</translation>
+    </message>
+    <message>
+        <source>image of tissue</source>
+        <translation>Bild für das Gewebe</translation>
+    </message>
+    <message>
+        <source>shininess of %1</source>
+        <translation>Glanz von %1</translation>
+    </message>
+    <message>
+        <source>shininess of bone</source>
+        <translation>Glanz des Knochens</translation>
+    </message>
+    <message>
+        <source>shininess of tissue</source>
+        <translation>Glanz des Gewebes</translation>
+    </message>
+    <message>
+        <source>priority of %1</source>
+        <translation>Vorrang von %1</translation>
+    </message>
+    <message>
+        <source>priority of bone</source>
+        <translation>Vorrang des Knochens</translation>
+    </message>
+    <message>
+        <source>priority of tissue</source>
+        <translation>Vorrang des Gewebes</translation>
+    </message>
+    <message>
+        <source>appearance of %1</source>
+        <translation>Aussehen von %1</translation>
+    </message>
+    <message>
+        <source>appearance of bone</source>
+        <translation>Aussehen des Knochens</translation>
+    </message>
+    <message>
+        <source>appearance of tissue</source>
+        <translation>Aussehen des Gewebes</translation>
     </message>
 </context>
 <context>

@@ -225,7 +225,8 @@ void ApproachPanel::add(QTreeWidgetItem* above, const ApproachNode& node)
   {
     const auto summary = scene::summaryOf(value, node.state);
     const bool isPresent = node.approach == present.name;
-    item->setText(Stroke, (isPresent ? QString::fromUtf8("▶ ") : QString()) + words(node.approach));
+    item->setText(Stroke,
+                  (isPresent ? QString::fromUtf8("▶ ") : QString()) + approachName(node.approach));
     item->setText(Removed, volumeText(summary.removed));
     item->setText(Time, durationText(summary.duration));
     item->setText(Burr,

@@ -24,6 +24,7 @@
 #include <QPushButton>
 #include <QScreen>
 #include <QScrollBar>
+#include <QStatusBar>
 #include <QStyleOption>
 #include <QTabBar>
 #include <QTextEdit>
@@ -685,6 +686,31 @@ TEST_F(Manners, NoPanelIsLargerThanTheSmallestScreen)
     if (dock->objectName() != "nearbyDock") // stands beside the others
       dock->hide();
   }
+}
+
+// What is said while drilling, and the report's advice, beside the name of a recording.
+TEST_F(Manners, AMessageGetsTheRoomOfThePermanentTexts)
+{
+  openWindow();
+  window().resize(1280, 680);
+  QStatusBar* bar = window().statusBar();
+  auto* recording = window().findChild<QLabel*>("recording");
+  ASSERT_TRUE(recording);
+  recording->setText("Recording left-ear-2026-11-27-rehearsal-of-the-second-approach.prec");
+  recording->show();
+  ASSERT_TRUE(waitFor([&] { return recording->width() > 100; }));
+  const QString message = "The burr has lifted: what lies under the pointer is another surface, "
+                          "far deeper or higher. Let go and press again to drill there.";
+  const QString longer = message + QString(message.size() * 2 / 5, 'n');
+  bar->showMessage(longer);
+  const int needed = bar->fontMetrics().horizontalAdvance(longer);
+  EXPECT_TRUE(waitFor([&] { return recording->width() == 0 || needed < bar->width() / 2; }));
+  EXPECT_EQ(bar->toolTip(), longer);
+  EXPECT_EQ(bar->accessibleDescription(), longer);
+  bar->showMessage("Saved");
+  EXPECT_TRUE(waitFor([&] { return recording->width() > 100; }));
+  bar->clearMessage();
+  EXPECT_TRUE(bar->toolTip().isEmpty());
 }
 
 TEST_F(Manners, NoTextIsCutOffOnTheSmallestScreenInGerman)

@@ -56,6 +56,7 @@
 #include "Manual.h"
 #include "MeasureController.h"
 #include "MeasurePanel.h"
+#include "MessageRoom.h"
 #include "PanelLayout.h"
 #include "PictureController.h"
 #include "ProbeLabel.h"
@@ -337,6 +338,8 @@ void MainWindow::layOut()
   statusBar()->addPermanentWidget(m_picture->speed());
   statusBar()->addPermanentWidget(m_place);
   statusBar()->addPermanentWidget(m_sum);
+  // m_touch stays: why there is no force.
+  new MessageRoom(*statusBar(), {m_picture->speed(), m_place, m_sum, m_recording});
 }
 
 // Keys belong to the picture unless a number is being typed, and the wheel changes no value that
@@ -1329,6 +1332,7 @@ void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& st
   const QString text = strokeText(stroke.get());
   if (!stroke)
     return statusBar()->showMessage(text, kMessage);
+  m_segment->strokeEnded();
   if (m_model.hasCase() && m_model.value().dissection.history().ahead() == 0)
     statusBar()->showMessage(text); // else an undo has ended it, and says so
   m_saver->save();

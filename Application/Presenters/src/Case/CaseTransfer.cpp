@@ -765,12 +765,13 @@ std::vector<std::string> goneStructures(const scene::Case& value)
 
 } // namespace
 
-std::vector<std::string> facesToMask(const scene::Case& value)
+std::vector<scene::ImageWithFace> facesToMask(const scene::Case& value,
+                                              const core::Progress& progress)
 {
   const bool mayShow = showsHead(value.ct.geometry, {}) ||
                        std::any_of(value.mr.begin(), value.mr.end(),
                                    [](const auto& mr) { return showsHead(mr.geometry, {}); });
-  return mayShow ? scene::imagesWithFace(value) : std::vector<std::string>();
+  return mayShow ? scene::imagesWithFace(value, progress) : std::vector<scene::ImageWithFace>();
 }
 
 namespace

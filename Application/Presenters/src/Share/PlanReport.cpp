@@ -261,7 +261,10 @@ private:
     m_approach = approachName(m_value.dissection.history().branch().name);
   }
 
-  std::string approachName(const std::string& typed) { return m_withheld.name(typed, "approach"); }
+  std::string approachName(const std::string& typed)
+  {
+    return typed == History::kMain ? say(typed) : m_withheld.name(typed, "approach");
+  }
 
   std::string sideName() const
   {
@@ -933,7 +936,7 @@ private:
       std::vector<std::string> texts;
       for (const std::string& note : notes)
         texts.push_back(note.empty() ? say("a note") + " (" + say("withheld") + ")"
-                                     : m_withheld.sentence(note));
+                                     : say(m_withheld.sentence(note)));
       return texts;
     };
     const auto addImage = [&](const std::string& name, const scene::ImagePart& image)

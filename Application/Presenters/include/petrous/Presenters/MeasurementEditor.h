@@ -50,6 +50,10 @@ public:
 
   Events events;
 
+  /// The name that a new measurement gets, "distance", in the user's language. Without it: as it
+  /// is.
+  std::function<std::string(const std::string&)> inLanguage;
+
   /// Does a Work elsewhere in place of the one before, which is given up; an empty one: of none.
   /// Without it, at once.
   std::function<void(Work)> inBackground;

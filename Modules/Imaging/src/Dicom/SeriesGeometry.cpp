@@ -226,7 +226,7 @@ private:
     Verdict result = Verdict::Ok;
     for (const Finding& finding : m_result.findings)
       if ((finding.kind == FindingKind::LocalizerMixedIn && m_slices.size() > 1) ||
-          finding.kind == FindingKind::MissingEnd)
+          finding.kind == FindingKind::MissingEnd || finding.kind == FindingKind::MissingBetween)
         continue; // set aside, or nothing that the slices show
       else if (isRepairable(finding.kind) && m_result.grid)
         result = Verdict::Repairable;
@@ -677,6 +677,8 @@ const char* kindName(FindingKind kind) noexcept
     return "localizer-mixed-in";
   case FindingKind::MissingEnd:
     return "missing-end";
+  case FindingKind::MissingBetween:
+    return "missing-between";
   case FindingKind::MultiFrame:
     return "multi-frame";
   case FindingKind::NotAnImage:

@@ -111,6 +111,7 @@ struct SliceHeader
   std::string taken;
   std::string patientPosition; ///< (0018,5100), e.g. HFS; likewise
   int instanceNumber = 0;
+  std::optional<int> stackPosition;   ///< InStackPositionNumber of a frame
   std::optional<int> declaredCount;   ///< images of the series or acquisition, as the file states
   bool isImage = true;                ///< has pixel data
   std::vector<std::string> imageType; ///< values, e.g. ORIGINAL PRIMARY AXIAL
@@ -153,7 +154,8 @@ enum class FindingKind
   MixedAcquisitions,
   NoGeometry,
   LocalizerMixedIn,
-  MissingEnd, ///< no reason for a verdict
+  MissingEnd,     ///< no reason for a verdict
+  MissingBetween, ///< likewise: every second slice of the whole stack, or more of them
   MultiFrame,
   NotAnImage,
   Unreadable

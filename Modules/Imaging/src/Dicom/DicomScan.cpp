@@ -592,10 +592,9 @@ std::string missingEnds(const SeriesGeometry& geometry, const Numbering& numberi
     return text;
   // Where slices do not stand evenly, there may be gaps, too.
   return text +
-         (hasFinding(geometry, {FindingKind::UnevenSpacing})
+         (hasFinding(geometry, {FindingKind::UnevenSpacing, FindingKind::MissingBetween})
               ? "; slices may be missing, also at its ends. Look whether all of the skull base "
-                "that "
-                "is needed is there."
+                "that is needed is there."
               : "; the stack has no gap, but its ends may be missing. Look whether all of the "
                 "skull base that is needed is there.");
 }
@@ -920,10 +919,10 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
                           "Its slices need more memory than is free, even one by one.", 0.0});
       one.geometry.verdict = Verdict::Refused;
     }
-    if (std::string ends = missingEnds(one.geometry, numbering); name.empty() && !ends.empty())
-      findings.push_back({FindingKind::MissingEnd, std::move(ends), 0.0});
     if (std::string between = numbersBetween(one.geometry); !between.empty())
       findings.push_back({FindingKind::MissingBetween, std::move(between), 0.0});
+    if (std::string ends = missingEnds(one.geometry, numbering); name.empty() && !ends.empty())
+      findings.push_back({FindingKind::MissingEnd, std::move(ends), 0.0});
     const std::size_t lost = doubts.files.size();
     if (lost > 0 && isWholeWithout(lost, one.geometry, numbering))
       one.geometry.notes.push_back(setAsideNote(lost, one.geometry, numbering));

@@ -195,8 +195,8 @@ struct SeriesGeometry
   /// Refused only since more than a few slices share their places: repairable if the pixels of
   /// those at one place are equal, which the headers do not tell.
   bool isRepairableIfEqual = false;
-  /// The reasons for the verdict, localizers set aside, and ends that may be missing. Those of kind
-  /// Unreadable name files.
+  /// The reasons for the verdict, localizers set aside, and slices that may be missing. Those of
+  /// kinds Unreadable and NoGeometry name files.
   std::vector<Finding> findings;
   std::vector<std::string> notes; ///< accepted but worth knowing, e.g. jitter
 };

@@ -164,6 +164,26 @@
         <translation>Neben den Schichten wurde an %#1 Stellen etwas ausgelassen.</translation>
     </message>
     <message>
+        <source>%1: every voxel that is no padding has the value %#2; an image of one single value shows nothing. Give a larger region of interest</source>
+        <translation>%1: Jedes Voxel außerhalb der Auffüllung hat den Wert %#2; ein Bild aus einem einzigen Wert zeigt nichts. Geben Sie einen größeren Bereich an</translation>
+    </message>
+    <message>
+        <source>%1: every voxel that is no padding has the value %#2; an image of one single value shows nothing</source>
+        <translation>%1: Jedes Voxel außerhalb der Auffüllung hat den Wert %#2; ein Bild aus einem einzigen Wert zeigt nichts</translation>
+    </message>
+    <message>
+        <source>%1: its %#2 slices cover %#3 mm and are no stack but scouts; at least %#4 slices are needed</source>
+        <translation>%1: Seine %#2 Schichten reichen über %#3 mm und sind kein Stapel, sondern Übersichtsaufnahmen; nötig sind mindestens %#4 Schichten</translation>
+    </message>
+    <message>
+        <source>The image has only %#1 slices, which cover %#2 mm; look whether all that is needed is in it.</source>
+        <translation>Das Bild hat nur %#1 Schichten, die über %#2 mm reichen; sehen Sie nach, ob alles Benötigte darin ist.</translation>
+    </message>
+    <message>
+        <source>Its values go from %#1 to %#2, beyond those of any CT (-10000 to 100000): voxels are damaged, or the slope that the file states is wrong.</source>
+        <translation>Seine Werte reichen von %#1 bis %#2, weiter als die jedes CT (-10000 bis 100000): Voxel sind beschädigt, oder die Steigung, die die Datei angibt, ist falsch.</translation>
+    </message>
+    <message>
         <source>The file says that it is an MR; it is taken for an MR, as asked.</source>
         <translation>Laut Datei ein MR; wie gewünscht als MR genommen.</translation>
     </message>
@@ -4250,12 +4270,16 @@
         <translation>nummeriert von %#1 bis %#2</translation>
     </message>
     <message>
+        <source>%~1; slices may be missing, also at its ends. Look whether all of the skull base that is needed is there.</source>
+        <translation>%~1; Schichten können fehlen, auch an seinen Enden. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
+    </message>
+    <message>
         <source>%~1; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
         <translation>%~1; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
     </message>
     <message>
-        <source>The slices are numbered in steps of %#1 and are %#2 mm thick, but stand %#3 mm apart: those between them may be missing. Look whether the series has more files.</source>
-        <translation>Die Schichten sind in Schritten von %#1 nummeriert und %#2 mm dick, stehen aber %#3 mm auseinander: Die dazwischen können fehlen. Sehen Sie nach, ob die Serie weitere Dateien hat.</translation>
+        <source>The slices are numbered in steps of %#1 and are %#2 mm thick, but stand %#3 mm apart: those between them may be missing, and %#4 mm from each to the next were not measured. Look whether the series has more files.</source>
+        <translation>Die Schichten sind in Schritten von %#1 nummeriert und %#2 mm dick, stehen aber %#3 mm auseinander: Die dazwischen können fehlen, und %#4 mm von jeder zur nächsten wurden nicht gemessen. Sehen Sie nach, ob die Serie weitere Dateien hat.</translation>
     </message>
     <message>
         <source>%#1 mm (%#2 slice)</source>
@@ -4518,12 +4542,12 @@
         <translation>Eine andere Studie als im Rest ist genannt in %1; lassen Sie im Ordner die Dateien einer Studie.</translation>
     </message>
     <message>
-        <source>No usable position, orientation and pixel spacing in %1, so nothing says where they lie in the patient.</source>
-        <translation>Keine verwendbare Lage, Orientierung und Pixelgröße in %1, daher sagt nichts, wo sie im Patienten liegen.</translation>
+        <source>No usable position, orientation and pixel spacing in %1 (%2), so nothing says where they lie in the patient.</source>
+        <translation>Keine verwendbare Lage, Orientierung und Pixelgröße in %1 (%2), daher sagt nichts, wo sie im Patienten liegen.</translation>
     </message>
     <message>
-        <source>Another frame of reference in %1, so their place relative to the others is unknown.</source>
-        <translation>Ein anderes Bezugssystem in %1, daher ist ihre Lage zu den anderen unbekannt.</translation>
+        <source>Another frame of reference in %1 (%2), so their place relative to the others is unknown.</source>
+        <translation>Ein anderes Bezugssystem in %1 (%2), daher ist ihre Lage zu den anderen unbekannt.</translation>
     </message>
     <message>
         <source>%#1 localizer (scout) is mixed in with the %#2 slices of the stack, and left out.</source>
@@ -4782,8 +4806,16 @@
         <translation>Auf %#1 mm zwischen %#2 und %#3 mm wurde nichts gemessen, mehr, als eine fehlende Schicht lässt, wo Schichten %#4 mm auseinander stehen; das wird nicht interpoliert.</translation>
     </message>
     <message>
+        <source>In %#1 places, %#2 mm of %#3 mm, a slice would have to be guessed; at most %#4 slice is interpolated. Whether slices were lost there or taken farther apart cannot be told, as no numbers run along the stack.</source>
+        <translation>An %#1 Stellen, %#2 mm von %#3 mm, müsste eine Schicht geraten werden; höchstens %#4 Schicht wird interpoliert. Ob dort Schichten verloren gingen oder weiter auseinander aufgenommen wurden, lässt sich nicht sagen, da keine Nummern den Stapel entlang laufen.</translation>
+    </message>
+    <message>
         <source>In %#1 places, %#2 mm of %#3 mm, a slice would have to be guessed; at most %#4 slice is interpolated.</source>
         <translation>An %#1 Stellen, %#2 mm von %#3 mm, müsste eine Schicht geraten werden; höchstens %#4 Schicht wird interpoliert.</translation>
+    </message>
+    <message>
+        <source>In %#1 places, %#2 mm of %#3 mm, a slice would have to be guessed; at most %#4 slices are interpolated. Whether slices were lost there or taken farther apart cannot be told, as no numbers run along the stack.</source>
+        <translation>An %#1 Stellen, %#2 mm von %#3 mm, müsste eine Schicht geraten werden; höchstens %#4 Schichten werden interpoliert. Ob dort Schichten verloren gingen oder weiter auseinander aufgenommen wurden, lässt sich nicht sagen, da keine Nummern den Stapel entlang laufen.</translation>
     </message>
     <message>
         <source>In %#1 places, %#2 mm of %#3 mm, a slice would have to be guessed; at most %#4 slices are interpolated.</source>

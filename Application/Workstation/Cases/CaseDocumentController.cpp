@@ -87,7 +87,8 @@ QString remedyOf(const std::vector<imaging::Finding>& findings)
                          return std::find(kinds.begin(), kinds.end(), finding.kind) != kinds.end();
                        });
   };
-  if (isAny({Kind::MissingSlice, Kind::UnevenSpacing, Kind::Unreadable, Kind::MissingEnd}))
+  if (isAny({Kind::MissingSlice, Kind::UnevenSpacing, Kind::Unreadable, Kind::MissingEnd,
+             Kind::MissingBetween}))
     return CaseDocumentController::tr(
         "Copy or send the series again, with all of its slices: Library > Receive fetches it from "
         "the archive. Anatomy that is missing is not made up.");

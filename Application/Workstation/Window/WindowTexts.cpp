@@ -112,7 +112,8 @@ const std::vector<Hint>& hints()
       {": series [0-9.]+: ", ": "},
       {"\\b(gantry-tilt|missing-slice|uneven-spacing|duplicate-slice|side-by-side|odd-orientation|"
        "odd-size|mixed-rescale|modality-lut|mixed-patients|mixed-studies|mixed-acquisitions|"
-       "no-geometry|localizer-mixed-in|missing-end|multi-frame|not-an-image|unreadable): ",
+       "no-geometry|localizer-mixed-in|missing-end|missing-between|multi-frame|not-an-image|"
+       "unreadable): ",
        ""},
       {" \\(needs --repair\\)", " (needs repair)"},
       {" Give a series that 'petrous scan' finds ok\\.", ""},

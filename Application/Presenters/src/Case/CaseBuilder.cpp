@@ -345,7 +345,8 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
       refuseMrBesideCt(scan, path);
     std::vector<std::string> notes = series.geometry.notes;
     for (const imaging::Finding& finding : series.geometry.findings) // accepted
-      if (finding.kind != imaging::FindingKind::Unreadable)          // these name files
+      if (finding.kind != imaging::FindingKind::Unreadable &&
+          finding.kind != imaging::FindingKind::NoGeometry) // these name files
         notes.push_back(finding.text);
     // What this series lost is one of its findings.
     if (scan.lostFiles > 0 && series.lostFiles == 0)
@@ -381,6 +382,41 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
                   core::generalText(h[1]) + " x " + core::generalText(h[2]) + " mm, " +
                   std::to_string(part.notes.size()) + " notes");
   return read;
+}
+
+// An image that shows nothing is refused, and one that shows little is noted. `roi`: it is cut.
+void judgeContents(const fs::path& path, scene::ImagePart& image, bool roi)
+{
+  if (!(image.range.min < image.range.max))
+    throw core::InvalidParameter(path.string() + ": every voxel that is no padding has the value " +
+                                 core::generalText(image.range.min, 6) +
+                                 "; an image of one single value shows nothing" +
+                                 (roi ? ". Give a larger region of interest" : ""));
+  constexpr int kFewest = 3; // slices of a stack; fewer are scouts
+  constexpr int kFew = 10;
+  const int slices = image.geometry.dims()[2];
+  const double covered = slices * image.geometry.spacing()[2];
+  if (slices < kFewest && !roi)
+    throw core::InvalidParameter(path.string() + ": its " + std::to_string(slices) +
+                                 " slices cover " + core::fixedText(covered, 1) +
+                                 " mm and are no stack but scouts; at least " +
+                                 std::to_string(kFewest) + " slices are needed");
+  if (slices < kFew)
+    image.notes.push_back("The image has only " + std::to_string(slices) + " slices, which cover " +
+                          core::fixedText(covered, 1) +
+                          " mm; look whether all that is needed is in it.");
+}
+
+// Also of units of its own: no detector tells so many apart.
+void noteBeyondCt(scene::ImagePart& image)
+{
+  constexpr double kLowest = -10000.0;
+  constexpr double kHighest = 100000.0;
+  if (image.range.min < kLowest || image.range.max > kHighest)
+    image.notes.push_back("Its values go from " + core::generalText(image.range.min, 6) + " to " +
+                          core::generalText(image.range.max, 6) +
+                          ", beyond those of any CT (-10000 to 100000): voxels are damaged, or the "
+                          "slope that the file states is wrong.");
 }
 
 // Cone-beam and micro-CT have units of their own, in which 300 may be air or nothing at all; an MR
@@ -428,6 +464,7 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const OtherQuantit
                           "same.");
     return;
   }
+  noteBeyondCt(image);
   const auto scale = volume::suggestScale(histogram);
   if (scale.calibrated && isOther)
   {
@@ -1377,6 +1414,7 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
                              sources.unit, progress.part(0.0, 0.7));
   value.ct = std::move(read.part);
   value.ct.name = "ct";
+  judgeContents(sources.ct, value.ct, sources.roi.has_value());
   placeSurface(value, sources.modality, read.otherQuantity);
   addParts(value, sources.parts, progress.part(0.7, 1.0), report);
   return value;

@@ -63,8 +63,8 @@ std::size_t indexOf(const Parts& parts, const std::string& name)
 }
 
 // The left-out part at `index`, which is about to be removed: as the library has it.
-template <class T>
-void forgetLeftOut(std::vector<LeftOut::Part<T>>& parts, std::size_t index, core::Lazy<T>& whole)
+template <class Part, class Whole>
+void forgetLeftOut(std::vector<Part>& parts, std::size_t index, Whole& whole)
 {
   for (auto part = parts.begin(); part != parts.end();)
   {

@@ -106,8 +106,8 @@ public:
   void prepareShadows(const Frame& frame);
   /// Sets the uniforms of polygonShadowsShader in a program that is in use. `isTool`: it draws the
   /// tool, which throws no shadow on itself.
-  void shadePolygons(GLuint program, const Frame& frame, const Eigen::Matrix4d& patientFromView,
-                     bool isTool) const;
+  void shadePolygons(GlUniforms& uniforms, const Frame& frame,
+                     const Eigen::Matrix4d& patientFromView, bool isTool) const;
 
   /// Draws the own target over the bound frame buffer; the caller sets up blending.
   void present(int width, int height);

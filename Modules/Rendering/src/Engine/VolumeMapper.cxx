@@ -516,7 +516,7 @@ void vtkPetrousVolumeMapper::PrepareShadows(vtkRenderer* renderer, vtkVolume* vo
 }
 
 void vtkPetrousVolumeMapper::ShadePolygons(vtkRenderer* renderer, vtkVolume* volume,
-                                           unsigned program, bool isTool)
+                                           petrous::rendering::GlUniforms& program, bool isTool)
 {
   const Internals& my = *this->Internal;
   const Eigen::Matrix4d viewFromPatient =

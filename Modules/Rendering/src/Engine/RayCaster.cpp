@@ -497,7 +497,7 @@ void RayCaster::uploadOpacities()
   }
   else if (!changed.empty())
   {
-    m_opacities->meshesChanged(lightStoppers(), *m_occupancy, changed);
+    m_opacities->meshesChanged(lightStoppers(), changed);
     dirty = dirty.united(changed);
   }
   const std::vector<OpacityPyramid::Level>& levels = m_opacities->levels();

@@ -580,8 +580,8 @@ TEST(ShadowPicture, TakesNothingWhereThereAreNone)
 }
 
 // A plane near the CT's border: the lamp's cone is left where nothing of the bone is ahead, 3 mm
-// and a texel above it, with a look-up each millimetre from 0.6 mm on; with the 15 of the sky and a
-// fourth towards the lamp that is 19 in place of 29.
+// and a texel above it, with a look-up each millimetre from 0.6 mm on; with the nine of the sky and
+// a fourth towards the lamp that is 13 at most.
 TEST(ShadowPicture, LooksTowardsTheLampNoFartherThanThereIsAnythingInItsWay)
 {
   const auto fetches = [](SceneContents contents, bool shadows)
@@ -607,8 +607,8 @@ TEST(ShadowPicture, LooksTowardsTheLampNoFartherThanThereIsAnythingInItsWay)
                      static_cast<double>(depth.millimetres.size());
   ASSERT_GT(hit, 0.5);
   const double looks = (fetches(flat, true) - fetches(flat, false)) / hit;
-  EXPECT_LE(looks, 19.0);
-  EXPECT_GT(looks, 15.0);
+  EXPECT_LE(looks, 13.0);
+  EXPECT_GT(looks, 9.0);
   // With a small mesh on the way the cone is followed to it.
   const SceneContents over = with(flat, ballMesh({-3.0, -13.0, 7.0}, 1.0));
   EXPECT_GT(fetches(over, true) - fetches(over, false), hit * looks + 0.5);

@@ -294,6 +294,7 @@ public:
         lampCamera.value_or(petrous::rendering::poseOf(renderer->GetActiveCamera())));
     if (tool)
       frame.tool = petrous::rendering::toolIn(worldFromPatient, *tool);
+    frame.shadowsLater = restQuality.has_value();
     return frame;
   }
 

@@ -59,7 +59,8 @@ public:
   const petrous::rendering::RenderQuality& GetQuality() const;
 
   /// Frames show the picture at rest once Refine has drawn it with this quality, and until then are
-  /// drawn with that of SetQuality. Null: every frame is.
+  /// drawn with that of SetQuality, and a new instrument throws its shadow later. Null: every
+  /// frame is, and it throws it at once.
   void SetRestQuality(const std::optional<petrous::rendering::RenderQuality>& quality);
 
   /// Goes on with the picture of the last frame for about so long, with up to `samples` rays a

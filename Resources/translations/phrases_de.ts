@@ -8002,6 +8002,10 @@
         <translation>der Grafiktreiber hat keinen Platz für eine Textur von %#1 x %#2 x %#3 (OpenGL-Fehler %#4)</translation>
     </message>
     <message>
+        <source>measuring the instrument</source>
+        <translation>Instrument wird vermessen</translation>
+    </message>
+    <message>
         <source>slices</source>
         <translation>Schichten</translation>
     </message>

@@ -2372,6 +2372,10 @@
         <translation>das MR wird umgerechnet</translation>
     </message>
     <message>
+        <source>where it is thinner than the voxels it is drawn one voxel wide, so that it has no gap: %#1 of its %#2 voxels, which its volume counts whole</source>
+        <translation>wo sie dünner als die Voxel ist, wird sie ein Voxel breit gezeichnet, damit sie keine Lücke hat: %#1 ihrer %#2 Voxel, die ihr Volumen ganz zählt</translation>
+    </message>
+    <message>
         <source>tympanic cavity</source>
         <translation>Paukenhöhle</translation>
     </message>

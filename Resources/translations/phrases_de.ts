@@ -6797,6 +6797,10 @@
         <translation>%1: Anhang „%2“ des Falls „%3“: Die verknüpfte Datei ist eine andere als die angehängte; legen Sie die frühere zurück, oder entfernen Sie den Anhang und hängen Sie diese an</translation>
     </message>
     <message>
+        <source>a case of the library is open in Petrous elsewhere (%~1), where what was removed can still be put back; nothing was cleaned up: close it there first</source>
+        <translation>ein Fall der Bibliothek ist anderswo in Petrous offen (%~1), wo Entferntes noch zurückgeholt werden kann; nichts wurde aufgeräumt: schließen Sie ihn dort zuerst</translation>
+    </message>
+    <message>
         <source>reading cases</source>
         <translation>Fälle werden gelesen</translation>
     </message>

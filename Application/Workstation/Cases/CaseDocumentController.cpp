@@ -76,6 +76,23 @@ QString lineOf(const SourceContent& source)
                                                    titleOf(source));
 }
 
+// Of the MRs, which are read once they are shown: what their files lack, a sentence each.
+std::vector<std::string> lostMrs(const library::Library& library, const scene::Case& value)
+{
+  if (value.mr.empty())
+    return {};
+  scene::Case others = value;
+  others.mr.clear();
+  const std::vector<std::string> known = library.lost(others);
+  std::vector<std::string> lost = library.lost(value);
+  lost.erase(std::remove_if(lost.begin(), lost.end(),
+                            [&known](const std::string& sentence) {
+                              return std::find(known.begin(), known.end(), sentence) != known.end();
+                            }),
+             lost.end());
+  return lost;
+}
+
 // What the user can do about a scan that cannot be used.
 QString remedyOf(const std::vector<imaging::Finding>& findings)
 {
@@ -1589,6 +1606,9 @@ void CaseDocumentController::lookForDamage()
            "Or remove it (Library > Cases).");
   for (const std::string& one : m_model.leftOut())
     lines += tr("Left out, neither shown nor felt: %1.").arg(phrase(one));
+  if (m_model.hasCase())
+    for (const std::string& one : lostMrs(m_model.library(), m_model.value()))
+      lines += tr("Left out, neither shown nor felt: %1.").arg(phrase(one));
   for (const std::string& one : m_model.damagedStrokes())
     lines += tr("Damaged, and not applied: %1.").arg(phrase(one));
   if (const std::size_t undone = m_model.undoneForDamage())

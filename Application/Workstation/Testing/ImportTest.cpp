@@ -1507,9 +1507,11 @@ TEST_F(Import, ASoundSeriesIsNotTakenUnaskedBesideOneThatNeedsRepair)
   petrous::testing::writeSharedSample(folder() / "sample", options);
   fs::create_directories(folder() / "visit");
   fs::rename(folder() / "sample" / "ct", folder() / "visit" / "thin");
-  const auto thick = std::make_shared<const volume::Volume<std::int16_t>>(
+  const auto voxels = std::make_shared<volume::Volume<std::int16_t>>(
       core::GridGeometry({32, 32, 12}, Eigen::Vector3d(2, 2, 5), Eigen::Vector3d::Zero()),
       std::int16_t{40});
+  voxels->at(1, 2, 3) = 400;
+  const std::shared_ptr<const volume::Volume<std::int16_t>> thick = voxels;
   imaging::SeriesDescription series;
   series.studyUid = "1.2.3";
   series.seriesUid = "1.2.3.4";

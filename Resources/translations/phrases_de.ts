@@ -172,10 +172,6 @@
         <translation>%1: Jedes Voxel außerhalb der Auffüllung hat den Wert %#2; ein Bild aus einem einzigen Wert zeigt nichts</translation>
     </message>
     <message>
-        <source>%1: its %#2 slices cover %#3 mm and are no stack but scouts; at least %#4 slices are needed</source>
-        <translation>%1: Seine %#2 Schichten reichen über %#3 mm und sind kein Stapel, sondern Übersichtsaufnahmen; nötig sind mindestens %#4 Schichten</translation>
-    </message>
-    <message>
         <source>The image has only %#1 slices, which cover %#2 mm; look whether all that is needed is in it.</source>
         <translation>Das Bild hat nur %#1 Schichten, die über %#2 mm reichen; sehen Sie nach, ob alles Benötigte darin ist.</translation>
     </message>

@@ -479,26 +479,6 @@ TEST_F(CaseBuilder, RefusesAnImageThatShowsNothing)
     imaging::writeVolume(m_folder / "ct.nrrd", ct);
     EXPECT_EQ(refusal(), "");
   }
-  // Two slices are scouts, in files and in DICOM.
-  for (const int slices : {2, 3})
-  {
-    const auto ct =
-        softTissue(core::GridGeometry({16, 12, slices}, Vector3d(1, 1, 0.6), Vector3d::Zero()));
-    imaging::writeVolume(m_folder / "ct.nrrd", *ct);
-    imaging::SeriesDescription series;
-    series.studyUid = "1.2.3";
-    series.seriesUid = "1.2.3.4";
-    series.frameOfReferenceUid = "1.2.3.9";
-    const auto folder = m_folder / ("series" + std::to_string(slices));
-    imaging::writeDicomSeries(folder, volume::IntensityVolume(ct), series);
-    for (const auto& path : {m_folder / "ct.nrrd", folder})
-    {
-      m_sources.ct = path;
-      EXPECT_EQ(refusal().find("its 2 slices cover 1.2 mm") != std::string::npos, slices == 2)
-          << path << ": " << refusal();
-      EXPECT_EQ(refusal().empty(), slices == 3) << refusal();
-    }
-  }
 }
 
 TEST_F(CaseBuilder, NotesFewSlicesAndValuesBeyondAnyCt)

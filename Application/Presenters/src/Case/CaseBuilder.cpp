@@ -392,15 +392,9 @@ void judgeContents(const fs::path& path, scene::ImagePart& image, bool roi)
                                  core::generalText(image.range.min, 6) +
                                  "; an image of one single value shows nothing" +
                                  (roi ? ". Give a larger region of interest" : ""));
-  constexpr int kFewest = 3; // slices of a stack; fewer are scouts
   constexpr int kFew = 10;
   const int slices = image.geometry.dims()[2];
   const double covered = slices * image.geometry.spacing()[2];
-  if (slices < kFewest && !roi)
-    throw core::InvalidParameter(path.string() + ": its " + std::to_string(slices) +
-                                 " slices cover " + core::fixedText(covered, 1) +
-                                 " mm and are no stack but scouts; at least " +
-                                 std::to_string(kFewest) + " slices are needed");
   if (slices < kFew)
     image.notes.push_back("The image has only " + std::to_string(slices) + " slices, which cover " +
                           core::fixedText(covered, 1) +

@@ -164,10 +164,6 @@
         <translation>Neben den Schichten wurde an %#1 Stellen etwas ausgelassen.</translation>
     </message>
     <message>
-        <source>%1: every voxel that is no padding has the value %#2; an image of one single value shows nothing. Give a larger region of interest</source>
-        <translation>%1: Jedes Voxel außerhalb der Auffüllung hat den Wert %#2; ein Bild aus einem einzigen Wert zeigt nichts. Geben Sie einen größeren Bereich an</translation>
-    </message>
-    <message>
         <source>%1: every voxel that is no padding has the value %#2; an image of one single value shows nothing</source>
         <translation>%1: Jedes Voxel außerhalb der Auffüllung hat den Wert %#2; ein Bild aus einem einzigen Wert zeigt nichts</translation>
     </message>

@@ -387,11 +387,10 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
 // An image that shows nothing is refused, and one that shows little is noted. `roi`: it is cut.
 void judgeContents(const fs::path& path, scene::ImagePart& image, bool roi)
 {
-  if (!(image.range.min < image.range.max))
+  if (!(image.range.min < image.range.max) && !roi)
     throw core::InvalidParameter(path.string() + ": every voxel that is no padding has the value " +
                                  core::generalText(image.range.min, 6) +
-                                 "; an image of one single value shows nothing" +
-                                 (roi ? ". Give a larger region of interest" : ""));
+                                 "; an image of one single value shows nothing");
   constexpr int kFew = 10;
   const int slices = image.geometry.dims()[2];
   const double covered = slices * image.geometry.spacing()[2];

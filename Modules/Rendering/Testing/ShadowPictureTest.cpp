@@ -570,7 +570,7 @@ TEST(ShadowPicture, InAWindowAnInstrumentThrowsItsShadowOnceThatIsMeasured)
   // At rest, too.
   for (Refinement next = Refinement::More; next == Refinement::More;)
     next = window.scene.refine(1000.0);
-  EXPECT_EQ(countDifferentPixels(window.view.render(window.scene), atOnce), 0U);
+  EXPECT_LE(greatestDifference(window.view.render(window.scene), atOnce), 2); // read back in bytes
   EXPECT_EQ(window.scene.restSamples(), 1);
   // It is known when it is taken up again.
   window.scene.setTool(std::nullopt);

@@ -332,8 +332,9 @@ void DrillController::makeInstrument(const QString& file, const QString& axis,
   m_reading.replace(
       [this, file, axis, taken](const core::Progress& progress)
       {
-        return made(file, presenters::keptInstrument(*taken, bytes(axis)), std::move(*taken),
-                    progress);
+        const auto kept =
+            presenters::keptInstrument(*taken, bytes(axis)); // before it is moved from
+        return made(file, kept, std::move(*taken), progress);
       });
 }
 

@@ -1,6 +1,5 @@
 #include "FaceCheck.h"
 
-#include <cmath>
 #include <memory>
 
 #include <QApplication>
@@ -49,7 +48,8 @@ FaceCheck lookForFaces(const scene::Case& value, QWidget& parent)
       {
         return [&result, done, images = presenters::facesToMask(*copy, progress)]
         {
-          result = {images, true};
+          result.images = images;
+          result.isKnown = true;
           done();
         };
       });
@@ -61,22 +61,19 @@ FaceCheck lookForFaces(const scene::Case& value, QWidget& parent)
   if (isDone)
     return result;
   QProgressDialog progress(QObject::tr("Looking for a face in the images…"), QObject::tr("Cancel"),
-                           0, 1000, &parent);
+                           0, 0, &parent); // it cannot be told how far it is
   progress.setObjectName("faceProgress");
   progress.setWindowModality(Qt::WindowModal);
   progress.setAutoReset(false);
   progress.setAutoClose(false);
   progress.setMinimumDuration(0);
   QObject::connect(&progress, &QProgressDialog::canceled, &work,
-                   [&work, &result]
+                   [&work, &result, done]
                    {
                      result.isCancelled = true;
                      work.cancel();
+                     done(); // the work is joined where it goes out of scope
                    });
-  QObject::connect(&work, &BackgroundWork::progressed, &progress,
-                   [&progress](double fraction, const QString&)
-                   { progress.setValue(static_cast<int>(std::lround(1000.0 * fraction))); });
-  progress.setValue(0);
   progress.show();
   while (!isDone)
     loop.exec();

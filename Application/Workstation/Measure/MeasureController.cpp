@@ -159,7 +159,7 @@ MeasureController::MeasureController(presenters::WorkstationModel& model, SliceC
 MeasureController::~MeasureController()
 {
   m_editor.events = {};
-  m_editor.inLanguage = [](const std::string& name) { return bytes(phrase(name)); };
+  m_editor.inLanguage = {};
   m_editor.inBackground = {};
   m_view.removeEventFilter(this);
 }

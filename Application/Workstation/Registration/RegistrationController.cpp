@@ -223,6 +223,13 @@ bool RegistrationController::running() const
 void RegistrationController::caseChanged()
 {
   const bool stopped = running();
+  beginAnew();
+  if (stopped)
+    emit statusMessage(tr("The registration ended with its case; the MR lies as before"));
+}
+
+void RegistrationController::beginAnew()
+{
   m_run->drop();
   m_waiting.reset();
   delete m_question; // of the previous case
@@ -236,15 +243,13 @@ void RegistrationController::caseChanged()
   m_overlay->reset();
   showMarks();
   emit runningChanged();
-  if (stopped)
-    emit statusMessage(tr("The registration ended with its case; the MR lies as before"));
 }
 
 void RegistrationController::partsChanged()
 {
   const std::string onto = m_session.aim().onto;
   if (!m_session.partsChanged())
-    return caseChanged();
+    return beginAnew();
   enableMenu();
   if (running() && m_session.aim().onto != onto)
   {

@@ -384,6 +384,12 @@ TEST_F(InstrumentWindow, IsChosenWithItsAxis)
   EXPECT_EQ(asked->axes, 6);
   ASSERT_TRUE(isHeld());
   EXPECT_NEAR(tool()->instrument->bounds()[1].z(), 60.0F, 1e-4F);
+  save();
+  const auto kept = library().open("ball").view.instrument;
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->axis, "x+");
+  EXPECT_EQ(kept->name, "lying.obj");
+  EXPECT_EQ(kept->mesh.get()->triangles.size(), 6U);
 
   // The same file again: as it was chosen. Another one: as is likely.
   const QString upright = writePick("upright.obj");

@@ -42,9 +42,8 @@ public:
   void showVolume(); ///< alone, while a stroke is painted
   void setProgress(double fraction, const QString& text);
   void partsChanged() override;
-  void say(const QString& line);
-  void
-  withdraw(const QString& line); ///< if it was said last      ///< what was done; empty: nothing
+  void say(const QString& line);      ///< what was done; empty: nothing
+  void withdraw(const QString& line); ///< if it was said last
   void complain(const QString& line); ///< a refusal, which goes with the next change
   void focusName();
 

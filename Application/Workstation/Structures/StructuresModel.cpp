@@ -10,7 +10,6 @@
 #include <QPainterPath>
 #include <QPalette>
 #include <QPixmap>
-#include <QPixmapCache>
 
 #include "NearbyModel.h"
 #include "Theme.h"
@@ -27,32 +26,11 @@ namespace petrous::workstation
 
 namespace
 {
+constexpr int kSwatch = 12; // px
+
 QColor colorOf(const appearance::StructureAppearance& look)
 {
   return QColor::fromRgbF(double(look.color[0]), double(look.color[1]), double(look.color[2]));
-}
-
-QPixmap swatch(const appearance::StructureAppearance& look)
-{
-  // A view asks for it whenever it measures or draws the row.
-  constexpr int kSize = 12; // px
-  const qreal scale = qApp->devicePixelRatio();
-  QPixmap pixmap;
-  const QString key =
-      QString("petrous-swatch-%1-%2").arg(colorOf(look).name()).arg(std::lround(100.0 * scale));
-  if (QPixmapCache::find(key, &pixmap))
-    return pixmap;
-  pixmap = QPixmap(QSize(kSize, kSize) * scale);
-  pixmap.setDevicePixelRatio(scale);
-  pixmap.fill(Qt::transparent);
-  QPainter painter(&pixmap);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QColor(0, 0, 0, 160));
-  painter.setBrush(colorOf(look));
-  painter.drawRoundedRect(QRectF(0.5, 0.5, kSize - 1.0, kSize - 1.0), 3.0, 3.0);
-  painter.end();
-  QPixmapCache::insert(key, pixmap);
-  return pixmap;
 }
 
 using appearance::StructureProperty;
@@ -61,54 +39,43 @@ using appearance::StructureProperty;
 QPixmap flagIcon(const StructureProperty& property)
 {
   constexpr int kSize = 16; // px, of a small icon of the style
-  const qreal scale = qApp->devicePixelRatio();
   const QColor color = qApp->palette().color(QPalette::ButtonText);
-  QPixmap pixmap;
-  const QString key = QString("petrous-flag-%1-%2-%3")
-                          .arg(property.key, color.name())
-                          .arg(std::lround(100.0 * scale));
-  if (QPixmapCache::find(key, &pixmap))
-    return pixmap;
-  pixmap = QPixmap(QSize(kSize, kSize) * scale);
-  pixmap.setDevicePixelRatio(scale);
-  pixmap.fill(Qt::transparent);
-  QPainter painter(&pixmap);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(color, 1.4, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  const std::string name = property.key;
-  QPainterPath path;
-  if (name == "shown")
-  {
-    path.moveTo(1.0, 8.0);
-    path.quadTo(8.0, 0.5, 15.0, 8.0);
-    path.quadTo(8.0, 15.5, 1.0, 8.0);
-    painter.drawPath(path);
-    painter.setBrush(color);
-    painter.drawEllipse(QPointF(8.0, 8.0), 1.6, 1.6);
-  }
-  else if (name == "touchable")
-  {
-    path.moveTo(1.0, 10.0);
-    path.lineTo(3.0, 10.0);
-    path.cubicTo(5.0, 10.0, 5.0, 14.5, 8.0, 14.5);
-    path.cubicTo(11.0, 14.5, 11.0, 10.0, 13.0, 10.0);
-    path.lineTo(15.0, 10.0);
-    painter.drawPath(path);
-    painter.setBrush(color);
-    painter.drawEllipse(QPointF(8.0, 7.5), 3.5, 3.5);
-  }
-  else
-  {
-    painter.drawEllipse(QPointF(5.5, 10.5), 4.0, 4.0);
-    painter.drawLine(QPointF(3.0, 8.0), QPointF(8.0, 13.0)); // flutes
-    painter.drawLine(QPointF(2.5, 11.5), QPointF(4.5, 13.5));
-    painter.drawLine(QPointF(6.5, 7.5), QPointF(8.5, 9.5));
-    painter.setPen(QPen(color, 2.2, Qt::SolidLine, Qt::RoundCap));
-    painter.drawLine(QPointF(9.0, 7.0), QPointF(14.5, 1.5)); // shaft
-  }
-  painter.end();
-  QPixmapCache::insert(key, pixmap);
-  return pixmap;
+  return pixmapOf(QString("flag-%1-%2").arg(property.key, color.name()), kSize,
+                  [&](QPainter& painter)
+                  {
+                    painter.setPen(QPen(color, 1.4, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+                    const std::string name = property.key;
+                    QPainterPath path;
+                    if (name == "shown")
+                    {
+                      path.moveTo(1.0, 8.0);
+                      path.quadTo(8.0, 0.5, 15.0, 8.0);
+                      path.quadTo(8.0, 15.5, 1.0, 8.0);
+                      painter.drawPath(path);
+                      painter.setBrush(color);
+                      painter.drawEllipse(QPointF(8.0, 8.0), 1.6, 1.6);
+                    }
+                    else if (name == "touchable")
+                    {
+                      path.moveTo(1.0, 10.0);
+                      path.lineTo(3.0, 10.0);
+                      path.cubicTo(5.0, 10.0, 5.0, 14.5, 8.0, 14.5);
+                      path.cubicTo(11.0, 14.5, 11.0, 10.0, 13.0, 10.0);
+                      path.lineTo(15.0, 10.0);
+                      painter.drawPath(path);
+                      painter.setBrush(color);
+                      painter.drawEllipse(QPointF(8.0, 7.5), 3.5, 3.5);
+                    }
+                    else
+                    {
+                      painter.drawEllipse(QPointF(5.5, 10.5), 4.0, 4.0);
+                      painter.drawLine(QPointF(3.0, 8.0), QPointF(8.0, 13.0)); // flutes
+                      painter.drawLine(QPointF(2.5, 11.5), QPointF(4.5, 13.5));
+                      painter.drawLine(QPointF(6.5, 7.5), QPointF(8.5, 9.5));
+                      painter.setPen(QPen(color, 2.2, Qt::SolidLine, Qt::RoundCap));
+                      painter.drawLine(QPointF(9.0, 7.0), QPointF(14.5, 1.5)); // shaft
+                    }
+                  });
 }
 
 // The properties with a column.
@@ -550,7 +517,7 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
       return row.row.missing.empty() ? name : tr("%1 (not on the %2)").arg(name, primary());
     }
     if (role == Qt::DecorationRole)
-      return untinted(swatch(row.row.look));
+      return swatch(colorOf(row.row.look), kSwatch);
     if (role == Qt::AccessibleTextRole)
       return tr("%1, colour %2, %3")
           .arg(title(row.row), colorOf(row.row.look).name(),

@@ -99,6 +99,20 @@ protected:
     ASSERT_TRUE(
         waitFor([&] { return window().model().value().revision > before && !window().busy(); }));
   }
+  // What a message box says that comes of it, and is accepted.
+  QString messageAfter(const std::function<void()>& cause)
+  {
+    QString text;
+    onMessage(
+        [&text](QMessageBox& box)
+        {
+          text = box.text();
+          box.accept();
+        });
+    cause();
+    EXPECT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
+    return text;
+  }
   bool isHeld()
   {
     QTest::mouseMove(&view(), view().rect().center() + QPoint(3, 0));
@@ -185,15 +199,7 @@ TEST_F(InstrumentWindow, IsRememberedAndReadWhenItIsTakenUpAgain)
 
   std::filesystem::remove(folder() / "lying.obj");
   openWindow("ball");
-  QString text;
-  onMessage(
-      [&text](QMessageBox& box)
-      {
-        text = box.text();
-        box.accept();
-      });
-  action("Instrument")->trigger();
-  ASSERT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
+  const QString text = messageAfter([this] { action("Instrument")->trigger(); });
   EXPECT_TRUE(text.contains("lying.obj")) << text.toStdString();
   EXPECT_FALSE(action("Instrument")->isChecked());
 }
@@ -252,15 +258,7 @@ TEST_F(InstrumentWindow, ThatACaseHasLostIsSaidAndStaysInIt)
   const std::string object = value.view.instrument->object;
   std::filesystem::remove(library().folder() / "objects" / object);
   openWindow("ball");
-  QString text;
-  onMessage(
-      [&text](QMessageBox& box)
-      {
-        text = box.text();
-        box.accept();
-      });
-  action("Instrument")->trigger();
-  ASSERT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
+  ASSERT_FALSE(messageAfter([this] { action("Instrument")->trigger(); }).isEmpty());
   EXPECT_FALSE(action("Instrument")->isChecked());
   save();
   closeWindow();
@@ -357,15 +355,8 @@ TEST_F(InstrumentWindow, IsRefusedInWordsWhenItIsNotClosed)
   saveBall("ball");
   openWindow();
   std::ofstream(folder() / "open.obj") << "v 0 0 0\nv 1 1 60\nv -1 1 60\nf 1 2 3\n";
-  QString text;
-  onMessage(
-      [&text](QMessageBox& box)
-      {
-        text = box.text();
-        box.accept();
-      });
-  drillController().readInstrument(QString::fromStdString((folder() / "open.obj").string()), "z+");
-  ASSERT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
+  const QString file = QString::fromStdString((folder() / "open.obj").string());
+  const QString text = messageAfter([&] { drillController().readInstrument(file, "z+"); });
   EXPECT_TRUE(text.contains("not closed")) << text.toStdString();
   EXPECT_FALSE(action("Instrument")->isChecked());
 }

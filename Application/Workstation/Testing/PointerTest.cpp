@@ -377,12 +377,14 @@ TEST_F(Pointer, ReadsAtItsTipWhatTheCommandReadsThere)
     pointAt(view().rect().center() + aside);
     ASSERT_TRUE(hasTool());
     ASSERT_TRUE(waitFor([this] { return view().display().reading().contains(" to nerve"); }));
-    Vector3d there = tip() + Vector3d::UnitX();
-    while (tip() != there) // until it is at rest
+    Vector3d there = tip();
+    const auto isAtRest = [&]
     {
       there = tip();
       QTest::qWait(500);
-    }
+      return tip() == there;
+    };
+    ASSERT_TRUE(waitFor(isAtRest));
     const QJsonObject truth = probed(there);
     ASSERT_TRUE(truth.contains("hu"));
     const QString surface =

@@ -6,7 +6,9 @@
 
 #include <QApplication>
 #include <QFont>
+#include <QPainter>
 #include <QPalette>
+#include <QPixmapCache>
 #include <QRegularExpression>
 #include <QStyleFactory>
 #include <QVariant>
@@ -219,10 +221,37 @@ QColor warningColor()
   return QApplication::palette().color(QPalette::LinkVisited);
 }
 
-QIcon untinted(const QPixmap& pixmap)
+QPixmap pixmapOf(const QString& key, int size, const std::function<void(QPainter&)>& draw)
 {
+  const qreal scale = qApp->devicePixelRatio();
+  const QString kept =
+      QString("petrous-%1-%2-%3").arg(key).arg(size).arg(std::lround(100.0 * scale));
+  QPixmap pixmap;
+  if (QPixmapCache::find(kept, &pixmap))
+    return pixmap;
+  pixmap = QPixmap(QSize(size, size) * scale);
+  pixmap.setDevicePixelRatio(scale);
+  pixmap.fill(Qt::transparent);
+  QPainter painter(&pixmap);
+  painter.setRenderHint(QPainter::Antialiasing);
+  draw(painter);
+  painter.end();
+  QPixmapCache::insert(kept, pixmap);
+  return pixmap;
+}
+
+QIcon swatch(const QColor& color, int size)
+{
+  const QPixmap pixmap =
+      pixmapOf("swatch-" + color.name(), size,
+               [&color, size](QPainter& painter)
+               {
+                 painter.setPen(QColor(0, 0, 0, 160));
+                 painter.setBrush(color);
+                 painter.drawRoundedRect(QRectF(0.5, 0.5, size - 1.0, size - 1.0), 3.0, 3.0);
+               });
   QIcon icon(pixmap);
-  icon.addPixmap(pixmap, QIcon::Selected);
+  icon.addPixmap(pixmap, QIcon::Selected); // not tinted
   return icon;
 }
 

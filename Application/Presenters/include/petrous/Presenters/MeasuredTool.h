@@ -36,9 +36,8 @@ public:
   /// For a tool at X_PT. Beyond `most`, mm, the result is at least that. Of a tool that reaches the
   /// surface it is not told how deep.
   ///
-  /// bound   at most what `surface` gives, and cheaper: tells which points of an instrument need
-  /// not
-  ///         be looked up; without it `surface` does. The result is the same
+  /// bound   at most what `surface` gives, and cheaper: tells which points of an instrument need no
+  ///         look-up; without it `surface` does. The result is the same
   Distance distance(const haptics::Pose& pose, const Surface& surface, double most,
                     const Surface& bound = {}) const;
 

@@ -50,8 +50,7 @@ public:
 
   Events events;
 
-  /// The name that a new measurement gets, "distance", in the user's language. Without it: as it
-  /// is.
+  /// The name that a new measurement gets, "distance", in the user's language; unset: in English.
   std::function<std::string(const std::string&)> inLanguage;
 
   /// Does a Work elsewhere in place of the one before, which is given up; an empty one: of none.

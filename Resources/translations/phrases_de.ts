@@ -1108,6 +1108,14 @@
         <translation>%1: ist schon da; nennen Sie eine andere Datei, oder erlauben Sie das Ersetzen</translation>
     </message>
     <message>
+        <source>It is not known where the values of air end: those of soft tissue follow the scale of bone, and may be air</source>
+        <translation>Es ist nicht bekannt, wo die Werte der Luft enden: die des Weichgewebes folgen der Skala des Knochens und können Luft sein</translation>
+    </message>
+    <message>
+        <source>Estimated from the image's histogram: air ends at %1, and most of soft tissue is at %2</source>
+        <translation>Aus dem Histogramm des Bildes geschätzt: Luft endet bei %1, und das meiste Weichgewebe liegt bei %2</translation>
+    </message>
+    <message>
         <source>All tissue</source>
         <translation>Alles Gewebe</translation>
     </message>
@@ -6093,6 +6101,10 @@
         <translation>seine Knochenschwelle ist keine Intensität</translation>
     </message>
     <message>
+        <source>its values of soft tissue are no intensities</source>
+        <translation>seine Werte des Weichgewebes sind keine Intensitäten</translation>
+    </message>
+    <message>
         <source>an image's least intensity is above its largest</source>
         <translation>die kleinste Intensität eines Bildes liegt über der größten</translation>
     </message>
@@ -7908,6 +7920,10 @@
     <message>
         <source>the graphics driver has no room for a texture of %#1 x %#2 x %#3 (OpenGL error %#4)</source>
         <translation>der Grafiktreiber hat keinen Platz für eine Textur von %#1 x %#2 x %#3 (OpenGL-Fehler %#4)</translation>
+    </message>
+    <message>
+        <source>measuring the instrument</source>
+        <translation>das Instrument wird vermessen</translation>
     </message>
     <message>
         <source>slices</source>

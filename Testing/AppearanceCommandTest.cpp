@@ -462,5 +462,9 @@ TEST_F(AppearanceCommand, FindsBoneInAnImageWithoutHounsfieldUnits)
   EXPECT_NEAR(list["iso_hu"].get<double>(), 27000.0, 7000.0);
   EXPECT_NEAR(list["dense_bone_hu"].get<double>(), 42000.0, 1500.0);
   EXPECT_NE(outcome.err.find("not in Hounsfield units"), std::string::npos) << outcome.err;
+  // A dry bone has no soft tissue.
+  EXPECT_TRUE(list["soft_tissue"]["estimate"].is_null());
+  const auto text = run("appearance micro --list");
+  EXPECT_NE(text.out.find("not known where the values of air end"), std::string::npos) << text.out;
   EXPECT_EQ(json("appearance ear --iso auto")["iso_hu"], 300.0) << "calibrated";
 }

@@ -107,6 +107,9 @@ void listAppearance(const Context& context, const scene::Case& value)
                                     presenters::softTissueScale(value));
   const std::string missing = presenters::softTissueMissing(value);
   softTissue["not_drawn"] = missing.empty() ? nlohmann::json() : nlohmann::json(missing);
+  if (const std::string estimate = presenters::softTissueEstimate(value); !estimate.empty())
+    context.print("    " + estimate);
+  softTissue["estimate"] = softTissueValuesJson(value);
   nlohmann::json parts = nlohmann::json::array();
   for (const auto& part : value.labels)
     for (const auto& structure : part.structures)
@@ -243,6 +246,7 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
     const auto scale = isMr ? volume::suggestMrScale(histogram) : volume::suggestScale(histogram);
     context.refuseDamaged();
     value.iso = scale.iso;
+    value.softTissueValues = scale.soft;
     if (!scale.calibrated || presenters::calibratedScale(value).calibrated)
       value.denseBone = scale.dense; // else the file did not call its values Hounsfield units
     if (isMr)

@@ -36,6 +36,12 @@ json gridJson(const core::GridGeometry& grid)
           {"direction", directionJson(grid.direction())}};
 }
 
+json softTissueValuesJson(const scene::Case& value)
+{
+  const auto& soft = value.softTissueValues;
+  return soft ? json{{"foot", soft->foot}, {"peak", soft->peak}} : json();
+}
+
 json lookJson(const appearance::StructureAppearance& look)
 {
   json j{{"flags", appearance::flagsOf(look)}};
@@ -405,6 +411,7 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
           {"hounsfield", presenters::calibratedScale(value).calibrated},
           {"bone", lookJson(value.boneLook)},
           {"soft_tissue", lookJson(value.softTissue)},
+          {"soft_tissue_estimate", softTissueValuesJson(value)},
           {"ct", std::move(ct)},
           {"mr", std::move(mr)},
           {"labels", std::move(labels)},

@@ -1140,6 +1140,14 @@
         <translation>%1: ist schon da; nennen Sie eine andere Datei, oder erlauben Sie das Ersetzen</translation>
     </message>
     <message>
+        <source>It is not known where the values of air end: those of soft tissue follow the scale of bone, and may be air</source>
+        <translation>Es ist nicht bekannt, wo die Werte der Luft enden: die des Weichgewebes folgen der Skala des Knochens und können Luft sein</translation>
+    </message>
+    <message>
+        <source>Estimated from the image's histogram: air ends at %1, and most of soft tissue is at %2</source>
+        <translation>Aus dem Histogramm des Bildes geschätzt: Luft endet bei %1, und das meiste Weichgewebe liegt bei %2</translation>
+    </message>
+    <message>
         <source>All tissue</source>
         <translation>Alles Gewebe</translation>
     </message>
@@ -6167,6 +6175,10 @@
     <message>
         <source>its threshold of bone is no intensity</source>
         <translation>seine Knochenschwelle ist keine Intensität</translation>
+    </message>
+    <message>
+        <source>its values of soft tissue are no intensities</source>
+        <translation>seine Werte des Weichgewebes sind keine Intensitäten</translation>
     </message>
     <message>
         <source>an image's least intensity is above its largest</source>

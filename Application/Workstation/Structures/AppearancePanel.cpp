@@ -427,7 +427,9 @@ void AppearancePanel::showNote()
           (m_editor.canFit() ? tr(". Function > Fit to the histogram sets some.") : QString('.'));
     else if (part->name == AppearanceEditor::kSoftTissue)
       text = tr("It has no surface: colours and opacities of the points are seen, these times the "
-                "opacity of the whole. Below its first point it is transparent, as air must be.");
+                "opacity of the whole. Below its first point it is transparent, as air must be.") +
+             (m_editor.estimate().empty() ? QString()
+                                          : QChar(' ') + phrase(m_editor.estimate()) + QChar('.'));
     else if (!part->look.solid)
       text = tr("A space without tissue tints the bone around it: its colours count, its opacities "
                 "do not.");

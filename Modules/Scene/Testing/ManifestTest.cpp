@@ -36,6 +36,7 @@ scene::Case fullCase()
   value.revision = 41;
   value.iso = 287.123456789012345;
   value.denseBone = 21034.7;
+  value.softTissueValues = {4211.3, 14560.7};
   value.boneLook.opacity = 0.3F;
   value.boneLook.shown = false;
   value.ct.name = "ct";
@@ -214,6 +215,9 @@ TEST(Manifest, KeepsLooksToTheLastBit)
   EXPECT_EQ(back.meshes[0].look.stiffness, 0.0);
   EXPECT_EQ(look.warning, 1.25);
   EXPECT_EQ(back.denseBone, 21034.7);
+  ASSERT_TRUE(back.softTissueValues);
+  EXPECT_EQ(back.softTissueValues->foot, 4211.3);
+  EXPECT_EQ(back.softTissueValues->peak, 14560.7);
   EXPECT_EQ(back.boneLook.transfer, value.boneLook.transfer);
   EXPECT_TRUE(back.boneLook.relative);
   EXPECT_EQ(back.boneLook.opacity, 0.3F);
@@ -379,7 +383,7 @@ TEST(Manifest, HasSoftTissueOnlyWhereItIsOtherThanAtFirst)
 TEST(Manifest, OpensOneWithoutTransferFunctionsAsItLookedBefore)
 {
   auto j = nlohmann::json::parse(scene::toManifest(fullCase()));
-  for (const char* key : {"bone", "dense_bone_hu"})
+  for (const char* key : {"bone", "dense_bone_hu", "soft_tissue_values"})
     j.erase(key);
   auto& look = j["labels"][0]["structures"][0]["look"];
   look = {{"preset", "nerve"},
@@ -392,6 +396,7 @@ TEST(Manifest, OpensOneWithoutTransferFunctionsAsItLookedBefore)
   EXPECT_EQ(back.boneLook.preset, "bone");
   EXPECT_EQ(back.boneLook.opacity, 1.0F);
   EXPECT_EQ(back.denseBone, 1800.0);
+  EXPECT_FALSE(back.softTissueValues);
   const auto& nerve = back.labels[0].structures[0].look;
   EXPECT_FALSE(nerve.transfer.has_value());
   EXPECT_EQ(nerve.shininess, 18.0F);

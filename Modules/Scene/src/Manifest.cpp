@@ -971,6 +971,9 @@ Case caseIn(const json& j)
   value.revision = integerIn<std::uint64_t>(j.at("revision"));
   value.iso = j.at("iso_hu").get<double>();
   value.denseBone = j.value("dense_bone_hu", value.denseBone);
+  if (j.contains("soft_tissue_values"))
+    value.softTissueValues = {j.at("soft_tissue_values").at("foot").get<double>(),
+                              j.at("soft_tissue_values").at("peak").get<double>()};
   value.ct = imageIn(j.at("ct"));
   value.ct.name = plainIn(j.at("ct").at("name")); // no part's, which are checked
   if (j.contains("bone"))
@@ -1084,6 +1087,9 @@ std::string toManifest(const Case& value)
     j["meshes"].push_back(meshOut(mesh));
   if (!(value.softTissue == appearance::softTissueLook()))
     j["soft_tissue"] = appearance::appearanceJson(value.softTissue);
+  if (value.softTissueValues)
+    j["soft_tissue_values"] = {{"foot", value.softTissueValues->foot},
+                               {"peak", value.softTissueValues->peak}};
   if (!value.id.empty())
     j["id"] = value.id;
   if (value.camera)

@@ -540,6 +540,12 @@ std::string AppearanceEditor::notice() const
   return mrMissing(m_model.value(), look.sourceImage);
 }
 
+std::string AppearanceEditor::estimate() const
+{
+  return selected() && selected()->name == kSoftTissue ? softTissueEstimate(m_model.value())
+                                                       : std::string();
+}
+
 AppearanceHistograms::Histogram AppearanceEditor::imageHistogram() const
 {
   return selected() ? m_histograms.image(selected()->look.solid ? selected()->look.sourceImage

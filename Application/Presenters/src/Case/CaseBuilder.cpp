@@ -481,6 +481,7 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const OtherQuantit
     image.notes.push_back(other.why);
   value.iso = scale.iso;
   value.denseBone = scale.dense;
+  value.softTissueValues = scale.soft;
   if (image.modality == Modality::Unknown)
     image.notes.push_back("The file does not say whether it is a CT or an MR; it is taken for a CT "
                           "with units of its own, such as cone beam. Build the case with "

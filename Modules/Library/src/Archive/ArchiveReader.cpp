@@ -96,6 +96,9 @@ void checkSense(const scene::Case& value, const fs::path& path)
   const auto isSensible = [](double number) { return std::abs(number) <= kLargest; };
   if (!isSensible(value.iso) || !isSensible(value.denseBone))
     throwUnsound(path, "its threshold of bone is no intensity");
+  if (const auto& soft = value.softTissueValues;
+      soft && !(isSensible(soft->foot) && isSensible(soft->peak)))
+    throwUnsound(path, "its values of soft tissue are no intensities");
   std::set<std::string> images, structures, meshes;
   const auto checkRange = [&](const scene::ImagePart& image)
   {

@@ -134,6 +134,7 @@ public:
   /// Why the selected part is drawn in one colour although it has a function, or soft tissue not at
   /// all; empty: it is drawn as it is set.
   std::string notice() const;
+  std::string estimate() const; ///< softTissueEstimate, while soft tissue is selected
 
   /// Whether `fit` has what it needs.
   bool canFit() const;

@@ -2168,6 +2168,10 @@
         <translation>Länge: „%1“ hat keine Mittellinie: %~2</translation>
     </message>
     <message>
+        <source>as it lay before</source>
+        <translation>wie es vorher lag</translation>
+    </message>
+    <message>
         <source>distance</source>
         <translation>Abstand</translation>
     </message>
@@ -8443,6 +8447,14 @@
     <message>
         <source>measurement: %~1</source>
         <translation>Messung: %~1</translation>
+    </message>
+    <message>
+        <source>the MR '%1' lies elsewhere since points were set on it: their error is not known</source>
+        <translation>das MR „%1“ liegt anders, seit Punkte darauf gesetzt wurden: Ihr Fehler ist unbekannt</translation>
+    </message>
+    <message>
+        <source>the MR '%1', on which points were set, is not in the case any more as it was: their error is not known</source>
+        <translation>das MR „%1“, auf dem Punkte gesetzt wurden, ist nicht mehr so im Fall, wie es war: Ihr Fehler ist unbekannt</translation>
     </message>
     <message>
         <source>a measurement must be a mark, distance, length, angle, area or thickness</source>

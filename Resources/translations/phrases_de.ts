@@ -6561,6 +6561,10 @@
         <translation>„%1“ hat nicht die genannte Größe</translation>
     </message>
     <message>
+        <source>case '%1' cannot be saved, as of what it needs the library has lost %2 (removed by another program, or by hand); restore the library's files from a copy, or take out of the case what is lost, and save again</source>
+        <translation>der Fall „%1“ kann nicht gespeichert werden, da die Bibliothek von dem, was er braucht, %2 verloren hat (von einem anderen Programm oder von Hand entfernt); stellen Sie die Dateien der Bibliothek aus einer Kopie wieder her, oder nehmen Sie das Verlorene aus dem Fall, und speichern Sie erneut</translation>
+    </message>
+    <message>
         <source>and %#1 more structures</source>
         <translation>und %#1 weitere Strukturen</translation>
     </message>
@@ -6671,14 +6675,6 @@
     <message>
         <source>MR '%1' was acquired in the CT's position, which the library that it comes to cannot know; register it</source>
         <translation>das MR „%1“ wurde in der Lage des CT aufgenommen, was die Bibliothek, in die es kommt, nicht wissen kann; registrieren Sie es</translation>
-    </message>
-    <message>
-        <source>case '%1' is saved, but not all of it is there: %~2</source>
-        <translation>der Fall „%1“ ist gespeichert, aber nicht alles davon ist da: %~2</translation>
-    </message>
-    <message>
-        <source>%~1 is missing</source>
-        <translation>%~1 fehlt</translation>
     </message>
     <message>
         <source>case '%1' was changed by another program since it was opened; open it again and repeat what you did</source>
@@ -7323,6 +7319,22 @@
     <message>
         <source>the library's folder is as it was</source>
         <translation>der Ordner der Bibliothek ist, wie er war</translation>
+    </message>
+    <message>
+        <source>%1: a case was made from this file, which would be replaced; name another file</source>
+        <translation>%1: aus dieser Datei wurde ein Fall erstellt, sie würde ersetzt; geben Sie eine andere Datei an</translation>
+    </message>
+    <message>
+        <source>%1: is a file; a library is a folder: give one, or a new name</source>
+        <translation>%1: ist eine Datei; eine Bibliothek ist ein Ordner: geben Sie einen Ordner oder einen neuen Namen an</translation>
+    </message>
+    <message>
+        <source>%1: no library can be there, as %2 is a file; give a folder</source>
+        <translation>%1: dort kann keine Bibliothek sein, da %2 eine Datei ist; geben Sie einen Ordner an</translation>
+    </message>
+    <message>
+        <source>%1: no library can be there, as %2 is not there; is the path right, and its disk mounted? For a new library make that folder first</source>
+        <translation>%1: dort kann keine Bibliothek sein, da %2 nicht da ist; stimmt der Pfad, und ist der Datenträger eingehängt? Legen Sie für eine neue Bibliothek zuerst diesen Ordner an</translation>
     </message>
     <message>
         <source>%1: a file stands where the library needs a folder; choose another library folder</source>

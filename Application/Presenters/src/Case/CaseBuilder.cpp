@@ -1401,6 +1401,7 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   scene::checkCaseName(name);
   scene::Case value;
   value.name = name;
+  value.origins.push_back({sources.ct, fs::file_time_type::clock::now()});
   requireSide(sources.ct, sources.assumeRas, "--ct-frame");
   requireUnit(sources.ct, sources.unit, "--ct-unit");
   ReadImage read = readImage(sources.ct, sources.series,
@@ -1539,6 +1540,9 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
     addLabels(next, source, parts, share(), &reports);
   for (const PartSource& source : parts.meshes)
     addMesh(next, source, share());
+  for (const auto* kind : {&parts.mr, &parts.labels, &parts.meshes})
+    for (const PartSource& source : *kind)
+      next.origins.push_back({source.path, fs::file_time_type::clock::now()});
   value = std::move(next);
   if (report)
     report->insert(report->end(), reports.begin(), reports.end());

@@ -8082,10 +8082,6 @@
         <translation>Bild: Netz %1 hat keine Dreiecke</translation>
     </message>
     <message>
-        <source>uniform int cameraParallel</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>Bone over %1, mm</source>
         <translation>Knochen über %1, mm</translation>
     </message>

@@ -172,8 +172,8 @@ void PolygonShading::apply(vtkActor* actor, const LightSettings& light, float op
       shader->AddFragmentShaderReplacement("//VTK::Light::Dec", true,
                                            "//VTK::Light::Dec\n" + functions, false);
     // VTK sets it, but declares it only where surfaces have no normals.
-    shader->AddFragmentShaderReplacement("//VTK::Camera::Dec", true, "uniform int cameraParallel;",
-                                         false);
+    shader->AddFragmentShaderReplacement("//VTK::Camera::Dec", true,
+                                         "uniform int cameraParallel;\n", false);
     shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, "//VTK::Light::Impl\n" + code,
                                          false);
   }

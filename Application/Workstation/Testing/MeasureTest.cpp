@@ -398,7 +398,8 @@ TEST_F(MeasureWindow, AsksBeforeATableReplacesAFile)
             dialog.reject();
             return true;
           }
-          files->selectFile(QString::fromStdString((folder() / "table").string()));
+          files->findChild<QLineEdit*>("fileNameEdit")
+              ->setText(QString::fromStdString((folder() / "table").string()));
           dialog.done(QDialog::Accepted);
           return false;
         }

@@ -88,7 +88,8 @@ void storeParts(const Library& library, scene::Case& value, ObjectStore& store,
 }
 
 // No manifest gets a reference to an object that is not there, but for those of a damaged case:
-// what is drilled in it is kept, also under another name, and its file may come back.
+// what is drilled in it is kept, also under another name, and its file may come back. Nor does a
+// lost attachment or instrument keep a case from another library.
 void refuseMissing(const scene::Case& next, const scene::Case& present, const fs::path& cases,
                    const ObjectStore& store)
 {
@@ -119,7 +120,9 @@ void refuseMissing(const scene::Case& next, const scene::Case& present, const fs
   std::string lost;
   std::size_t count = 0;
   for (const ObjectUse& use : missing)
-    if (damaged.count(use.object) == 0)
+    if (damaged.count(use.object) == 0 &&
+        (present.revision > 0 ||
+         (use.kind != ObjectUse::Kind::Attachment && use.kind != ObjectUse::Kind::Instrument)))
       lost += (count++ == 0 ? "" : ", ") + use.what;
   if (count > 0)
     throw LibraryError(Reason::NotFound,

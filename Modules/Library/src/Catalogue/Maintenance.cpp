@@ -686,7 +686,8 @@ Collected Library::collectGarbage(const core::Progress& progress)
     throw LibraryError(Reason::Conflict,
                        "a case of the library is open in Petrous elsewhere (" + toString(openers) +
                            "), where what was removed can still be put back; nothing was cleaned "
-                           "up: close it there first");
+                           "up: close it there first. Where no such program runs any more, remove "
+                           "what is in the library's folder 'open'");
   std::set<std::string> used;
   std::set<std::string> ids;
   const std::vector<std::string> names = namesIn(m_folder / "cases");

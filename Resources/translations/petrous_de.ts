@@ -1180,10 +1180,6 @@
         <translation>Erneut versuchen</translation>
     </message>
     <message>
-        <source>Another name…</source>
-        <translation>Anderer Name…</translation>
-    </message>
-    <message>
         <source>Another folder…</source>
         <translation>Anderer Ordner…</translation>
     </message>
@@ -1864,6 +1860,26 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>Put air in place of the &amp;face, and leave out %1</source>
         <translation>Luft an die Stelle des &amp;Gesichts setzen und weglassen: %1</translation>
+    </message>
+    <message>
+        <source>Bring back</source>
+        <translation>Zurückholen</translation>
+    </message>
+    <message>
+        <source>Save under another name…</source>
+        <translation>Unter anderem Namen speichern…</translation>
+    </message>
+    <message>
+        <source>Not saved: another program deleted the case “%1”. Bring it back, or save it under another name. The work is still open in this window.</source>
+        <translation>Nicht gespeichert: Ein anderes Programm hat den Fall „%1“ gelöscht. Holen Sie ihn zurück, oder speichern Sie ihn unter einem anderen Namen. Die Arbeit ist in diesem Fenster noch offen.</translation>
+    </message>
+    <message>
+        <source>Bringing back %1</source>
+        <translation>%1 wird zurückgeholt</translation>
+    </message>
+    <message>
+        <source>If the case is archived, all faces go along unmasked: %1.</source>
+        <translation>Wird der Fall archiviert, gehen alle Gesichter unmaskiert mit: %1.</translation>
     </message>
 </context>
 <context>

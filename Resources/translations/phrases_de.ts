@@ -1564,6 +1564,10 @@
         <translation>Name des Zugangs %1</translation>
     </message>
     <message>
+        <source>deletion of the main approach</source>
+        <translation>Löschen des Hauptzugangs</translation>
+    </message>
+    <message>
         <source>deletion of approach %1</source>
         <translation>Löschen des Zugangs %1</translation>
     </message>
@@ -6693,8 +6697,8 @@
         <translation>der Fall „%1“ wurde von einem anderen Programm geändert, seit er geöffnet wurde; öffnen Sie ihn neu, und wiederholen Sie Ihre Arbeit</translation>
     </message>
     <message>
-        <source>case '%1' was removed by another program since it was opened; open it again and repeat what you did</source>
-        <translation>der Fall „%1“ wurde von einem anderen Programm entfernt, seit er geöffnet wurde; öffnen Sie ihn neu, und wiederholen Sie Ihre Arbeit</translation>
+        <source>case '%1' was deleted or renamed by another program since it was opened; bring it back ('petrous library undelete'), or save it under another name</source>
+        <translation>der Fall „%1“ wurde von einem anderen Programm gelöscht oder umbenannt, seit er geöffnet wurde; holen Sie ihn zurück („Zurückholen“ in der Bibliothek), oder speichern Sie ihn unter einem anderen Namen</translation>
     </message>
     <message>
         <source>case '%1' is as it was</source>

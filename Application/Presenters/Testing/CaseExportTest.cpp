@@ -11,6 +11,7 @@
 
 #include <unistd.h>
 
+#include "../../../Modules/Volume/Testing/SyntheticHead.h"
 #include "BoneCase.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
@@ -193,6 +194,41 @@ TEST(LeavingImages, AnMrIsLeftOutUnlessStructuresWereDrawnOnIt)
   EXPECT_THROW(leaveOutMrs(value, {"T1"}), core::Error);
   EXPECT_THROW(leaveOutMrs(value, {"tumour"}), core::InvalidParameter);
   EXPECT_EQ(value.meshes.size(), 1U);
+}
+
+// Whether it is named or the only one; what stays is not looked at.
+TEST_F(CaseExport, MasksTheFaceOfTheImageThatIsWritten)
+{
+  scene::ImagePart mr;
+  mr.name = "T2";
+  mr.geometry = volume::test::gridOver(volume::test::headBox(), Vector3d::Constant(3.0));
+  mr.volume = std::make_shared<const volume::IntensityVolume>(
+      volume::test::scanned(volume::test::SyntheticHead(), mr.geometry, true));
+  mr.range = mr.volume.get()->range();
+  m_case.mr = {mr};
+  m_case.dissection = dissection::Dissection(m_case.ct.geometry);
+  const auto notesOf = [&](const std::string& what, const std::string& part)
+  {
+    scene::Case value = m_case;
+    ExportOptions options;
+    options.what = what;
+    options.part = part;
+    options.out = (m_folder / (what + part + ".nii.gz")).string();
+    options.mask.face = true;
+    std::string notes;
+    exportCase(m_library, value, options, {},
+               [&notes](const std::string& line) { notes += line + '\n'; }, {});
+    return notes;
+  };
+  for (const std::string part : {"", "T2"})
+  {
+    const std::string notes = notesOf("mr", part);
+    EXPECT_NE(notes.find("MR 'T2': the face is masked"), std::string::npos) << notes;
+    EXPECT_EQ(notes.find("the CT: "), std::string::npos) << notes;
+  }
+  const std::string notes = notesOf("ct", "");
+  EXPECT_NE(notes.find("the CT: "), std::string::npos) << notes;
+  EXPECT_EQ(notes.find("T2"), std::string::npos) << notes;
 }
 
 TEST_F(CaseExport, DicomStatesWhatIsKnownToBeWrongWithTheImage)

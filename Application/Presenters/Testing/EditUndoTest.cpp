@@ -427,6 +427,17 @@ TEST_F(EditUndoTest, StrokesOfAnotherBranchDoNotBarTheWay)
   EXPECT_EQ(look().color, (Color{1.0F, 0.0F, 0.0F}));
 }
 
+// As its name is shown: it is no name that a user gave, and is translated.
+TEST_F(EditUndoTest, TheDeletionOfTheMainApproachHasAPhraseOfItsOwn)
+{
+  open();
+  stroke();
+  model->startBranch("other");
+  model->removeBranch("main");
+  EXPECT_EQ(model->undoText(), "deletion of the main approach");
+  EXPECT_EQ(germanPhrases().find(model->undoText()), "Löschen des Hauptzugangs");
+}
+
 TEST_F(EditUndoTest, AnApproachThatWasDeletedComesBackWithItsStrokes)
 {
   open();

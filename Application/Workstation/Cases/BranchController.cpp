@@ -159,7 +159,7 @@ void BranchController::goToState(std::string name, std::size_t state)
       return emit statusMessage(toString(fault));
     }
   say(tr("Approach %1, strokes drilled: %2 of %3")
-          .arg(words(name))
+          .arg(approachName(name))
           .arg(history.applied())
           .arg(history.applied() + history.ahead()));
 }
@@ -195,7 +195,7 @@ void BranchController::start()
                     }));
   if (!chosen.empty() && m_model.hasCase() &&
       change([this, &chosen] { m_model.startBranch(chosen); }))
-    say(tr("On the new approach %1").arg(words(chosen)));
+    say(tr("On the new approach %1").arg(approachName(chosen)));
 }
 
 void BranchController::rename(const std::string& name)

@@ -190,6 +190,23 @@ std::string unusedName(const std::string& wanted, const std::vector<std::string>
                          });
 }
 
+// By another program, since it was opened or saved.
+bool isDeleted(const library::Library& library, const scene::Case& value)
+{
+  try
+  {
+    if (value.revision == 0 || library.contains(value.name))
+      return false;
+    const auto deleted = library.deleted();
+    return std::any_of(deleted.begin(), deleted.end(),
+                       [&value](const auto& one) { return one.name == value.name; });
+  }
+  catch (const std::exception&) // which is why it is not saved
+  {
+    return false;
+  }
+}
+
 } // namespace
 
 CaseDocumentController::CaseDocumentController(presenters::WorkstationModel& model,
@@ -228,7 +245,8 @@ CaseDocumentController::~CaseDocumentController() = default;
 void CaseDocumentController::connectBanners()
 {
   m_unsaved.addButton("retrySave", tr("Try again"), [this] { save(); });
-  m_unsaved.addButton("saveAsOther", tr("Another name…"), [this] { saveAs(); });
+  m_unsaved.addButton("bringBack", tr("Bring back"), [this] { bringBack(); });
+  m_unsaved.addButton("saveAsOther", tr("Save under another name…"), [this] { saveAs(); });
   m_unsaved.addButton("saveElsewhere", tr("Another folder…"),
                       [this]
                       {
@@ -307,8 +325,38 @@ void CaseDocumentController::notSaved(const QString& why)
 {
   m_sayWhenSaved = false;
   m_whyNamed.clear();
-  m_unsaved.setText(tr("Not saved: %1 The work is still open in this window.").arg(sentence(why)));
+  const bool wasDeleted = m_model.hasCase() && isDeleted(m_model.library(), m_model.value());
+  m_unsaved.setButtonVisible("retrySave", !wasDeleted);
+  m_unsaved.setButtonVisible("bringBack", wasDeleted);
+  m_unsaved.setText(
+      wasDeleted ? tr("Not saved: another program deleted the case “%1”. Bring it back, or save it "
+                      "under another name. The work is still open in this window.")
+                       .arg(words(m_model.value().name))
+                 : tr("Not saved: %1 The work is still open in this window.").arg(sentence(why)));
   m_unsaved.show();
+}
+
+// As it was deleted, and then what is open is saved.
+void CaseDocumentController::bringBack()
+{
+  if (!m_model.hasCase())
+    return;
+  if (m_work.busy() || m_asking)
+    return emit statusMessage(tr("One at a time: something is being read already"));
+  const std::string name = m_model.value().name;
+  m_model.beginOpen(name); // else its journal would count as that of another program
+  work(tr("Bringing back %1").arg(words(name)),
+       [this, name,
+        library = m_model.library()](const core::Progress&) mutable -> BackgroundWork::Reply
+       {
+         library.undelete(name);
+         return [this]
+         {
+           endWork();
+           m_model.notOpened();
+           save();
+         };
+       });
 }
 
 void CaseDocumentController::refuse(const QString& why)
@@ -1693,7 +1741,8 @@ void CaseDocumentController::exportPart(const QString& what, const QString& part
     const QScopedValueRollback<bool> asking(m_asking, true);
     if (mayDropDraft && !mayDropDraft())
       return;
-    const FaceCheck faces = lookForFaces(m_model.value(), m_window);
+    const scene::Case value = m_model.value(); // may be closed meanwhile
+    const FaceCheck faces = lookForFaces(value, m_window);
     if (faces.isCancelled || !m_model.hasCase())
       return;
     std::optional<ExportDialog::Choices> proposed = m_exported;
@@ -1708,10 +1757,11 @@ void CaseDocumentController::exportPart(const QString& what, const QString& part
         chosen.path = QDir::home().filePath("x");
       proposed = chosen;
     }
-    ExportDialog dialog(m_model.value(), faces, proposed, &m_window);
+    ExportDialog dialog(value, faces, proposed, &m_window);
     if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
       return;
     options = dialog.options();
+    options.mask.found = faces.found;
     m_exported = dialog.choices();
   }
   write(options);
@@ -1809,7 +1859,7 @@ bool CaseDocumentController::askOfFace(const std::string& name, scene::ImageMask
   {
     return true; // archiving says what is wrong with the case
   }
-  const scene::Case& value = isOpen ? m_model.value() : stored;
+  const scene::Case value = isOpen ? m_model.value() : std::move(stored); // may be closed meanwhile
   const FaceCheck faces = lookForFaces(value, m_window);
   if (faces.isCancelled || (isOpen && !m_model.hasCase()))
     return false;
@@ -1841,6 +1891,13 @@ bool CaseDocumentController::askOfFace(const std::string& name, scene::ImageMask
                   QMessageBox::Cancel, &m_window);
   ask.setObjectName("archiveFace");
   ask.setTextFormat(Qt::PlainText);
+  if (!canMask)
+  {
+    QStringList all;
+    for (const scene::ImageWithFace& image : faces.images)
+      all += textOf(image);
+    faults += tr("If the case is archived, all faces go along unmasked: %1.").arg(all.join(", "));
+  }
   ask.setInformativeText(faults.join('\n'));
   auto* box =
       new QCheckBox(out.empty() || !canMask ? tr("Put air in place of the &face")
@@ -1854,9 +1911,13 @@ bool CaseDocumentController::askOfFace(const std::string& name, scene::ImageMask
   box->setEnabled(canMask);
   ask.setCheckBox(box);
   auto* go = ask.addButton(tr("&Archive"), QMessageBox::AcceptRole);
-  ask.setDefaultButton(go);
+  if (canMask)
+    ask.setDefaultButton(go);
+  else
+    ask.setDefaultButton(QMessageBox::Cancel);
   ask.exec();
   mask.face = box->isChecked();
+  mask.found = faces.found;
   if (mask.face)
     withoutMrs = std::move(out);
   return ask.clickedButton() == go;
@@ -1885,8 +1946,9 @@ void CaseDocumentController::archive(const std::string& which)
       return;
     try
     {
-      const scene::Case stored = isOpen ? scene::Case() : m_model.library().open(name);
-      ArchiveDialog dialog(isOpen ? m_model.value() : stored, m_model.library(), &m_window);
+      // A copy: the case may be closed meanwhile.
+      const scene::Case value = isOpen ? m_model.value() : m_model.library().open(name);
+      ArchiveDialog dialog(value, m_model.library(), &m_window);
       if (dialog.exec() != QDialog::Accepted || (isOpen && !m_model.hasCase()))
         return;
       file = dialog.file();

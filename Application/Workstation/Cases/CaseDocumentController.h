@@ -191,6 +191,7 @@ private:
   void watchForDamage();
   void lookForDamage();
   void notSaved(const QString& why);
+  void bringBack(); ///< the case, which another program deleted
   bool leaveCase();
   void refuse(const QString& why);
   void inform(const QString& text);

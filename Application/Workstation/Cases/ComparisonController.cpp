@@ -90,10 +90,10 @@ void ComparisonController::start()
     return;
   if (!history.find(m_first) || !history.find(m_second))
     return close();
-  QStringList names;
+  std::vector<std::string> names;
   for (const auto& branch : history.branches())
-    names += words(branch.name);
-  m_window->setApproaches(names, {words(m_first), words(m_second)});
+    names.push_back(branch.name);
+  m_window->setApproaches(names, {m_first, m_second});
   m_window->setProgress(0.0);
   m_work.replace(
       [this, value = scene::Case(m_model.value()), first = m_first,

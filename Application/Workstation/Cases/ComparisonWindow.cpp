@@ -95,7 +95,10 @@ ComparisonWindow::ComparisonWindow(QWidget* parent)
     m_choices[n]->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     connect(m_choices[n], qOverload<int>(&QComboBox::activated), this,
             [this]
-            { emit approachesChosen(m_choices[0]->currentText(), m_choices[1]->currentText()); });
+            {
+              emit approachesChosen(m_choices[0]->currentData().toString(),
+                                    m_choices[1]->currentData().toString());
+            });
     m_views[n]->setObjectName(n == 0 ? "firstView" : "secondView");
     connect(m_views[n], &ThreeDView::cameraMoved, this,
             [this, other = m_views[1 - n]](const core::CameraPose& camera)
@@ -170,16 +173,19 @@ ComparisonWindow::ComparisonWindow(QWidget* parent)
   resizeOnScreen(*this, {1240, 860});
 }
 
-void ComparisonWindow::setApproaches(const QStringList& names, const std::array<QString, 2>& chosen)
+void ComparisonWindow::setApproaches(const std::vector<std::string>& names,
+                                     const std::array<std::string, 2>& chosen)
 {
   for (std::size_t n = 0; n < m_choices.size(); ++n)
   {
     const QSignalBlocker blocker(m_choices[n]);
     m_choices[n]->clear();
-    m_choices[n]->addItems(names);
-    m_choices[n]->setCurrentIndex(static_cast<int>(names.indexOf(chosen[n])));
+    for (const std::string& name : names)
+      m_choices[n]->addItem(approachName(name), words(name));
+    m_choices[n]->setCurrentIndex(m_choices[n]->findData(words(chosen[n])));
   }
-  m_table->setHorizontalHeaderLabels({tr("Quantity"), chosen[0], chosen[1]});
+  m_table->setHorizontalHeaderLabels(
+      {tr("Quantity"), approachName(chosen[0]), approachName(chosen[1])});
 }
 
 void ComparisonWindow::setStamp(const QString& text)
@@ -195,7 +201,7 @@ void ComparisonWindow::stampViews()
   {
     QStringList parts;
     if (m_comparison && !showsDifference())
-      parts += words(m_comparison->sides[n].name);
+      parts += approachName(m_comparison->sides[n].name);
     if (!m_stamp.isEmpty())
       parts += m_stamp;
     m_views[n]->setStamp(parts.join(QString::fromUtf8(" · ")));
@@ -267,8 +273,8 @@ void ComparisonWindow::draw()
   if (isDifference)
   {
     const auto& colors = presenters::kDifferenceColors;
-    legend = QStringList{colored(colors[0], tr("only %1").arg(words(sides[0].name))),
-                         colored(colors[1], tr("only %1").arg(words(sides[1].name))),
+    legend = QStringList{colored(colors[0], tr("only %1").arg(approachName(sides[0].name))),
+                         colored(colors[1], tr("only %1").arg(approachName(sides[1].name))),
                          colored(colors[2], tr("both"))};
     rendering::SceneContents contents = m_contents;
     presenters::showDifference(contents, *m_comparison);
@@ -303,7 +309,7 @@ void ComparisonWindow::fillTable()
 {
   const auto& [a, b] = m_comparison->sides;
   m_table->setRowCount(0);
-  m_table->setHorizontalHeaderLabels({tr("Quantity"), words(a.name), words(b.name)});
+  m_table->setHorizontalHeaderLabels({tr("Quantity"), approachName(a.name), approachName(b.name)});
   const auto count = [](std::size_t strokes) { return QString::number(strokes); };
   addRow(tr("Strokes, %1 in common").arg(m_comparison->commonStrokes), count(a.strokes),
          count(b.strokes));

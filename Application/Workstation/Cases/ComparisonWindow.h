@@ -2,6 +2,8 @@
 
 #include <array>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <QWidget>
 
@@ -28,7 +30,8 @@ public:
   explicit ComparisonWindow(QWidget* parent);
 
   /// Those that can be chosen, and the two that are compared.
-  void setApproaches(const QStringList& names, const std::array<QString, 2>& chosen);
+  void setApproaches(const std::vector<std::string>& names,
+                     const std::array<std::string, 2>& chosen);
   void setStamp(const QString& text);
   void setCamera(const core::CameraPose& camera);
   void setProgress(double fraction); ///< of comparing
@@ -45,7 +48,7 @@ public:
 signals:
   void cancelAsked();
   void againAsked();
-  void approachesChosen(const QString& first, const QString& second);
+  void approachesChosen(const QString& first, const QString& second); ///< names of the history
   void differenceToggled(bool on);
   void closed();
 

@@ -174,7 +174,7 @@ void ExchangeController::send(const std::string& which)
                { return [this, all, value = library.open(which)] { offer(value, all); }; });
 }
 
-void ExchangeController::offer(const scene::Case& value, const std::vector<network::Node>& nodes)
+void ExchangeController::offer(scene::Case value, const std::vector<network::Node>& nodes)
 {
   const FaceCheck faces = lookForFaces(value, m_window);
   if (faces.isCancelled)

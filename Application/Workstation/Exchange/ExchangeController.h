@@ -35,7 +35,8 @@ signals:
 private:
   std::vector<network::Node> nodes(); ///< asks for one where there is none; empty: none wanted
   void editNodes();
-  void offer(const scene::Case& value, const std::vector<network::Node>& nodes); ///< to send it
+  /// To send it. A copy: it may be closed while that is asked.
+  void offer(scene::Case value, const std::vector<network::Node>& nodes);
   void receive();
   /// `name`: of the new case; empty: that of the scene. Asked for where it is taken. `bits`: of a
   /// study whose images a case is built of after all; asked for where they are unclear.

@@ -31,7 +31,8 @@ struct WaitCursor
 FaceCheck lookForFaces(const scene::Case& value, QWidget& parent)
 {
   constexpr int kShownAfter = 500; // ms
-  FaceCheck result{{}, false};
+  FaceCheck result;
+  result.isKnown = false;
   QEventLoop loop;
   BackgroundWork work; // ends before what it refers to
   bool isDone = false;
@@ -46,9 +47,12 @@ FaceCheck lookForFaces(const scene::Case& value, QWidget& parent)
   work.start(
       [&result, done, copy](const core::Progress& progress) -> BackgroundWork::Reply
       {
-        return [&result, done, images = presenters::facesToMask(*copy, progress)]
+        const auto found = std::make_shared<scene::FaceFindings>();
+        return
+            [&result, done, found, images = presenters::facesToMask(*copy, progress, found.get())]
         {
           result.images = images;
+          result.found = found;
           result.isKnown = true;
           done();
         };
@@ -75,8 +79,13 @@ FaceCheck lookForFaces(const scene::Case& value, QWidget& parent)
                      done(); // the work is joined where it goes out of scope
                    });
   progress.show();
-  while (!isDone)
+  if (!isDone)
     loop.exec();
+  if (!isDone) // the program is being quit, and no event loop runs any more
+  {
+    result.isCancelled = true;
+    work.cancel();
+  }
   return result;
 }
 

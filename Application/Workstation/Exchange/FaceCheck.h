@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <QString>
@@ -16,7 +17,9 @@ struct FaceCheck
 {
   std::vector<scene::ImageWithFace> images; ///< in which one can (presenters::facesToMask)
   bool isKnown = true;                      ///< false: an image could not be read; there may be one
-  bool isCancelled = false;                 ///< by the user, who wants nothing of what it is for
+  bool isCancelled = false; ///< by the user, who wants nothing of what it is for, or at the end of
+                            ///< the program
+  std::shared_ptr<const scene::FaceFindings> found; ///< for scene::ImageMask; nullptr: nothing
 
   bool mayHave() const { return !isKnown || !images.empty(); }
 };

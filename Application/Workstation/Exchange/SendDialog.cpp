@@ -104,6 +104,7 @@ presenters::SendParts SendDialog::parts() const
   parts.videos = m_videos->isEnabled() && m_videos->isChecked();
   parts.documents = m_documents->isEnabled() && m_documents->isChecked();
   parts.mask.face = m_maskFace->isEnabled() && m_maskFace->isChecked();
+  parts.mask.found = m_faces.found;
   return parts;
 }
 
@@ -124,14 +125,19 @@ void SendDialog::update()
   if (!any)
     return m_report->setPlainText(tr("Nothing is chosen."));
   std::vector<std::string> images;
+  QStringList faults;
   for (const scene::ImageWithFace& image : m_faces.images)
+  {
+    if (!presenters::isSent(m_value, what, image.mr))
+      continue;
     images.push_back(image.text);
+    if (what.mask.face && !image.fault.empty())
+      faults += phrase(image.fault);
+  }
   const auto* faces = m_faces.isKnown ? &images : nullptr;
   QString text = phrase(presenters::identityReport(m_value, what, faces, &m_library).text());
-  if (what.mask.face)
-    for (const scene::ImageWithFace& image : m_faces.images)
-      if (!image.fault.empty())
-        text += '\n' + phrase(image.fault);
+  for (const QString& fault : faults)
+    text += '\n' + fault;
   if (!m_faces.isKnown)
     text += '\n' + textOf(m_faces);
   m_report->setPlainText(text);

@@ -25,7 +25,15 @@ namespace
 {
 constexpr int kLetterMargin = 10; // px
 constexpr int kFrame = 2;         // px, of what has the keyboard focus
-constexpr double kFine = 0.2;     // of a notch of the wheel, with Shift
+
+// To another window or a menu, and back: what had the focus has it again.
+bool isPassing(Qt::FocusReason reason)
+{
+  return reason == Qt::ActiveWindowFocusReason || reason == Qt::PopupFocusReason ||
+         reason == Qt::MenuBarFocusReason;
+}
+
+constexpr double kFine = 0.2; // of a notch of the wheel, with Shift
 constexpr double kDegreesPerNotch = 5.0;
 } // namespace
 
@@ -174,8 +182,15 @@ void ThreeDView::placeFocusFrame()
   m_focusFrame->setMask(QRegion(rect()) - rect().adjusted(kFrame, kFrame, -kFrame, -kFrame));
 }
 
+void ThreeDView::showFocusFrame()
+{
+  m_focusFrame->setVisible(m_isFocused && m_cameByTab &&
+                           m_display->stereo() == rendering::StereoMode::None);
+}
+
 void ThreeDView::placeLetters()
 {
+  showFocusFrame();
   // In stereo they would float in front of or behind the patient.
   const bool mono = m_display->stereo() == rendering::StereoMode::None;
   for (QLabel* letter : m_letters)
@@ -277,11 +292,17 @@ bool ThreeDView::event(QEvent* event)
   case QEvent::FocusIn:
   {
     const Qt::FocusReason reason = static_cast<QFocusEvent*>(event)->reason();
-    m_focusFrame->setVisible(reason == Qt::TabFocusReason || reason == Qt::BacktabFocusReason);
+    if (!isPassing(reason))
+      m_cameByTab = reason == Qt::TabFocusReason || reason == Qt::BacktabFocusReason;
+    m_isFocused = true;
+    showFocusFrame();
     break;
   }
   case QEvent::FocusOut: // a release event sent to another window would leave the drill on
-    m_focusFrame->hide();
+    m_isFocused = false;
+    if (!isPassing(static_cast<QFocusEvent*>(event)->reason()))
+      m_cameByTab = false;
+    showFocusFrame();
     m_tool->Release();
     m_style->OnLeftButtonUp();
     m_style->OnMiddleButtonUp();

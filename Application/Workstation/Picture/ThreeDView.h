@@ -77,6 +77,7 @@ private:
   void placeStamp();
   void placeNotes();
   void placeFocusFrame();
+  void showFocusFrame();
 
   vtkNew<vtkGenericOpenGLRenderWindow> m_window;
   std::unique_ptr<SceneDisplay> m_display;
@@ -88,7 +89,9 @@ private:
   QString m_stampText;              // whole
   std::optional<QPointF> m_clicked; // where the left button went down, until the pointer leaves
   QLabel* m_notes;
-  QWidget* m_focusFrame; // while the keyboard focus came by Tab
+  QWidget* m_focusFrame; // while the keyboard focus is here and came by Tab; not in stereo
+  bool m_isFocused = false;
+  bool m_cameByTab = false; // the focus, also while another window or a menu has it
   QStringList m_noteLines;
 };
 

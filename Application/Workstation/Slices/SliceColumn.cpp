@@ -48,9 +48,8 @@ SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
     connect(view, &SliceView::zoomed, this,
             [this, view]
             {
-              for (SliceView* other : m_views)
-                if (m_isZoomTogether && other != view)
-                  other->setScale(view->slice().mmPerPixel());
+              m_zoomed = view;
+              zoomTogether();
             });
     connect(view, &SliceView::pointed, this, &SliceColumn::pointed);
     connect(view, &SliceView::moveAsked, this, &SliceColumn::moveAsked);
@@ -185,6 +184,25 @@ void SliceColumn::setSlab(const presenters::Slab& slab)
   for (SliceView* view : m_views)
     view->setSlab(slab);
   emit slabChanged();
+}
+
+void SliceColumn::setZoomTogether(bool together)
+{
+  m_isZoomTogether = together;
+  for (const SliceView* view : m_views)
+    if (view->hasFocus())
+      m_zoomed = view;
+  for (const SliceView* view : m_views) // as a kept view has it
+    if (!m_zoomed && view->plane().zoom > 1.0)
+      m_zoomed = view;
+  zoomTogether();
+}
+
+void SliceColumn::zoomTogether()
+{
+  for (SliceView* view : m_views)
+    if (m_isZoomTogether && m_zoomed && view != m_zoomed)
+      view->setScale(m_zoomed->slice().mmPerPixel());
 }
 
 void SliceColumn::setScale(double mmPerPixel)
@@ -358,6 +376,7 @@ void SliceColumn::draftChanged(const core::PatientBox& box)
 
 void SliceColumn::fit()
 {
+  m_zoomed = nullptr;
   for (SliceView* view : m_views)
     view->fit();
 }
@@ -374,6 +393,8 @@ void SliceColumn::setShown(const scene::ViewState::Slices& slices)
   for (std::size_t n = 0; slices.planes && n < m_views.size(); ++n)
     m_views[n]->setPlane((*slices.planes)[n]);
   m_model.setCrosshair(slices.crosshair);
+  for (SliceView* view : m_views)
+    view->revealCrosshair();
 }
 
 scene::ViewState::Slices SliceColumn::shown() const

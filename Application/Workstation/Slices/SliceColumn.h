@@ -52,8 +52,9 @@ public:
   void setPlanes(const presenters::SlicePlanes& planes);
   const presenters::Slab& slab() const noexcept { return m_slab; }
   void setSlab(const presenters::Slab& slab);
-  /// A slice that is zoomed takes the others along, to the same millimetres a pixel.
-  void setZoomTogether(bool together) { m_isZoomTogether = together; }
+  /// A slice that is zoomed takes the others along, to the same millimetres a pixel: at once the
+  /// one that has the keyboard focus, or was zoomed last.
+  void setZoomTogether(bool together);
   void setScale(double mmPerPixel); ///< of all slices
 
   /// Of the image that is seen: the primary one, or an MR alone.
@@ -110,6 +111,7 @@ signals:
 
 private:
   void frameTissue();
+  void zoomTogether();
   void setGreyWindow(const presenters::GreyWindow& window);
   void showReadout();
   void passTool();
@@ -127,7 +129,8 @@ private:
   presenters::SlicePlanes m_planes;
   presenters::Slab m_slab;
   bool m_isZoomTogether = false;
-  std::string m_suggestedOf; ///< the MR of which m_suggested is the window at first
+  const SliceView* m_zoomed = nullptr; ///< whose scale the others take
+  std::string m_suggestedOf;           ///< the MR of which m_suggested is the window at first
   presenters::GreyWindow m_suggested;
   BackgroundWork m_framing;
 };

@@ -283,6 +283,7 @@ void SliceController::setZoomTogether(bool on)
   m_slices.setZoomTogether(on);
   m_kept.keepZoomTogether(on);
   m_panel->refresh();
+  followScene();
 }
 
 void SliceController::setZoomWithScene(bool on)

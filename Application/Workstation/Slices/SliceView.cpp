@@ -9,6 +9,7 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QPainterPath>
+#include <QScopedValueRollback>
 
 #include "SliceMarks.h"
 #include "Theme.h"
@@ -26,9 +27,10 @@ constexpr double kHuPerPixel = 8.0;
 constexpr double kMinHu = 10.0; // of a grey window
 constexpr double kMaxZoom = 40.0;
 constexpr int kMargin = 8;
-constexpr double kClick = 3.0;    // pixels that a click may move
-constexpr double kReadout = 0.68; // of the width; the rest is the scale bar's
-constexpr double kGap = 9.0;      // of the crosshair, pixels
+constexpr double kClick = 3.0;        // pixels that a click may move
+constexpr double kReadout = 0.68;     // of the width; the rest is the scale bar's
+constexpr double kGap = 9.0;          // of the crosshair, pixels
+constexpr double kSightMargin = 40.0; // pixels, of what is brought into sight
 // Samples that are taken between two events: about 20 ms on two cores.
 constexpr double kAtOnce = 4e6;
 constexpr int kRefineAfter = 120; // ms without a change
@@ -136,10 +138,34 @@ void SliceView::setScale(double mmPerPixel)
 void SliceView::setCrosshair(const Eigen::Vector3d& patient)
 {
   const Eigen::Vector3d next = axes().next;
-  if (std::abs(next.dot(patient - m_crosshair)) > 1e-9)
+  const Eigen::Vector3d step = patient - m_crosshair;
+  const double across = next.dot(step);
+  if (std::abs(across) > 1e-9)
     stale();
   m_crosshair = patient;
+  if ((step - across * next).norm() > 1e-9 && !m_pointing)
+    revealCrosshair();
   update();
+}
+
+void SliceView::revealCrosshair()
+{
+  m_reveals = true;
+  update();
+}
+
+// By the least that the crosshair is seen, away from the edge.
+void SliceView::pan()
+{
+  if (!std::exchange(m_reveals, false) || !m_presenter)
+    return;
+  const Eigen::Vector2d at = slice().pixelFromPatient(m_crosshair);
+  const Eigen::Vector2d size(width(), height());
+  const Eigen::Vector2d margin = (size / 4.0).cwiseMin(kSightMargin);
+  if ((at.array() >= -0.5).all() && (at.array() <= size.array() - 0.5).all())
+    return;
+  putCrosshairAt(at.cwiseMax(margin).cwiseMin(size - margin));
+  stale();
 }
 
 void SliceView::setGreyWindow(const presenters::GreyWindow& window)
@@ -398,6 +424,7 @@ void SliceView::paintEvent(QPaintEvent*)
   painter.fillRect(rect(), QColor("#0b0d10"));
   if (!m_presenter)
     return;
+  pan();
   const auto picture = slice();
   if (m_stale || !m_drawn)
     drawCoarse();
@@ -614,7 +641,7 @@ void SliceView::mousePressEvent(QMouseEvent* event)
     emit toolPressed(pointedAt(event->localPos()), m_orientation);
   }
   else
-    emit crosshairMoved(patientAt(event->localPos()));
+    pointCrosshair(event->localPos());
 }
 
 // A tool's clicks may follow each other fast.
@@ -718,7 +745,7 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
   else if (m_toolDown)
     emit toolDragged(pointedAt(event->localPos()));
   else if (event->buttons() & Qt::LeftButton)
-    emit crosshairMoved(patientAt(event->localPos()));
+    pointCrosshair(event->localPos());
   else if (event->buttons() & Qt::RightButton)
   {
     const double unit = intensityDisplay().unit;
@@ -771,6 +798,13 @@ void SliceView::putCrosshairAt(const Eigen::Vector2d& pixel)
   const auto picture = slice();
   const Eigen::Vector2d off = picture.pixelFromPatient(m_crosshair) - pixel;
   m_offset += picture.mmPerPixel() * (off[0] * axes().right + off[1] * axes().down);
+}
+
+// The picture stays under the pointer.
+void SliceView::pointCrosshair(const QPointF& position)
+{
+  const QScopedValueRollback<bool> pointing(m_pointing, true);
+  emit crosshairMoved(patientAt(position));
 }
 
 // What is under the crosshair stays there.

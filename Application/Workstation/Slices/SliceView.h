@@ -63,7 +63,10 @@ public:
   void setSlab(const presenters::Slab& slab);
   void setScale(double mmPerPixel); ///< within the limits of the zoom; the crosshair stays in place
   bool isFine() const { return !m_stale && !m_sampling; } ///< drawn, at full resolution
+  /// Pans, by the least, where it moves within the plane to where it is not seen, unless it is
+  /// dragged here.
   void setCrosshair(const Eigen::Vector3d& patient);
+  void revealCrosshair(); ///< likewise, wherever it is
   void setGreyWindow(const presenters::GreyWindow& window);
   void setIntensityDisplay(const presenters::IntensityDisplay& display); ///< of the CT
   void setReadout(const QString& text); ///< values under the crosshair
@@ -133,6 +136,8 @@ private:
   void scroll(int slices);
   void zoom(double factor);
   void putCrosshairAt(const Eigen::Vector2d& pixel);
+  void pointCrosshair(const QPointF& position);
+  void pan();
   void applyZoom(double zoom);
   void stale();
   void recolour(); // of the same samples
@@ -192,9 +197,11 @@ private:
   std::optional<Sampling> m_sampling;
   QTimer m_refine;
   QImage m_image;
-  QRectF m_imageRect;    // where it is painted
-  bool m_stale = true;   // samples
-  bool m_isPale = false; // colours
+  QRectF m_imageRect;      // where it is painted
+  bool m_stale = true;     // samples
+  bool m_isPale = false;   // colours
+  bool m_reveals = false;  // the crosshair, when it is painted next: in the size that it has then
+  bool m_pointing = false; // the crosshair is being put to the pointer
   QPointF m_dragged;
   bool m_turning = false; // the other planes, with the left button
   bool m_mayMenu = false; // the right button went down and was not dragged

@@ -2,6 +2,7 @@
 
 #include <QAbstractItemModelTester>
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDockWidget>
 #include <QHeaderView>
@@ -13,11 +14,13 @@
 #include <QPushButton>
 #include <QScreen>
 #include <QSlider>
+#include <QStatusBar>
 #include <QTableWidget>
 #include <QTreeWidget>
 
 #include "ApproachPanel.h"
 #include "ComparisonWindow.h"
+#include "Language.h"
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "StrokeThumbnails.h"
@@ -326,6 +329,45 @@ TEST_F(Approaches, AComparisonSaysWhatItDoesAndIsStoppedAndBegunAgain)
   EXPECT_FALSE(again->isVisible());
   for (ThreeDView* view : comparison()->views())
     EXPECT_FALSE(view->findChild<QLabel*>("guessed")->isVisible());
+}
+
+// The main approach is called so by the program; no user typed it.
+TEST_F(Approaches, AreComparedUnderTheNamesThatTheUsersLanguageHasForThem)
+{
+  if (!hasLanguage("de"))
+    GTEST_SKIP() << "built without lrelease";
+  saveApproaches();
+  const GermanTexts german;
+  ASSERT_TRUE(german.isThere());
+  openWindow();
+  QTest::keyClick(&window(), Qt::Key_D, Qt::ControlModifier);
+  ASSERT_TRUE(comparison());
+  const auto heading = [this](int column)
+  { return comparison()->table().horizontalHeaderItem(column)->text(); };
+  auto* first = comparison()->findChild<QComboBox*>("firstApproach");
+  auto* second = comparison()->findChild<QComboBox*>("secondApproach");
+  ASSERT_EQ(first->count(), 2);
+  EXPECT_EQ(first->currentText(), "Hauptzugang");
+  EXPECT_EQ(second->currentText(), "above");
+  EXPECT_EQ(heading(1), "Hauptzugang");
+  ASSERT_TRUE(waitFor([this] { return comparison()->table().rowCount() > 0; }));
+  EXPECT_EQ(heading(1), "Hauptzugang");
+  EXPECT_TRUE(comparison()->views()[0]->stamp().startsWith("Hauptzugang"));
+  // What is chosen is the approach, whatever it is called.
+  QSignalSpy chosen(comparison(), &ComparisonWindow::approachesChosen);
+  first->setCurrentIndex(1);
+  second->setCurrentIndex(0);
+  emit second->activated(0);
+  ASSERT_EQ(chosen.size(), 1);
+  EXPECT_EQ(chosen[0][0].toString(), "above");
+  EXPECT_EQ(chosen[0][1].toString(), "main");
+  EXPECT_TRUE(waitFor([&] { return heading(1) == "above" && heading(2) == "Hauptzugang"; }));
+  // The line of the present state.
+  openPanel();
+  line().setValue(1);
+  EXPECT_TRUE(waitFor(
+      [this] { return window().statusBar()->currentMessage().startsWith("Zugang Hauptzugang, "); }))
+      << window().statusBar()->currentMessage().toStdString();
 }
 
 TEST_F(Approaches, AComparisonFollowsWhatIsUndone)

@@ -650,6 +650,42 @@ TEST_F(Drill, ASaveThatIsRefusedKeepsTheWorkOpenAndCanGoElsewhere)
   EXPECT_TRUE(window().close());
 }
 
+// The case comes back as it was deleted, and then gets what was drilled since.
+TEST_F(Drill, ACaseThatAnotherProgramDeletedIsBroughtBackAndSaved)
+{
+  saveBall("ball");
+  openWindow();
+  library::Library other = library();
+  other.remove("ball");
+  auto* banner = window().findChild<Banner*>("unsavedBanner");
+  const auto isOffered = [banner](const char* button)
+  { return banner->findChild<QPushButton*>(button)->isVisible(); };
+  drill(500);
+  ASSERT_TRUE(banner->isVisible());
+  EXPECT_TRUE(banner->text().contains(QString::fromUtf8("deleted the case “ball”")))
+      << banner->text().toStdString();
+  EXPECT_FALSE(banner->text().contains("repeat")) << banner->text().toStdString();
+  EXPECT_TRUE(isOffered("bringBack"));
+  EXPECT_TRUE(isOffered("saveAsOther"));
+  EXPECT_FALSE(isOffered("retrySave")) << "it would fail again";
+  EXPECT_FALSE(other.contains("ball"));
+  banner->findChild<QPushButton*>("bringBack")->click();
+  EXPECT_TRUE(waitFor([&] { return !banner->isVisible() && settled(); }))
+      << banner->text().toStdString();
+  EXPECT_TRUE(other.deleted().empty());
+  EXPECT_EQ(other.open("ball").dissection.strokes().size(), 1u);
+  drill(300, 40); // and goes on
+  EXPECT_FALSE(banner->isVisible()) << banner->text().toStdString();
+  EXPECT_EQ(other.open("ball").dissection.strokes().size(), 2u);
+
+  // A save that fails for another reason can be tried again.
+  auto changed = other.open("ball");
+  other.save(changed);
+  drill(300, -40);
+  EXPECT_TRUE(isOffered("retrySave"));
+  EXPECT_FALSE(isOffered("bringBack"));
+}
+
 // It ends when it is chosen again and with the program; another burr begins another file.
 TEST_F(Drill, ASessionIsRecordedAndTheCommandRepeatsItToTheBit)
 {

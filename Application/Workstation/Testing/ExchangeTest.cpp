@@ -25,8 +25,11 @@
 
 #include "../../../Modules/Imaging/Testing/TestDicom.h"
 #include "../../../Modules/Network/Testing/TestServers.h"
+#include "../../../Modules/Volume/Testing/SyntheticHead.h"
 #include "ExchangeController.h"
+#include "FaceCheck.h"
 #include "PseudonymsDialog.h"
+#include "SendDialog.h"
 #include "Theme.h"
 #include "petrous/Library/PseudonymMap.h"
 #include "petrous/Network/DicomNode.h"
@@ -506,6 +509,151 @@ TEST_F(Exchange, AReceivedCaseOfATakenNameGetsAnotherOne)
   ASSERT_TRUE(isOpen("ball again"));
   EXPECT_TRUE(asked.contains("“ball”") && asked.contains("ball 2")) << asked.toStdString();
   EXPECT_EQ(library().open("ball").ct.object, library().open("ball again").ct.object);
+}
+
+// What stays here is no reason against masking what goes.
+TEST_F(Exchange, FaultsAreToldOfImagesThatAreSentAlone)
+{
+  scene::Case value = ballCase("ball");
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  value.mr.push_back(mr);
+  FaceCheck faces;
+  faces.images = {{"the CT", "", ""}, {"MR 'T2'", "T2", "MR 'T2': it looks away"}};
+  network::Node node;
+  node.name = "pacs";
+  SendDialog dialog(value, library(), faces, {node});
+  const auto report = [&dialog]
+  { return dialog.findChild<QPlainTextEdit*>("sendReport")->toPlainText(); };
+  const auto tick = [&dialog](const char* name, bool on)
+  { dialog.findChild<QCheckBox*>(name)->setChecked(on); };
+  tick("sendMaskFace", true);
+  EXPECT_TRUE(report().contains("looks away")) << report().toStdString();
+  tick("sendScene", false);
+  EXPECT_TRUE(report().contains("looks away")) << report().toStdString();
+  tick("sendMr", false);
+  EXPECT_FALSE(report().contains("looks away")) << report().toStdString();
+  EXPECT_FALSE(report().contains("T2")) << report().toStdString();
+  EXPECT_TRUE(report().contains("masked in the CT")) << report().toStdString();
+  tick("sendScene", true); // which has all images
+  EXPECT_TRUE(report().contains("looks away")) << report().toStdString();
+  EXPECT_FALSE(presenters::isSent(value, {}, ""));
+}
+
+// The dialog has a case of its own.
+TEST_F(Exchange, TheCaseMayBeClosedWhileItIsOfferedToANode)
+{
+  saveBall("ball");
+  network::Node node;
+  node.name = "pacs";
+  node.host = "127.0.0.1";
+  node.port = network::test::freePort();
+  node.aeTitle = "PACS";
+  network::NodeList(libraryFolder()).add(node);
+  openWindow("ball");
+  bool isShown = false;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (dialog.objectName() != "sendCase")
+          return false;
+        isShown = true;
+        auto* report = dialog.findChild<QPlainTextEdit*>("sendReport");
+        auto* scene = dialog.findChild<QCheckBox*>("sendScene");
+        const QString before = report->toPlainText();
+        EXPECT_TRUE(before.contains("'ball'") && before.contains("nerve")) << before.toStdString();
+        action("Close the case")->trigger();
+        EXPECT_FALSE(window().model().hasCase());
+        scene->setChecked(false);
+        scene->setChecked(true);
+        EXPECT_EQ(report->toPlainText(), before);
+        dialog.reject();
+        return true;
+      });
+  menu("sendOpenCase");
+  EXPECT_TRUE(isShown);
+}
+
+// No event loop runs then that would tell what was found.
+TEST_F(Exchange, LookingForFacesEndsWithTheProgram)
+{
+  const scene::Case value = ballCase("ball");
+  QWidget parent;
+  EXPECT_FALSE(lookForFaces(value, parent).isCancelled);
+  bool isCancelled = false;
+  QTimer::singleShot(0, &parent,
+                     [&]
+                     {
+                       QCoreApplication::quit();
+                       isCancelled = lookForFaces(value, parent).isCancelled;
+                     });
+  QCoreApplication::exec();
+  EXPECT_TRUE(isCancelled);
+}
+
+// Structures hold the face of the CT, and so the MR's goes along, too.
+TEST_F(Exchange, AnArchiveWithFacesThatCannotBeMaskedIsNoDefault)
+{
+  scene::Case value = ballCase("head");
+  value.ct.geometry =
+      volume::test::gridOver(volume::test::headBox(), Eigen::Vector3d::Constant(3.0));
+  const auto scan = [&value](bool asMr)
+  {
+    return std::make_shared<const volume::IntensityVolume>(
+        volume::test::scanned(volume::test::SyntheticHead(), value.ct.geometry, asMr));
+  };
+  value.ct.volume = scan(false);
+  value.ct.range = value.ct.volume.get()->range();
+  value.dissection = dissection::Dissection(value.ct.geometry);
+  scene::ImagePart mr;
+  mr.name = "T2";
+  mr.modality = scene::Modality::Mr;
+  mr.geometry = value.ct.geometry;
+  mr.volume = scan(true);
+  mr.range = mr.volume.get()->range();
+  value.mr.push_back(mr);
+  auto voxels = volume::makeZeroVolume<std::uint16_t>(value.ct.geometry);
+  const core::IndexBox held = value.ct.geometry.boxCovering({-60, -110, -80}, {60, -60, 60});
+  for (int k = held.lower[2]; k < held.upper[2]; ++k)
+    for (int j = held.lower[1]; j < held.upper[1]; ++j)
+      for (int i = held.lower[0]; i < held.upper[0]; ++i)
+        voxels->at(i, j, k) = 1;
+  volume::Segment segment;
+  segment.name = "soft tissue";
+  segment.index = 1;
+  auto map = volume::makeLabelMap(std::move(voxels), {segment});
+  scene::LabelPart part;
+  part.drawnOn = "";
+  part.structures.push_back({"soft tissue", 1, map.segments.front().voxels, 1.0, {}});
+  part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
+  value.labels = {part};
+  library().save(value);
+  openWindow("head");
+  const QString file = QString::fromStdString((folder() / "head.petrous").string());
+  QString told;
+  bool goesByDefault = true;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (auto* box = qobject_cast<QMessageBox*>(&dialog))
+        {
+          EXPECT_EQ(box->objectName(), "archiveFace");
+          told = box->text() + '\n' + box->informativeText();
+          goesByDefault = box->defaultButton() != box->button(QMessageBox::Cancel);
+          EXPECT_FALSE(box->checkBox()->isEnabled());
+          box->reject();
+          return true;
+        }
+        if (dialog.objectName() != "archiveCase")
+          return false;
+        type(dialog, "archiveFile", file);
+        button(dialog, "primary").click();
+        return false; // the face is asked about
+      });
+  action(QString::fromUtf8("Archive…"))->trigger();
+  EXPECT_FALSE(goesByDefault);
+  EXPECT_TRUE(told.contains("all faces go along unmasked: the CT, MR “T2”.")) << told.toStdString();
+  EXPECT_FALSE(fs::exists(folder() / "head.petrous"));
 }
 
 // A node that does not answer is named, and nothing is lost.

@@ -99,6 +99,25 @@ public:
   }
 };
 
+/// While it lives, texts are German.
+class GermanTexts
+{
+public:
+  GermanTexts()
+  {
+    m_isThere = m_texts.load(":/translations/petrous_de.qm");
+    QApplication::installTranslator(&m_texts);
+  }
+  ~GermanTexts() { QApplication::removeTranslator(&m_texts); }
+  GermanTexts(const GermanTexts&) = delete;
+  GermanTexts& operator=(const GermanTexts&) = delete;
+  bool isThere() const { return m_isThere; }
+
+private:
+  QTranslator m_texts;
+  bool m_isThere = false;
+};
+
 /// Pixels that differ by more than `tolerance` in a channel.
 int differentPixels(const QImage& a, const QImage& b, int tolerance = 2);
 /// Of letters, whose outlines Qt smooths a little differently each time: a tolerance for pictures

@@ -31,25 +31,6 @@ class LanguageTest : public GuiTest
 namespace
 {
 
-// While it lives, texts are German.
-class GermanTexts
-{
-public:
-  GermanTexts()
-  {
-    m_isThere = m_texts.load(":/translations/petrous_de.qm");
-    QApplication::installTranslator(&m_texts);
-  }
-  ~GermanTexts() { QApplication::removeTranslator(&m_texts); }
-  GermanTexts(const GermanTexts&) = delete;
-  GermanTexts& operator=(const GermanTexts&) = delete;
-  bool isThere() const { return m_isThere; }
-
-private:
-  QTranslator m_texts;
-  bool m_isThere = false;
-};
-
 // What stands in widgets and actions.
 QStringList shownTexts()
 {

@@ -34,6 +34,7 @@
 #include "Banner.h"
 #include "EventLoopWatchdog.h"
 #include "Language.h"
+#include "MessageRoom.h"
 #include "Panels.h"
 #include "StructuresModel.h"
 #include "WindowSettings.h"
@@ -717,6 +718,39 @@ TEST_F(Manners, AMessageGetsTheRoomOfThePermanentTexts)
   EXPECT_TRUE(waitFor([&] { return recording->width() > 100; }));
   bar->clearMessage();
   EXPECT_TRUE(bar->toolTip().isEmpty());
+}
+
+// What the bar shows changes under a message: the speed, the place, a fault of the force.
+TEST_F(Manners, WidgetsGoForTheMessageThatIsShownWhateverChangesAfterIt)
+{
+  QStatusBar bar;
+  auto* yields = new QLabel("60 frames a second");
+  auto* stays = new QLabel("-");
+  bar.addPermanentWidget(yields);
+  bar.addPermanentWidget(stays);
+  new MessageRoom(bar, {yields});
+  bar.resize(1200, bar.sizeHint().height());
+  bar.show();
+  const auto textOf = [&bar](int pixels)
+  {
+    const int letter = bar.fontMetrics().horizontalAdvance('n');
+    return QString(pixels / letter, 'n');
+  };
+  bar.showMessage(textOf(600));
+  ASSERT_TRUE(waitFor([&] { return yields->width() >= yields->sizeHint().width(); }))
+      << "there is room for both";
+  stays->setText(textOf(500));
+  EXPECT_TRUE(waitFor([&] { return yields->width() == 0; }));
+  stays->setText("-");
+  ASSERT_TRUE(waitFor([&] { return stays->width() < 100; }));
+  EXPECT_EQ(yields->width(), 0) << "comes and goes under one message";
+  bar.showMessage("Saved");
+  EXPECT_TRUE(waitFor([&] { return yields->width() >= yields->sizeHint().width(); }));
+  stays->setText(textOf(500));
+  ASSERT_TRUE(waitFor([&] { return stays->width() >= stays->sizeHint().width(); }));
+  EXPECT_GE(yields->width(), yields->sizeHint().width()) << "a short one needs no room";
+  bar.clearMessage();
+  EXPECT_GE(yields->width(), yields->sizeHint().width());
 }
 
 TEST_F(Manners, NoTextIsCutOffOnTheSmallestScreenInGerman)

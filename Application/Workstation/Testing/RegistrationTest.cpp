@@ -23,6 +23,7 @@
 #include "LandmarkModel.h"
 #include "MetricCurve.h"
 #include "MrOverlay.h"
+#include "RegistrationController.h"
 #include "RegistrationTargetBox.h"
 #include "SliceColumn.h"
 #include "SliceView.h"
@@ -630,6 +631,7 @@ TEST_F(RegistrationWindow, ClosingItsCaseEndsARunAndSaysSo)
 {
   showPanel();
   click("register");
+  ASSERT_TRUE(window().findChild<RegistrationController*>()->running());
   action("Close the case")->trigger();
   EXPECT_TRUE(waitFor([this] { return !window().model().hasCase(); }));
   EXPECT_EQ(window().statusBar()->currentMessage(),

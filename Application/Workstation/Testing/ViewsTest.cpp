@@ -1,6 +1,7 @@
 #include "GuiTest.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <QAction>
@@ -306,9 +307,119 @@ TEST_F(Views, SlicesZoomTogetherToOneScale)
     QTest::keyClick(&axial(), Qt::Key_Plus);
   EXPECT_EQ(coronal().slice().mmPerPixel(), before);
   action("Zoom slices together")->trigger();
+  EXPECT_NEAR(coronal().slice().mmPerPixel(), axial().slice().mmPerPixel(), 1e-9) << "at once";
+  EXPECT_NEAR(sagittal().slice().mmPerPixel(), axial().slice().mmPerPixel(), 1e-9);
   QTest::keyClick(&axial(), Qt::Key_Plus);
   EXPECT_NEAR(coronal().slice().mmPerPixel(), axial().slice().mmPerPixel(), 1e-9);
   EXPECT_NEAR(sagittal().slice().mmPerPixel(), axial().slice().mmPerPixel(), 1e-9);
+}
+
+// A view pans by no more than it takes to show the crosshair, and not at all where it is seen.
+TEST_F(Views, ZoomedSlicesShowTheCrosshairThatIsSetElsewhere)
+{
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  const auto at = [&](SliceView& slice)
+  { return Eigen::Vector2d(slice.slice().pixelFromPatient(model.crosshair())); };
+  const auto isSeen = [&](SliceView& slice)
+  {
+    const Eigen::Vector2d pixel = at(slice);
+    return pixel.x() > 0.0 && pixel.y() > 0.0 && pixel.x() < slice.width() - 1.0 &&
+           pixel.y() < slice.height() - 1.0;
+  };
+  const std::array<SliceView*, 3> all{&axial(), &coronal(), &sagittal()};
+  model.setCrosshair(kBallCenter);
+  for (SliceView* slice : all)
+  {
+    slice->setFocus();
+    const auto half = [slice]
+    { return 0.5 * std::max(slice->width(), slice->height()) * slice->slice().mmPerPixel(); };
+    for (int n = 0; n < 30 && half() > 0.5 * kBallRadius; ++n)
+      QTest::keyClick(slice, Qt::Key_Plus);
+    slice->grab();
+    ASSERT_LE(half(), 0.5 * kBallRadius);
+    ASSERT_TRUE(isSeen(*slice));
+  }
+
+  // Within what is seen, by the slices' keys or wheel.
+  const double step = 2.0 * axial().slice().mmPerPixel();
+  const Eigen::Vector3d offset = axial().plane().offset;
+  model.setCrosshair(kBallCenter + Eigen::Vector3d(step, step, 0));
+  axial().grab();
+  EXPECT_EQ(axial().plane().offset, offset);
+
+  // Beyond it, to the patient's left, which is on the right.
+  model.setCrosshair(kBallCenter);
+  axial().grab();
+  const Eigen::Vector2d before = at(axial());
+  model.setCrosshair(kBallCenter + Eigen::Vector3d(kBallRadius, 0, 0));
+  EXPECT_FALSE(isSeen(axial()));
+  axial().grab();
+  EXPECT_NEAR(at(axial()).x(), axial().width() - std::min(40.0, axial().width() / 4.0), 1e-6);
+  EXPECT_NEAR(at(axial()).y(), before.y(), 1e-6) << "by the least";
+
+  // A click in the 3D view.
+  QTest::mouseClick(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
+  ASSERT_NEAR((model.crosshair() - kBallCenter).norm(), kBallRadius, 0.1);
+  for (SliceView* slice : all)
+  {
+    slice->grab();
+    EXPECT_TRUE(isSeen(*slice)) << slice->objectName().toStdString();
+  }
+
+  // A kept view, whose crosshair was out of sight.
+  scene::ViewState::Slices kept = slices().shown();
+  (*kept.planes)[0].offset += Eigen::Vector3d(2.0 * kBallRadius, 0, 0);
+  slices().setShown(kept);
+  axial().grab();
+  EXPECT_TRUE(isSeen(axial()));
+
+  // Panned away by hand, it is not brought back by scrolling.
+  auto plane = axial().plane();
+  plane.offset += Eigen::Vector3d(2.0 * kBallRadius, 0, 0);
+  axial().setPlane(plane);
+  model.setCrosshair(model.crosshair() + Eigen::Vector3d(0, 0, 1));
+  axial().grab();
+  EXPECT_EQ(axial().plane().offset, plane.offset);
+}
+
+// Events as Qt sends them when another window, a menu or a context menu comes and goes.
+TEST_F(Views, TheFrameOfTheKeyboardFocusComesBackWithTheFocus)
+{
+  auto* frame = view().findChild<QWidget*>("focusFrame");
+  ASSERT_TRUE(frame);
+  const auto send = [this](QEvent::Type type, Qt::FocusReason reason)
+  {
+    QFocusEvent event(type, reason);
+    QApplication::sendEvent(&view(), &event);
+  };
+  const auto isFramed = [frame] { return !frame->isHidden(); };
+  const auto in = QEvent::FocusIn, out = QEvent::FocusOut;
+  for (const auto reason :
+       {Qt::ActiveWindowFocusReason, Qt::PopupFocusReason, Qt::MenuBarFocusReason})
+  {
+    send(in, Qt::TabFocusReason);
+    EXPECT_TRUE(isFramed());
+    send(out, reason);
+    EXPECT_FALSE(isFramed());
+    send(in, reason);
+    EXPECT_TRUE(isFramed()) << reason;
+    send(out, Qt::TabFocusReason);
+    send(in, reason);
+    EXPECT_FALSE(isFramed()) << "the focus was elsewhere";
+    send(in, Qt::MouseFocusReason);
+    send(out, reason);
+    send(in, reason);
+    EXPECT_FALSE(isFramed()) << "it had none";
+  }
+  // In stereo it would float.
+  send(in, Qt::TabFocusReason);
+  ASSERT_TRUE(isFramed());
+  view().display().setStereo(rendering::StereoMode::Anaglyph, {});
+  picture();
+  EXPECT_FALSE(isFramed());
+  send(out, Qt::PopupFocusReason);
+  send(in, Qt::PopupFocusReason);
+  EXPECT_FALSE(isFramed());
 }
 
 TEST_F(Views, SlicesHaveTheScaleOfThe3DView)

@@ -27,9 +27,12 @@ MessageRoom::MessageRoom(QStatusBar& bar, const std::vector<QWidget*>& yielding)
 bool MessageRoom::eventFilter(QObject* watched, QEvent* event)
 {
   if (event->type() == QEvent::Resize)
-    arrange();
+    arrange(true);
   if (event->type() == QEvent::LayoutRequest)
+  {
+    arrange(false);
     m_bar.update(); // the message reaches as far as the widgets leave it
+  }
   return QObject::eventFilter(watched, event);
 }
 
@@ -37,10 +40,10 @@ void MessageRoom::say(const QString& message)
 {
   m_bar.setToolTip(message);
   m_bar.setAccessibleDescription(message);
-  arrange();
+  arrange(true);
 }
 
-void MessageRoom::arrange()
+void MessageRoom::arrange(bool mayReturn)
 {
   int needed = kMargins + m_bar.fontMetrics().horizontalAdvance(m_bar.currentMessage());
   for (const QWidget* widget : m_bar.findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly))
@@ -48,7 +51,8 @@ void MessageRoom::arrange()
       needed += widget->sizeHint().width() + kBetween;
   for (Yielding& one : m_yielding)
   {
-    const bool isGone = !m_bar.currentMessage().isEmpty() && needed > m_bar.width();
+    const bool isGone =
+        !m_bar.currentMessage().isEmpty() && (needed > m_bar.width() || (one.isGone && !mayReturn));
     if (isGone && !one.widget->isHidden())
       needed -= one.widget->sizeHint().width() + kBetween;
     if (isGone == one.isGone)

@@ -10,8 +10,9 @@ namespace petrous::workstation
 {
 
 /// Gives a message of the status bar the room that it needs: permanent widgets go, the first of the
-/// list first, for as long as it would be cut off otherwise. The whole message is the bar's tooltip
-/// and accessible description, too.
+/// list first, where it would be cut off otherwise, also by what they or other widgets of the bar
+/// come to show meanwhile. What is gone stays so until that message is gone, or the bar is resized.
+/// The whole message is the bar's tooltip and accessible description, too.
 class MessageRoom : public QObject
 {
   Q_OBJECT
@@ -30,7 +31,7 @@ private:
   };
 
   void say(const QString& message);
-  void arrange();
+  void arrange(bool mayReturn); // what is gone
 
   QStatusBar& m_bar;
   std::vector<Yielding> m_yielding;

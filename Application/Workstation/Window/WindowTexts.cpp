@@ -157,6 +157,7 @@ const std::vector<Hint>& hints()
       {"; add it with --move-port", "; give it a port for C-MOVE (Library > DICOM nodes)"},
       {" \\(--(tls-name|move-host)\\)", " (Library > DICOM nodes)"},
       {" \\('petrous library copy'\\)", " (Copy in the library panel)"},
+      {" \\('petrous library undelete'\\)", " (Bring back in the library panel)"},
       {"; export it alone with --part, or all on the (CT|MR)'s grid with --on-ct",
        "; export it alone, or all on the \\1's grid"},
       {"; register the MR first, or export it alone with --part",

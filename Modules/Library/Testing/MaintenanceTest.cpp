@@ -88,7 +88,9 @@ TEST_F(Maintenance, RenamesWithoutTouchingAnotherCase)
   EXPECT_EQ(m_library.open("c").dissection.strokes().size(), 1u);
   EXPECT_EQ(m_library.list().at(1).name, "c");
   // A program that opened it under its old name gets an error, and does not write a second case.
-  EXPECT_EQ(refusal([&] { m_library.save(value); }).first, LibraryError::Reason::Conflict);
+  const auto why = refusal([&] { m_library.save(value); });
+  EXPECT_EQ(why.first, LibraryError::Reason::Conflict);
+  EXPECT_NE(why.second.find("save it under another name"), std::string::npos) << why.second;
 }
 
 TEST_F(Maintenance, ACopyIsACaseOfItsOwnAndSharesTheObjects)

@@ -210,6 +210,69 @@ TEST(ImageMask, RefusesWhereAStructureHoldsTheFace)
   EXPECT_EQ(value.ct.object, "stored.nrrd");
 }
 
+// An MR whose face cannot be masked is no reason against masking the CT that goes alone.
+TEST(ImageMask, MasksTheImagesThatLeaveAlone)
+{
+  scene::Case value = headCase();
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  mr.volume =
+      std::make_shared<const volume::IntensityVolume>(scanned(SyntheticHead(), mr.geometry, true));
+  value.mr.push_back(mr);
+  const Image ct = value.ct.volume.get(), t2 = value.mr.front().volume.get();
+  scene::ImageMask mask;
+  mask.face = true;
+  for (const std::string leaves : {"", "T2"})
+  {
+    scene::Case masked = value;
+    mask.images = {leaves};
+    const auto report = scene::maskImages(masked, mask);
+    ASSERT_EQ(report.images.size(), 1u);
+    EXPECT_EQ(report.images.front().name, leaves);
+    EXPECT_EQ(masked.ct.volume.get() == ct, !leaves.empty());
+    EXPECT_EQ(masked.mr.front().volume.get() == t2, leaves.empty());
+  }
+  mask.images.emplace();
+  scene::Case whole = value;
+  EXPECT_TRUE(scene::maskImages(whole, mask).images.empty());
+}
+
+// By the object that has the voxels: whatever is found there counts, and nothing is looked for.
+TEST(ImageMask, MasksWhatWasFoundBefore)
+{
+  const scene::Case value = headCase();
+  auto found = std::make_shared<scene::FaceFindings>();
+  EXPECT_EQ(scene::imagesWithFace(value, {}, found.get()).size(), 1u);
+  ASSERT_EQ(found->count({"stored.nrrd", false}), 1u);
+  scene::ImageMask mask;
+  mask.face = true;
+  scene::Case fresh = value, again = value;
+  scene::maskImages(fresh, mask);
+  mask.found = found;
+  scene::maskImages(again, mask);
+  const core::PatientBox all = value.ct.geometry.patientBounds();
+  EXPECT_GT(changedWithin(*value.ct.volume.get(), *again.ct.volume.get(), all, 0.0), 0u);
+  EXPECT_EQ(changedWithin(*fresh.ct.volume.get(), *again.ct.volume.get(), all, 0.0), 0u);
+
+  auto none = std::make_shared<scene::FaceFindings>();
+  const auto finding = std::make_shared<volume::FaceFinding>();
+  finding->text = "nobody";
+  (*none)[{"stored.nrrd", false}] = finding;
+  mask.found = none;
+  scene::Case believed = value;
+  EXPECT_EQ(scene::maskImages(believed, mask).images.front().face, Kind::None);
+  // Of other voxels, of an MR, or for the auricles it is no finding.
+  scene::Case other = value;
+  other.ct.object = "another.nrrd";
+  EXPECT_EQ(scene::maskImages(other, mask).images.front().face, Kind::Face);
+  other = value;
+  other.ct.object.clear();
+  EXPECT_EQ(scene::maskImages(other, mask).images.front().face, Kind::Face);
+  other = value;
+  mask.ears = true;
+  EXPECT_EQ(scene::maskImages(other, mask).images.front().face, Kind::Face);
+}
+
 TEST(ImageMask, LeavesAnImageWithoutAFaceAsItIs)
 {
   scene::Case value = headCase();

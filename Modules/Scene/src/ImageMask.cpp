@@ -254,6 +254,20 @@ struct Result
                         "the ear alone (--roi)");
 }
 
+std::pair<std::string, bool> keyOf(const Case& value, const ImagePart& image)
+{
+  return {image.object, isMr(value, image)};
+}
+
+FaceFinding faceOf(const Case& value, const ImagePart& image, const ImageMask& mask,
+                   const volume::SkinScale& scale, const core::Progress& progress)
+{
+  if (mask.found && !mask.ears && !image.object.empty())
+    if (const auto at = mask.found->find(keyOf(value, image)); at != mask.found->end())
+      return *at->second;
+  return volume::findFace(*image.volume.get(), scale, mask.ears, progress);
+}
+
 Kept keptOfFace(const Case& value, const ImagePart& image, const FaceFinding& finding)
 {
   return keptOf(
@@ -283,8 +297,7 @@ Result masked(const Case& value, const ImagePart& image, const ImageMask& mask,
   const volume::SkinScale scale = volume::skinScale(*result.image, isMr(value, image));
   if (mask.face)
   {
-    const FaceFinding finding =
-        volume::findFace(*result.image, scale, mask.ears, progress.part(0.0, 0.4));
+    const FaceFinding finding = faceOf(value, image, mask, scale, progress.part(0.0, 0.4));
     result.part.face = finding.kind;
     if (finding.kind == FaceFinding::Kind::Doubtful)
       refuseDoubtful(name, finding);
@@ -347,14 +360,17 @@ ImageMaskReport maskImages(Case& value, const ImageMask& mask, const core::Progr
       throw core::InvalidParameter("the region has no voxel of the image; it is stated in patient "
                                    "LPS mm, as 'petrous info' states the image's origin");
     for (const ImagePart& mr : value.mr)
-      if (!mr.registered)
+      if (!mr.registered && mask.takes(mr.name))
         throw core::InvalidParameter("MR '" + mr.name +
                                      "' is not registered, and the region is one of the CT's "
                                      "space; register or remove it first");
   }
-  std::vector<ImagePart*> images{&value.ct};
+  std::vector<ImagePart*> images;
+  if (mask.takes({}))
+    images.push_back(&value.ct);
   for (ImagePart& mr : value.mr)
-    images.push_back(&mr);
+    if (mask.takes(mr.name))
+      images.push_back(&mr);
   std::vector<Result> results;
   for (std::size_t n = 0; n < images.size(); ++n)
   {
@@ -381,9 +397,10 @@ ImageMaskReport maskImages(Case& value, const ImageMask& mask, const core::Progr
   return report;
 }
 
-std::vector<ImageWithFace> imagesWithFace(const Case& value, const core::Progress& progress)
+std::vector<ImageWithFace> imagesWithFace(const Case& value, const core::Progress& progress,
+                                          FaceFindings* found)
 {
-  std::vector<ImageWithFace> found;
+  std::vector<ImageWithFace> images;
   const auto count = static_cast<double>(1 + value.mr.size());
   double done = 0.0;
   const auto look = [&](const ImagePart& image)
@@ -393,8 +410,11 @@ std::vector<ImageWithFace> imagesWithFace(const Case& value, const core::Progres
     const auto voxels = image.volume.get();
     if (!voxels)
       return;
-    const FaceFinding finding =
-        volume::findFace(*voxels, volume::skinScale(*voxels, isMr(value, image)), {}, part);
+    const auto looked = std::make_shared<const FaceFinding>(
+        volume::findFace(*voxels, volume::skinScale(*voxels, isMr(value, image)), false, part));
+    const FaceFinding& finding = *looked;
+    if (found && !image.object.empty())
+      (*found)[keyOf(value, image)] = looked;
     if (!finding.canBeMasked() && finding.kind != FaceFinding::Kind::Doubtful)
       return;
     const std::string name = nameOf(value, image);
@@ -411,12 +431,12 @@ std::vector<ImageWithFace> imagesWithFace(const Case& value, const core::Progres
         throw;
       one.fault = error.what();
     }
-    found.push_back(std::move(one));
+    images.push_back(std::move(one));
   };
   look(value.ct);
   for (const ImagePart& mr : value.mr)
     look(mr);
-  return found;
+  return images;
 }
 
 } // namespace petrous::scene

@@ -471,8 +471,9 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
   if (options.mask.any())
   {
     library.loadDissection(value);
-    for (const std::string& note :
-         maskLeavingImages(library, value, options.mask, progress.part(0.0, 0.1)))
+    scene::ImageMask mask = options.mask;
+    mask.images.emplace({options.what == "mr" ? chooseMr(value, options.part).name : ""});
+    for (const std::string& note : maskLeavingImages(library, value, mask, progress.part(0.0, 0.1)))
       warn(note);
   }
   ExportSummary summary;

@@ -765,13 +765,14 @@ std::vector<std::string> goneStructures(const scene::Case& value)
 
 } // namespace
 
-std::vector<scene::ImageWithFace> facesToMask(const scene::Case& value,
-                                              const core::Progress& progress)
+std::vector<scene::ImageWithFace>
+facesToMask(const scene::Case& value, const core::Progress& progress, scene::FaceFindings* found)
 {
   const bool mayShow = showsHead(value.ct.geometry, {}) ||
                        std::any_of(value.mr.begin(), value.mr.end(),
                                    [](const auto& mr) { return showsHead(mr.geometry, {}); });
-  return mayShow ? scene::imagesWithFace(value, progress) : std::vector<scene::ImageWithFace>();
+  return mayShow ? scene::imagesWithFace(value, progress, found)
+                 : std::vector<scene::ImageWithFace>();
 }
 
 namespace
@@ -1044,6 +1045,51 @@ std::vector<std::string> identityWarnings(const scene::Case& value, const Export
   return warnings;
 }
 
+namespace
+{
+
+// What stays here cannot keep the rest from being sent. Structures refer to the series of their
+// image as it would be sent, masked where it can be.
+std::vector<std::string> maskSent(const library::Library& library, scene::Case& value,
+                                  const SendParts& parts, const core::Progress& progress)
+{
+  scene::ImageMask mask = parts.mask;
+  if (!mask.any())
+    return {};
+  mask.images.emplace();
+  std::set<std::string> referred;
+  const auto sort = [&](const std::string& name)
+  { (isSent(value, parts, name) ? *mask.images : referred).insert(name); };
+  sort({});
+  for (const scene::ImagePart& mr : value.mr)
+    sort(mr.name);
+  const auto notes = maskLeavingImages(library, value, mask, progress);
+  if (parts.labels)
+    for (const std::string& name : referred)
+      try
+      {
+        mask.images = {name};
+        maskLeavingImages(library, value, mask, progress);
+      }
+      catch (const core::Error& error)
+      {
+        if (error.fault() != core::Fault::Refused)
+          throw;
+      }
+  return notes;
+}
+
+} // namespace
+
+bool isSent(const scene::Case& value, const SendParts& parts, const std::string& mr)
+{
+  if (parts.scene)
+    return true;
+  if (!mr.empty())
+    return parts.mr;
+  return parts.ct || (parts.mr && value.ct.modality == scene::Modality::Mr);
+}
+
 std::string unlistedText(const network::Transfer& sent)
 {
   switch (sent.listed)
@@ -1066,8 +1112,7 @@ SendSummary sendCase(const library::Library& library, const std::string& name,
 {
   network::echo(node, progress); // before minutes of writing
   scene::Case value = library.open(name);
-  std::vector<std::string> masked =
-      maskLeavingImages(library, value, parts.mask, progress.part(0.0, 0.1));
+  std::vector<std::string> masked = maskSent(library, value, parts, progress.part(0.0, 0.1));
   const ScratchFolder scratch;
   Outgoing outgoing(library, value, parts, scratch.path());
   const auto files = outgoing.write(progress.part(0.1, 0.4));

@@ -14,9 +14,11 @@ std::vector<std::string> maskLeavingImages(const library::Library& library, scen
 {
   if (!mask.any())
     return {};
-  value.ct.volume.get();
+  if (mask.takes({}))
+    value.ct.volume.get();
   for (const scene::ImagePart& mr : value.mr)
-    mr.volume.get();
+    if (mask.takes(mr.name))
+      mr.volume.get();
   library.checkVoxels(value, progress);
   return scene::maskImages(value, mask, progress).notes;
 }

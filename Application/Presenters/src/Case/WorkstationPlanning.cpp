@@ -150,7 +150,12 @@ void WorkstationModel::removeBranch(const std::string& name)
     followHistory();
   };
   takeOut();
-  recordEdit({"deletion of approach " + name, {}, putBack, takeOut, true});
+  recordEdit({name == dissection::History::kMain ? "deletion of the main approach"
+                                                 : "deletion of approach " + name,
+              {},
+              putBack,
+              takeOut,
+              true});
 }
 
 namespace

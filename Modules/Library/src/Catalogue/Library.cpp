@@ -860,8 +860,11 @@ void Library::saveWith(scene::Case& value,
     if (present.revision != value.revision || present.id != value.id)
       throw LibraryError(
           Reason::Conflict,
-          "case '" + value.name + "' was " + (there ? "changed" : "removed") +
-              " by another program since it was opened; open it again and repeat what you did");
+          "case '" + value.name +
+              (there ? "' was changed by another program since it was opened; open it again and "
+                       "repeat what you did"
+                     : "' was deleted or renamed by another program since it was opened; bring it "
+                       "back ('petrous library undelete'), or save it under another name"));
   }
 
   const auto started = std::chrono::steady_clock::now();

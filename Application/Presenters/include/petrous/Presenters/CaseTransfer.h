@@ -26,8 +26,12 @@ struct SendParts
   bool note = true;           ///< of the description, with the scene
   bool videos = false;        ///< attached ones, with the scene; they may show or name the patient
   bool documents = false;     ///< likewise
-  scene::ImageMask mask = {}; ///< of all images
+  scene::ImageMask mask = {}; ///< of the images that are sent
 };
+
+/// Whether an image leaves, as a series or in the scene: an MR by its name, the primary image by an
+/// empty one.
+bool isSent(const scene::Case& value, const SendParts& parts, const std::string& mr);
 
 /// What of a case leaves the house with sendCase, and what does not: a sentence each, for the user
 /// to read before. A case holds none of the attributes that identify a patient (PS3.15 Table
@@ -56,9 +60,10 @@ IdentityReport identityReport(const scene::Case& value, const library::ArchiveOp
 std::vector<std::string> identityWarnings(const scene::Case& value, const ExportOptions& options,
                                           const library::Library* library = nullptr);
 
-/// scene::imagesWithFace, without reading images that are smaller than a head.
+/// scene::imagesWithFace, without reading a case whose images are all smaller than a head.
 std::vector<scene::ImageWithFace> facesToMask(const scene::Case& value,
-                                              const core::Progress& progress = {});
+                                              const core::Progress& progress = {},
+                                              scene::FaceFindings* found = nullptr);
 
 struct SendSummary
 {

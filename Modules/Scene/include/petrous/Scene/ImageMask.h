@@ -1,7 +1,11 @@
 #pragma once
 
+#include <map>
+#include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "petrous/Core/Progress.h"
@@ -11,6 +15,11 @@
 namespace petrous::scene
 {
 
+/// What findFace found in images, without the auricles: by the name in the object store, which
+/// stands for the voxels, and whether they are those of an MR, whose skin is told otherwise.
+using FaceFindings =
+    std::map<std::pair<std::string, bool>, std::shared_ptr<const volume::FaceFinding>>;
+
 /// What is taken out of a case's images before they leave.
 struct ImageMask
 {
@@ -19,7 +28,12 @@ struct ImageMask
   /// All outside of this box becomes air; LPS mm of the CT. The grid stays, and with it the place
   /// of strokes and structures.
   std::optional<core::PatientBox> region;
+  /// Those that leave: MRs by their names, the primary image by an empty one; none: all.
+  std::optional<std::set<std::string>> images;
+  /// Of imagesWithFace, so that faces are not looked for twice; nullptr: nothing was found yet.
+  std::shared_ptr<const FaceFindings> found;
 
+  bool takes(const std::string& mr) const { return !images || images->count(mr) > 0; }
   bool any() const noexcept { return face || region.has_value(); }
 };
 
@@ -43,9 +57,9 @@ struct ImageMaskReport
   std::vector<std::string> notes; ///< one sentence each, for the user
 };
 
-/// Puts masked images in place of the CT and of the MRs, without a name in the object store; all
-/// else of the case stays, to the bit. An image in which no face is found stays as it is, which is
-/// noted. Loads the images, and strokes of other approaches.
+/// Puts masked images in place of the CT and of the MRs that `mask.images` has, without a name in
+/// the object store; all else of the case stays, to the bit. An image in which no face is found
+/// stays as it is, which is noted. Loads the images, and strokes of other approaches.
 ///
 /// Throws Error (Refused) naming the structures where a part of the face's skin would stay because
 /// of them, where there is a head whose face cannot be told, or where auricles are asked for that
@@ -63,7 +77,9 @@ struct ImageWithFace
 };
 
 /// Those of the case's images, whatever their notes say. Reads their voxels, and strokes of other
-/// approaches. Throws CancelledError, and what reading voxels throws.
-std::vector<ImageWithFace> imagesWithFace(const Case& value, const core::Progress& progress = {});
+/// approaches. `found`: takes what was found, also that there is no face; nullptr: not wanted.
+/// Throws CancelledError, and what reading voxels throws.
+std::vector<ImageWithFace> imagesWithFace(const Case& value, const core::Progress& progress = {},
+                                          FaceFindings* found = nullptr);
 
 } // namespace petrous::scene

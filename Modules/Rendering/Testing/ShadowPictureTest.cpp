@@ -414,9 +414,11 @@ TEST(ShadowPicture, MeshAndToolSeeAboutAsMuchAsManyRays)
     double least; // ratio of the error without shadows
     double rms, mean;
   };
-  // A mesh is in the field itself: what is taken for its own is more than a small ball's.
+  // A mesh is in the field itself: what is taken for its own is more than a small ball's, even of
+  // its curvature. By its tangent plane alone the mean was 0.098 and 0.078.
   const Scene scenes[] = {
-      {"mesh", with(deep(), ballMesh({0.5, 1.5, 0.5}, 2.5, 96)), 2.0, 0.16, 0.15},
+      {"mesh", with(deep(), ballMesh({0.5, 1.5, 0.5}, 2.5, 96)), 2.0, 0.11, 0.085},
+      {"wide mesh", with(deep(), ballMesh({0.5, 1.5, 0.5}, 3.0, 96)), 2.0, 0.095, 0.067},
       {"burr", with(deep(), tool({0.0, 1.0, 0.0}, 2.0)), 1.0, 0.1, 0.06},
       {"instrument", with(deep(), instrument({0.0, 2.0, 0.0})), 1.0, 0.1, 0.06}};
   core::CameraPose into = from({6.0, -80.0, 6.0}, {0.0, -2.0, 0.0}, 9.0);

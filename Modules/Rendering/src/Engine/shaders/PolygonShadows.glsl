@@ -10,6 +10,28 @@ uniform vec3 eyeVoxel; // the camera
 // stops all, which is beside it.
 const float kContaining = 0.75;
 
+// The lesser of a surface's principal curvatures, 1/mm, by the pixels around; 0 where it is not
+// convex. Do Carmo, Differential Geometry of Curves and Surfaces, 1976, 3.3.
+float convexity(vec3 place, vec3 normal)
+{
+  vec3 u = dFdx(place);
+  vec3 v = dFdy(place);
+  vec3 turnU = dFdx(normal);
+  vec3 turnV = dFdy(normal);
+  float uu = dot(u, u);
+  float uv = dot(u, v);
+  float vv = dot(v, v);
+  float area = uu * vv - uv * uv;
+  float l = dot(turnU, u);
+  float m = 0.5 * (dot(turnU, v) + dot(turnV, u));
+  float n = dot(turnV, v);
+  if (area <= 1e-4 * uu * vv)
+    return 0.0;
+  float mean = 0.5 * (uu * n - 2.0 * uv * m + vv * l) / area;
+  float product = (l * n - m * m) / area;
+  return max(mean - sqrt(max(mean * mean - product, 0.0)), 0.0);
+}
+
 // `place`, `normal`: in view coordinates, mm.
 Seen polygonSeen(vec3 place, vec3 normal)
 {
@@ -20,7 +42,7 @@ Seen polygonSeen(vec3 place, vec3 normal)
   vec3 out_ = normalize(patientFromView * normal);
   out_ = dot(out_, ahead) > 0.0 ? -out_ : out_;
   vec3 v = voxelFromView * place + eyeVoxel;
-  Seen seen = seenAt(v, out_, way, 1.0, true);
+  Seen seen = seenAt(v, out_, way, 1.0, convexity(place, normal), true);
   // In translucent tissue it sees all, as do surfaces there.
   vec3 across = abs(out_ * opacityEdges);
   float texel = across.x + across.y + across.z;

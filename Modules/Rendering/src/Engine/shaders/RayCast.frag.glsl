@@ -215,7 +215,7 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   bool shadowed = !isFace && ray.state <= kAir && size > 1e-12 &&
                   ray.transmittance * opacity > kLeastShadowed;
   vec3 normal = shadowed ? slopeMm / (along > 0.0 ? -size : size) : -ray.unit;
-  seen = seenAt(v, normal, ray.unit, hit, shadowed);
+  seen = seenAt(v, normal, ray.unit, hit, 0.0, shadowed);
 #endif
   float value = intensityAt(below, isGrey ? vec4(0.0) : ray.more);
   if (isGrey)

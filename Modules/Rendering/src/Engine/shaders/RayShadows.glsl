@@ -142,8 +142,9 @@ vec2 stoppersAt(vec3 v, float level, float own, float width)
 }
 
 // Of the light from all around, within kOcclusionReach. From slice to slice the cones are half a
-// turn further, so that they leave no direction out.
-float skyAt(vec3 v, vec3 normal, float texel, bool wanted)
+// turn further, so that they leave no direction out. `curvature`: 1/mm, of a ball that holds the
+// surface's own; it lies below the ball's tangent plane nearest to a look-up.
+float skyAt(vec3 v, vec3 normal, float texel, float curvature, bool wanted)
 {
   vec3 aside = cross(normal, pictureUp);
   aside = dot(aside, aside) > 1e-6 ? normalize(aside) : pictureRight;
@@ -158,7 +159,10 @@ float skyAt(vec3 v, vec3 normal, float texel, bool wanted)
   {
     float width = far * kConeWidth;
     float level = levelOf(width);
-    float own = ownOf(far * kConeCosine, level, texel);
+    float height = far * kConeCosine;
+    float more = curvature * far * far;
+    height = (2.0 * height + more) / (sqrt(1.0 + curvature * (2.0 * height + more)) + 1.0);
+    float own = ownOf(height, level, texel);
     float ratio = far / kOcclusionReach;
     vec3 center = v + far * middle;
     vec3 back = center - 0.5 * far * across;
@@ -209,11 +213,11 @@ float lampAt(vec3 v, vec3 normal, vec3 way, float texel, bool wanted)
 }
 
 // `normal`: in mm, unit, towards the camera; `ray`: its direction in mm, unit; `hit`: mm.
-Seen seenAt(vec3 v, vec3 normal, vec3 ray, float hit, bool wanted)
+Seen seenAt(vec3 v, vec3 normal, vec3 ray, float hit, float curvature, bool wanted)
 {
   vec3 across = abs(normal * opacityEdges);
   float texel = across.x + across.y + across.z;
   vec3 way = normalize(lamp.xyz - lamp.w * hit * ray);
-  return Seen(skyAt(v, normal, texel, wanted), lampAt(v, normal, way, texel, wanted));
+  return Seen(skyAt(v, normal, texel, curvature, wanted), lampAt(v, normal, way, texel, wanted));
 }
 #endif

@@ -121,7 +121,7 @@ core::BenchmarkPoint measure(const Handle& handle, bool guarded, const Sweep& sw
     if (stable)
       largest = stiffness;
   }
-  const double described = settingOf(real, handle.described);
+  const double described = settingOf(real, presenters::untestedStiffness(handle.described));
   point.extra["largest_stable_n_per_mm"] = largest;
   point.extra["described_n_per_mm"] = described;
   point.extra["described_margin"] = largest / described;

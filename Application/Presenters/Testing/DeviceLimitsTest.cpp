@@ -66,6 +66,12 @@ TEST(DeviceLimits, RaisesWhatTheServerDescribesToTwiceAtMost)
   std::filesystem::remove(file);
 }
 
+TEST(DeviceLimits, HalvesWhatAServerDescribesUntilItIsMeasured)
+{
+  EXPECT_EQ(untestedStiffness(5.0), 2.5);
+  EXPECT_EQ(untestedStiffness(0.0), 0.0);
+}
+
 TEST(DeviceLimits, ReadsTheFormerFormatAndKeepsItsEntry)
 {
   const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) /

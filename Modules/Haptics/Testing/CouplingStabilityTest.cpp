@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <ostream>
 #include <string>
 
@@ -117,6 +119,25 @@ TEST(CouplingBorder, AnEncodersStepsAreQuietOnlyAsFarAsFrictionGoes)
   EXPECT_GT(pressed(coarse, 3.0, 0.0, false).ripple, Touching::kMostRipple);
   coarse.friction = 0.25; // 2 f / q = 10 N/mm
   EXPECT_LE(pressed(coarse, 3.0, 0.0, false).ripple, Touching::kMostRipple);
+}
+
+// What the guard takes for energy of one encoder count would be damped in jumps of the force: up to
+// 20 N s/m times a count per tick, 1.1 N on a Touch. Far below the limits of both handles.
+TEST(CouplingBorder, TheGuardDoesNotMakeCoarseEncodersRipple)
+{
+  RealDevice touch{"Touch", 0.145, 0.003, 0.26, 0, 0.055, 0, 3.3};
+  RealDevice falcon{"Falcon", 0.3, 0.005, 0.3, 0, 0.06, 0, 8.0};
+  for (RealDevice& real : std::array<std::reference_wrapper<RealDevice>, 2>{touch, falcon})
+    for (const double stiffness : {0.35, 0.5, 0.7, 1.0, 1.4})
+      for (real.delay = 0; real.delay <= 2; ++real.delay)
+      {
+        WallPress how;
+        how.stiffness = stiffness;
+        how.rest = 4.0;
+        const Touching felt = press(real, how);
+        EXPECT_LE(felt.ripple, Touching::kMostRipple) << real.name << stiffness << real.delay;
+        EXPECT_LE(felt.energyOut, Touching::kMostEnergy) << real.name << stiffness << real.delay;
+      }
 }
 
 INSTANTIATE_TEST_SUITE_P(, CouplingStability,

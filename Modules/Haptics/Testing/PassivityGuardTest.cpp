@@ -231,6 +231,16 @@ TEST(PassivityGuard, EnergySpentInDrillingGivesNoCreditForLater)
   EXPECT_EQ(unknown.energy(), 0.0) << "out of contact";
 }
 
+TEST(PassivityGuard, SeesAForceThatPushesOnThroughManyCounts)
+{
+  Parameters parameters;
+  parameters.stiffness = 1.0;
+  PassivityGuard guard(parameters);
+  for (int n = 0; n < 200; ++n) // 1 N over a count of 0.05 mm each 10 ms: 1 mJ
+    guard.apply({{1, 0, 0}, {0, 0, 0}}, along(0.05 * (n / 10)), 0.001 * n);
+  EXPECT_LT(guard.energy(), -0.05);
+}
+
 TEST(PassivityGuard, WhatCannotBeObservedPassesUnchanged)
 {
   const Wrench wanted{{1, 2, 3}, {4, 5, 6}};

@@ -25,6 +25,7 @@ bool sound(double stiffness)
 }
 
 constexpr double kMostOfDescribed = 2.0;
+constexpr double kUntested = 0.5; // of the described
 
 // Null if it is no such file.
 nlohmann::json entriesOf(const std::filesystem::path& path)
@@ -75,6 +76,11 @@ std::filesystem::path deviceLimitsFile()
 double boundedStiffness(double measured, double described) noexcept
 {
   return std::max(0.0, std::min(measured, kMostOfDescribed * described));
+}
+
+double untestedStiffness(double described) noexcept
+{
+  return kUntested * described;
 }
 
 std::optional<double> keptStiffness(const std::filesystem::path& file, const std::string& server,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "petrous/Haptics/Pose.h"
 
 namespace petrous::haptics
@@ -19,6 +21,17 @@ namespace petrous::haptics
 /// |v|^2   |v_lin|^2 + lever^2 |omega|^2, L = diag(1, lever): combines mm and rad
 /// |dx|_b^2 / dt  energy dissipated by the device's own damping, which allows a spring of up to
 ///         K = 2 b / dt (Colgate and Schenkel 1997) without the controller
+///
+/// The pose x is known to half an encoder's count q: of all motions along an axis that agree with
+/// the readings, x is the one that moves least (play of +-s about the reading),
+///
+///   s = min(q/2, f/k),  f = 0.05 N
+///
+/// So counts are no energy and no velocity where the hand moves slowly: with the reading itself,
+/// each press on a spring would cost |F| q. What a motion within s hides is left to the friction f
+/// of the joints (Diolaiti et al. 2006: k < 2 f / q). q is the smallest change of a reading after 8
+/// ticks without one, up to 0.1 mm; before the first, and where k is unknown, s = 0. Rotations have
+/// no play.
 ///
 /// Differences from the paper, our choice: the energy is that of the actual output over the actual
 /// step, not of wanted force times present velocity; the device's damping is credited; alpha is
@@ -67,10 +80,14 @@ public:
 
 private:
   double maxStored(const Wrench& wanted) const noexcept;
+  void lookForCounts(const Eigen::Vector3d& position) noexcept;
 
   Parameters m_parameters;
   Wrench m_sent;
-  Pose m_pose;
+  Pose m_pose;                               ///< x
+  Eigen::Vector3d m_read{0.0, 0.0, 0.0};     ///< mm, the last reading
+  Eigen::Vector3d m_count{0.0, 0.0, 0.0};    ///< q, mm
+  std::array<int, 3> m_unchanged{{0, 0, 0}}; ///< ticks
   double m_time = 0.0;
   bool m_hasPose = false;
   double m_energy = 0.0;

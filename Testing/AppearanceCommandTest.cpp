@@ -260,6 +260,18 @@ TEST_F(AppearanceCommand, SaysHowAStructureYieldsUnderTheHand)
   EXPECT_TRUE(part("incus")["stiffness_n_per_mm"].is_null()) << "the preset is rigid";
 }
 
+TEST_F(AppearanceCommand, SaysThatALumenIsNotFeltWhateverItsFlags)
+{
+  json("appearance ear --set cochlea=ear-canal");
+  EXPECT_NE(run("appearance ear --list").out.find(", a lumen, not felt,"), std::string::npos);
+  const auto outcome = run("appearance ear --flags cochlea=shown,touchable");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("'cochlea' is not felt: it is a lumen"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(part("cochlea")["flags"], "shown,touchable") << "as it will be with a preset of tissue";
+  EXPECT_TRUE(run("appearance ear --flags cochlea=shown,drillable").err.empty());
+}
+
 TEST_F(AppearanceCommand, SaysHowNearABurrMayCome)
 {
   EXPECT_EQ(part("cochlea")["warn_mm"], 1.0) << "as its preset";
@@ -408,6 +420,11 @@ TEST_F(AppearanceCommand, RefusalsNameWhatIsWrongAndLeaveTheCase)
   expectRefused("appearance ear --set zebra=nerve", 3, "cochlea");
   expectRefused("appearance ear --set cochlea=zebra", 3, "bone-translucent");
   expectRefused("appearance ear --set ct=air-cells", 3, "lumen");
+  const auto listed = [&](const std::string& part)
+  { return run("appearance ear --set " + part + "=zebra").err.find("air-cells"); };
+  EXPECT_NE(listed("cochlea"), std::string::npos);
+  EXPECT_EQ(listed("ct"), std::string::npos) << "it would be refused";
+  EXPECT_EQ(listed("soft-tissue"), std::string::npos);
   expectRefused("appearance ear --set cochlea", 2, "PART=");
   expectRefused("appearance ear --tf cochlea=" + quoted(m_folder / "no.json"), 3, "no.json");
   expectRefused("appearance ear --tf cochlea=" + file("bad.json", "{"), 3, "bad.json");
@@ -445,5 +462,9 @@ TEST_F(AppearanceCommand, FindsBoneInAnImageWithoutHounsfieldUnits)
   EXPECT_NEAR(list["iso_hu"].get<double>(), 27000.0, 7000.0);
   EXPECT_NEAR(list["dense_bone_hu"].get<double>(), 42000.0, 1500.0);
   EXPECT_NE(outcome.err.find("not in Hounsfield units"), std::string::npos) << outcome.err;
+  // A dry bone has no soft tissue.
+  EXPECT_TRUE(list["soft_tissue"]["estimate"].is_null());
+  const auto text = run("appearance micro --list");
+  EXPECT_NE(text.out.find("not known where the values of air end"), std::string::npos) << text.out;
   EXPECT_EQ(json("appearance ear --iso auto")["iso_hu"], 300.0) << "calibrated";
 }

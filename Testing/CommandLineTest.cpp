@@ -757,7 +757,8 @@ TEST_F(CommandLine, AnEmptyValueIsNeverAnAbsentOption)
   int tried = 0;
   for (const std::string& command :
        matches(help.substr(help.find("Subcommands:")), "^  ([a-z][a-z-]*) "))
-    for (const std::string& option : matches(run(command + " --help").out, "^  (--[a-z-]+) [^ ]"))
+    for (const std::string& option :
+         matches(run(command + " --help").out, "^  (--[a-z-]+) (?!Excludes:)[^ ]"))
     {
       expectRefused(command + " " + option + " ''", 2, option + ": the value is empty");
       expectRefused(command + " " + option + "= x", 2, option + ": the value is empty");
@@ -1143,6 +1144,21 @@ TEST_F(CommandLine, SaysWhichStructuresLieWithTheSlices)
   const Outcome with = run("new all --ct " + quoted(patient / "ct") + options);
   EXPECT_EQ(with.code, 0) << with.err;
   EXPECT_EQ(with.err.find("were not taken"), std::string::npos) << with.err;
+}
+
+// More than a sentence names.
+TEST_F(CommandLine, StructuresThatNoVoxelCarriesCountAsTaken)
+{
+  makePatient("--dims 16,16,16 --spacing 4.5");
+  const auto patient = m_folder / "patient";
+  const Outcome built = run("new ear --json --ct " + quoted(patient / "ct") + " --labels " +
+                            quoted(patient / "labels.seg.nrrd"));
+  ASSERT_EQ(built.code, 0) << built.err;
+  const auto info = nlohmann::json::parse(built.out);
+  const auto empty = std::count_if(info["structures"].begin(), info["structures"].end(),
+                                   [](const auto& one) { return one["status"] == "empty"; });
+  ASSERT_GT(empty, 6);
+  EXPECT_EQ(built.err.find("were not taken"), std::string::npos) << built.err;
 }
 
 TEST_F(CommandLine, StrictScanTakesASegmentationForWhatItIs)

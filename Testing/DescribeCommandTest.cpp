@@ -63,7 +63,7 @@ TEST_F(DescribeCommand, DoubtsASideThatTheImageContradicts)
   image << "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 8 8 8\n"
            "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (20,0,0)\nencoding: raw\n"
            "endian: little\n\n"
-        << std::string(1024, '\x04');
+        << std::string(512, '\x04') << std::string(512, '\x05');
   image.close();
   ASSERT_EQ(run("new left --modality CT --ct " + (m_folder / "left.nrrd").string()).code, 0);
   const auto doubts = [this](const std::string& arguments)

@@ -14,7 +14,7 @@ protected:
   void SetUp() override
   {
     CommandLine::SetUp();
-    put("ct.nrrd", "short", [](int, int, int) { return 700; });
+    put("ct.nrrd", "short", [](int i, int j, int k) { return i + j + k == 0 ? 701 : 700; });
     json("new ear --ct " + quoted(m_folder / "ct.nrrd"));
   }
 

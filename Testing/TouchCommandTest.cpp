@@ -197,6 +197,33 @@ TEST_F(TouchCommand, AnInstrumentFromAMeshIsFeltAtItsTipAndRemovesNothing)
   EXPECT_NE(open.err.find("not closed"), std::string::npos) << open.err;
 }
 
+TEST_F(TouchCommand, AnInstrumentIsKeptWithTheCaseAndTakenFromIt)
+{
+  std::ofstream(m_folder / "Doe pick.obj")
+      << "v 0 0 0\nv 60 1 1\nv 60 -1 1\nv 60 -1 -1\nv 60 1 -1\n"
+         "f 1 3 2\nf 1 4 3\nf 1 5 4\nf 1 2 5\nf 2 3 4\nf 2 4 5\n";
+  EXPECT_NE(run(drill(press(1.0, false), " --case-tool")).err.find("keeps no instrument"),
+            std::string::npos);
+  EXPECT_TRUE(json("info plane")["instrument"].is_null());
+  const std::string file = quoted(m_folder / "Doe pick.obj");
+  EXPECT_NE(run("view plane --instrument " + file).err.find("--tool-axis x+"), std::string::npos);
+  const auto kept = json("view plane --instrument " + file + " --tool-axis x+");
+  EXPECT_TRUE(kept["changed"]);
+  EXPECT_EQ(kept["instrument"]["axis"], "x+");
+  std::filesystem::remove(m_folder / "Doe pick.obj");
+  EXPECT_EQ(json("info plane")["instrument"]["name"], "Doe pick.obj");
+  EXPECT_EQ(json("view plane")["instrument"], kept["instrument"]);
+
+  const auto felt = json(drill(press(kTop - 1.0, true), " --case-tool"));
+  EXPECT_NEAR(felt["instrument"]["length_mm"], 60.0, 1e-4);
+  EXPECT_EQ(felt["removed_mm3"], 0.0);
+  EXPECT_NEAR(log("log.csv").back().at("pz_mm"), kTop, 0.05 * 0.4);
+  EXPECT_NE(run(drill(press(1.0, false), " --case-tool --burr diamond")).code, 0);
+
+  EXPECT_TRUE(json("view plane --clear instrument")["instrument"].is_null());
+  EXPECT_TRUE(json("info plane")["instrument"].is_null());
+}
+
 // The place is above the bone, the shaft parallel to it: the approach is along the bone's normal.
 TEST_F(TouchCommand, PressesAndDrillsWithTheShaftAlongTheBone)
 {

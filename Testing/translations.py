@@ -114,8 +114,12 @@ def phrases_test():
         ('list.push_back({std::string("one ") + two, "three"});', ["one %1", "three"]),
         ('core::log::info("not shown"); x["key of JSON"] = "shown";', ["shown"]),
     ]
-    return [f"{source}: {phrases.texts(source)}" for source, expected in sources
-            if sorted(phrases.texts(source)) != sorted(expected)]
+    found = []
+    phrases.said(phrases.tree('progress.report(0.5, "masking"); part.report(1.0, a ? "b1" : "c");'
+                              'report("not"); code("nor");'), found, phrases.is_progress)
+    wrong = [] if found == ["masking", "b1", "c"] else [f"of progress: {found}"]
+    return wrong + [f"{source}: {phrases.texts(source)}" for source, expected in sources
+                    if sorted(phrases.texts(source)) != sorted(expected)]
 
 
 def main():

@@ -65,7 +65,7 @@ std::string hex(const std::array<float, 3>& color)
 // Each property that has a phrase, unless it is off, and the transfer function.
 std::string describe(const StructureAppearance& look, const volume::IntensityScale& scale)
 {
-  std::string text = look.solid ? "" : ", a lumen";
+  std::string text = look.solid ? "" : ", a lumen, not felt";
   for (const appearance::StructureProperty& property : appearance::kStructureProperties)
     if (std::holds_alternative<appearance::StructureProperty::Transfer>(property.member))
       text += ", " + valuesOf(look, scale);
@@ -107,6 +107,9 @@ void listAppearance(const Context& context, const scene::Case& value)
                                     presenters::softTissueScale(value));
   const std::string missing = presenters::softTissueMissing(value);
   softTissue["not_drawn"] = missing.empty() ? nlohmann::json() : nlohmann::json(missing);
+  if (const std::string estimate = presenters::softTissueEstimate(value); !estimate.empty())
+    context.print("    " + estimate);
+  softTissue["estimate"] = softTissueValuesJson(value);
   nlohmann::json parts = nlohmann::json::array();
   for (const auto& part : value.labels)
     for (const auto& structure : part.structures)
@@ -243,6 +246,7 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
     const auto scale = isMr ? volume::suggestMrScale(histogram) : volume::suggestScale(histogram);
     context.refuseDamaged();
     value.iso = scale.iso;
+    value.softTissueValues = scale.soft;
     if (!scale.calibrated || presenters::calibratedScale(value).calibrated)
       value.denseBone = scale.dense; // else the file did not call its values Hounsfield units
     if (isMr)
@@ -268,7 +272,8 @@ void setPreset(const library::Library& library, scene::Case& value, const std::s
                const std::vector<std::string>& sources)
 {
   const auto [part, name] = split(value, assignment, "--set PART=PRESET");
-  const auto preset = appearance::OwnPresets(library.folder()).preset(name);
+  const auto preset =
+      presenters::presetFor(value, part.name, appearance::OwnPresets(library.folder()), name);
   if (!preset.sourceImage.empty() && !part.meshOnly)
     for (const std::string& source : sources)
       if (const auto [reader, image] = split(value, source, "--source PART=MR|ct");
@@ -424,6 +429,14 @@ void setSource(const Context& context, scene::Case& value, const StructureProper
   }
 }
 
+// Of a part that is marked touchable or yields.
+void warnIfNotFelt(const Context& context, const Part& part)
+{
+  if (const StructureAppearance& look = *part.looks.front(); !(look.solid && look.touchable))
+    context.warn("'" + part.name + "' is not felt" +
+                 (look.solid ? ": its flag 'touchable' is off" : ": it is a lumen"));
+}
+
 void setPartFlags(const Context& context, scene::Case& value, const std::string& assignment)
 {
   const auto [part, flags] = split(value, assignment, "--flags PART=shown,touchable,drillable");
@@ -434,6 +447,8 @@ void setPartFlags(const Context& context, scene::Case& value, const std::string&
     appearance::makeUntouchable(value.softTissue);
     context.warn("soft tissue is air to hand and drill; of its flags only 'shown' can be changed");
   }
+  if (part.looks.front()->touchable)
+    warnIfNotFelt(context, part);
   if (!part.bone || (value.boneLook.touchable && value.boneLook.drillable))
     return;
   value.boneLook.touchable = value.boneLook.drillable = true;
@@ -444,10 +459,8 @@ void setStiffness(const Context& context, scene::Case& value, const StructurePro
                   const Part& part, const std::string& text)
 {
   setNumber(context, value, property, part, text);
-  if (const auto& look = *part.looks.front();
-      look.stiffness > 0.0 && !(look.solid && look.touchable))
-    context.warn("'" + part.name + "' is not felt" +
-                 (look.solid ? ": its flag 'touchable' is off" : ": it is a lumen"));
+  if (part.looks.front()->stiffness > 0.0)
+    warnIfNotFelt(context, part);
 }
 
 // Sets the tissue that the drill meets.

@@ -17,6 +17,7 @@ namespace
 struct ArchiveCommandOptions
 {
   std::string caseName, file;
+  std::vector<std::string> withoutMrs;
   std::optional<int> level;
   bool planOnly = false, keepIdentity = false, withoutNotes = false, withVideos = false,
        withDocuments = false;
@@ -37,8 +38,9 @@ std::string megabytes(std::uintmax_t bytes)
 void archive(const Context& context, const ArchiveCommandOptions& options)
 {
   const scene::ImageMask mask = options.mask.mask();
-  if (mask.any() && options.planOnly)
-    throw UsageError("archive: a plan has no images; give --plan-only, or --mask-face and --roi");
+  if ((mask.any() || !options.withoutMrs.empty()) && options.planOnly)
+    throw UsageError("archive: a plan has no images; give --plan-only, or --mask-face, --roi and "
+                     "--without-mr");
   context.refuseOverwriting({options.file});
   const library::Library library = context.openLibrary();
   const library::ArchiveOptions how{options.planOnly,
@@ -47,9 +49,11 @@ void archive(const Context& context, const ArchiveCommandOptions& options)
                                     options.keepIdentity,
                                     options.withVideos,
                                     options.withDocuments,
-                                    presenters::maskForArchive(library, mask)};
+                                    presenters::maskForArchive(library, mask, options.withoutMrs)};
+  scene::Case leaving = library.open(options.caseName);
+  presenters::leaveOutMrs(leaving, options.withoutMrs);
   const presenters::IdentityReport report =
-      presenters::identityReport(library.open(options.caseName), how, mask, &library);
+      presenters::identityReport(leaving, how, mask, &library);
   if (options.dryRun)
     return printIdentityReport(context, report);
   for (const std::string& warning : report.warnings) // before anything is written
@@ -113,6 +117,10 @@ void addArchiveCommands(CLI::App& app, Context& context)
                     "Take attached PDFs along, which else stay: they may name the patient, also in "
                     "their metadata, which is not removed");
   addMaskOptions(*command, out->mask);
+  command
+      ->add_option("--without-mr", out->withoutMrs,
+                   "Leave out an MR, as one whose face cannot be masked; repeatable")
+      ->type_name("MRNAME");
   command->add_flag("--dry-run", out->dryRun,
                     "Only say what of the case would be in the file, and what may identify the "
                     "patient; nothing is written");

@@ -366,9 +366,10 @@ void warnNotes(const Context& context, const scene::Case& value, const PartCount
   std::for_each(from(value.meshes, before.meshes), value.meshes.end(), remark);
 }
 
-// Structures and meshes that lie with the slices of the CT and were not given.
+// Structures and meshes that lie with the slices of the CT and were not given. `reports`: of the
+// structures that were.
 void warnOfParts(const Context& context, const presenters::CaseSources& sources,
-                 const scene::Case& value)
+                 const scene::Case& value, const std::vector<presenters::StructureReport>& reports)
 {
   if (!std::filesystem::is_directory(sources.ct))
     return;
@@ -388,19 +389,13 @@ void warnOfParts(const Context& context, const presenters::CaseSources& sources,
                          [&](const auto& one)
                          { return one == canonical || one.parent_path() == canonical; });
     };
-    // The same structures in another form, each a file of its name. One that no voxel carries was
-    // left out with a note.
-    const auto isOne = [&value](const std::filesystem::path& path)
+    // The same structures in another form, each a file of its name; also one that no voxel carries.
+    const auto isOne = [&](const std::filesystem::path& path)
     {
       const std::string name = imaging::baseName(path);
       return scene::kindOfPart(value, name) ||
-             std::any_of(value.labels.begin(), value.labels.end(),
-                         [&](const scene::LabelPart& part)
-                         {
-                           return std::any_of(part.notes.begin(), part.notes.end(),
-                                              [&](const std::string& note)
-                                              { return note.find("'" + name + "'") != note.npos; });
-                         });
+             std::any_of(reports.begin(), reports.end(),
+                         [&name](const auto& report) { return report.name == name; });
     };
     const auto isTaken = [&](const std::filesystem::path& path)
     {
@@ -464,7 +459,7 @@ void addNew(CLI::App& app, Context& context)
             presenters::buildCase(options->name, sources, progress.part(0.0, 0.8), &structures);
         library.save(value, progress.part(0.8, 1.0));
         warnNotes(context, value);
-        warnOfParts(context, sources, value);
+        warnOfParts(context, sources, value, structures);
         const CaseFacts facts = factsOf(value);
         printCase(context, value, facts);
         nlohmann::json info = infoJson(value, facts);

@@ -36,6 +36,12 @@ json gridJson(const core::GridGeometry& grid)
           {"direction", directionJson(grid.direction())}};
 }
 
+json softTissueValuesJson(const scene::Case& value)
+{
+  const auto& soft = value.softTissueValues;
+  return soft ? json{{"foot", soft->foot}, {"peak", soft->peak}} : json();
+}
+
 json lookJson(const appearance::StructureAppearance& look)
 {
   json j{{"flags", appearance::flagsOf(look)}};
@@ -395,6 +401,9 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
   ct["modality"] = value.ct.modality == scene::Modality::Mr   ? json("MR")
                    : value.ct.modality == scene::Modality::Ct ? json("CT")
                                                               : json(nullptr);
+  json instrument = nullptr;
+  if (const auto& kept = value.view.instrument)
+    instrument = {{"name", kept->name}, {"axis", kept->axis}};
   return {{"case", value.name},
           {"description", descriptionJson(value.description)},
           {"iso_hu", value.iso},
@@ -402,11 +411,13 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
           {"hounsfield", presenters::calibratedScale(value).calibrated},
           {"bone", lookJson(value.boneLook)},
           {"soft_tissue", lookJson(value.softTissue)},
+          {"soft_tissue_estimate", softTissueValuesJson(value)},
           {"ct", std::move(ct)},
           {"mr", std::move(mr)},
           {"labels", std::move(labels)},
           {"meshes", std::move(meshes)},
           {"measurements", value.measurements.size()},
+          {"instrument", std::move(instrument)},
           {"dissection",
            {{"strokes", value.dissection.strokes().size()},
             {"undo", value.applied()},
@@ -449,6 +460,11 @@ json strokesJson(const scene::Case& value)
          {"removed_mm3", stroke.info.removed},
          {"structures_touched", touchedJson(stroke.info.structures)},
          {"bytes", stroke.bytes}});
+    if (const auto& speed = stroke.info.speed)
+    {
+      strokes.back()["rpm_mean"] = speed->mean;
+      strokes.back()["rpm_max"] = speed->max;
+    }
   }
   return strokes;
 }

@@ -27,6 +27,8 @@ nlohmann::json gridJson(const core::GridGeometry& grid);
 /// neither a word nor 0 is a value; transfer: null, or {"relative", "points"} as a --tf file has
 /// them.
 nlohmann::json lookJson(const appearance::StructureAppearance& look);
+/// `foot` and `peak` of Case::softTissueValues, or null.
+nlohmann::json softTissueValuesJson(const scene::Case& value);
 
 /// Why a mesh is not touchable (scene::untouchable), or its file cannot be read; empty if it is
 /// touchable.

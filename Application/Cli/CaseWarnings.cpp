@@ -82,6 +82,9 @@ void warnOfSoftTissue(const Context& context, const scene::Case& value)
 {
   if (const std::string why = presenters::softTissueMissing(value); !why.empty())
     context.warn("soft tissue is not drawn: " + why);
+  else if (!value.softTissueValues)
+    if (const std::string estimate = presenters::softTissueEstimate(value); !estimate.empty())
+      context.warn("soft tissue: " + estimate);
 }
 
 void warnOfMrs(const Context& context, const scene::Case& value)

@@ -6,6 +6,7 @@
 #include "Commands.h"
 #include "DrillReport.h"
 #include "Numbers.h"
+#include "ToolOptions.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Dissection/BurrName.h"
@@ -30,7 +31,8 @@ struct Options
   double rpm = 60000.0;
   double rate = 1000.0;
   std::string mode = "6dof", log, record, replay, materials, burrs;
-  std::string tool, toolAxis; // empty: not given
+  ToolOptions tool;
+  bool isCaseTool = false; // the instrument that the case keeps
   std::optional<double> thrust;
   bool withoutDamaged = false;
   const CLI::App* command = nullptr;
@@ -171,40 +173,25 @@ std::unique_ptr<library::Journal> journalOf(const library::Library& library,
   return journal;
 }
 
-// An axis that is assumed must not make a tool that is wider than long.
-presenters::LoadedInstrument readTool(const Options& options, const core::Progress& progress)
-{
-  presenters::InstrumentSurface surface =
-      presenters::readInstrumentSurface(options.tool, progress.part(0.0, 0.5));
-  const std::string axis =
-      options.toolAxis.empty() ? presenters::kInstrumentAxes[0] : options.toolAxis;
-  const auto assumed = presenters::placementOf(surface.mesh, axis);
-  if (options.toolAxis.empty() && assumed.isAcross())
-  {
-    const std::string likely = presenters::likelyAxis(surface.mesh);
-    const auto better = presenters::placementOf(surface.mesh, likely);
-    throw core::InvalidParameter(
-        options.tool + ": is " + presenters::lengthText(assumed.length) + " mm long along z and " +
-        presenters::lengthText(assumed.width) +
-        " mm across, so it seems to lie along another axis of its file; say --tool-axis " + likely +
-        " (" + presenters::lengthText(better.length) + " mm long, the tip at " + likely[0] + " = " +
-        core::fixedText(better.tip, 1) + " mm), or --tool-axis " + axis + " if it is so");
-  }
-  return presenters::makeInstrument(std::move(surface), axis, progress);
-}
-
 void play(const Context& context, const Options& options)
 {
   session::PathDrill::Options tool = toolFrom(options);
   std::ifstream file = core::openInput(options.path, kLargestInput);
   const auto path = dissection::ToolPath::read(file, options.path);
   const core::Progress progress = context.progress();
-  if (!options.tool.empty())
+  const auto takeUp =
+      [&](presenters::InstrumentSurface surface, const std::string& axis, const std::string& name)
   {
-    presenters::LoadedInstrument loaded = readTool(options, progress);
+    presenters::LoadedInstrument loaded =
+        presenters::makeInstrument(std::move(surface), axis, progress);
     for (const std::string& note : loaded.notes)
-      context.warn(options.tool + ": " + note);
+      context.warn(name + ": " + note);
     tool.tool.instrument = std::move(loaded.instrument);
+  };
+  if (!options.tool.file.empty())
+  {
+    auto [surface, axis] = options.tool.read(progress.part(0.0, 0.5));
+    takeUp(std::move(surface), axis, options.tool.file);
   }
   const auto& instrument = tool.tool.instrument;
 
@@ -213,6 +200,15 @@ void play(const Context& context, const Options& options)
   setModel(tool.tool.burr, burrNamed(options.burr, tool.catalogues.burrs));
   scene::Case value;
   const auto leftOut = openCase(context, library, options, value, progress);
+  if (options.isCaseTool)
+  {
+    if (!value.view.instrument)
+      throw core::InvalidParameter("case '" + value.name +
+                                   "' keeps no instrument; give one with --tool, or keep one with "
+                                   "'petrous view --instrument'");
+    takeUp(presenters::surfaceOf(*value.view.instrument), value.view.instrument->axis,
+           "the instrument of case '" + value.name + "'");
+  }
   const library::SavedState opened = value;
   tool.camera = presenters::currentCamera(value);
   tool.recording = options.record;
@@ -347,9 +343,9 @@ void addDrillCommand(CLI::App& app, Context& context)
       {
         if (options->path.empty() == options->replay.empty())
           throw UsageError("drill: give either --path or --replay");
-        context.refuseOverwriting(
-            {options->log, options->record},
-            {options->path, options->replay, options->materials, options->burrs, options->tool});
+        context.refuseOverwriting({options->log, options->record},
+                                  {options->path, options->replay, options->materials,
+                                   options->burrs, options->tool.file});
         options->replay.empty() ? play(context, *options) : replay(context, *options);
       });
   options->command = command;
@@ -366,18 +362,11 @@ void addDrillCommand(CLI::App& app, Context& context)
               "compare every tick bit for bit")
           ->type_name("F.ticks");
   CLI::Option* instrument =
-      command
-          ->add_option("--tool", options->tool,
-                       "Instead of a burr: an instrument, a closed mesh of 1 to 300 mm (OBJ, STL, "
-                       "PLY, VTP), its tip at the origin; it is felt and removes nothing")
-          ->type_name("FILE")
+      addToolOptions(*command, "--tool",
+                     "Instead of a burr: an instrument, a closed mesh of 1 to 300 mm (OBJ, STL, "
+                     "PLY, VTP), its tip at the origin; it is felt and removes nothing",
+                     options->tool)
           ->excludes(replayed);
-  command
-      ->add_option("--tool-axis", options->toolAxis,
-                   "Along which axis of its file the instrument lies, from the tip to the hand "
-                   "(z+, if it is long that way)")
-      ->check(oneOf({presenters::kInstrumentAxes.begin(), presenters::kInstrumentAxes.end()}))
-      ->needs(instrument);
   command
       ->add_option("--burr", options->burr,
                    "A burr's name in the catalogue: cutting, diamond or one of your own (cutting)")
@@ -427,6 +416,15 @@ void addDrillCommand(CLI::App& app, Context& context)
                    "CSV with one row per tick: device, tool, force, contact, removed volume")
       ->type_name("F.csv");
   addWithoutDamaged(*command, options->withoutDamaged);
+  CLI::Option* ofCase =
+      command
+          ->add_flag("--case-tool", options->isCaseTool,
+                     "Instead of a burr: the instrument that the case keeps, as with --tool")
+          ->excludes(instrument)
+          ->excludes(replayed);
+  for (const char* other : {"--burr", "--diameter", "--rpm", "--mode", "--materials", "--burrs",
+                            "--record"}) // as with --tool
+    ofCase->excludes(command->get_option(other));
 }
 
 } // namespace petrous::cli

@@ -67,6 +67,9 @@ void printStroke(const Context& context, const scene::Case& value, std::size_t n
                      (info.startedAt.empty() ? "" : info.startedAt + "  ") +
                      fixed(info.burr.diameter, 1) + " mm " + dissection::nameOf(info.burr) + ", " +
                      fixed(info.duration, 1) + " s, " + fixed(info.removed, 2) + " mm3";
+  if (info.speed)
+    line += "; by pedal " + fixed(info.speed->mean, 0) + " rpm on average, at most " +
+            fixed(info.speed->max, 0);
   for (const auto& touched : info.structures)
     line += "; " + touched.name + " " + fixed(touched.volume, 2) + " mm3";
   context.print(line + (info.recovered ? "; recovered" : ""));

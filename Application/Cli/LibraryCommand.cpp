@@ -82,6 +82,11 @@ void find(const Context& context, const library::Library& library, const Options
 
 void verify(const Context& context, const library::Library& library)
 {
+  if (!std::filesystem::is_directory(library.folder()))
+    throw library::LibraryError(library::LibraryError::Reason::NotFound,
+                                library.folder().string() +
+                                    ": there is no such folder; is the path right, and its disk "
+                                    "mounted?");
   const library::Inspection found = library.verify(context.progress());
   const std::size_t count = found.damaged.size();
   nlohmann::json damaged = nlohmann::json::array();

@@ -75,15 +75,16 @@ CLI::Validator offers(const std::vector<std::string>& names)
           CLI::detail::join(names, std::string(1, kBetweenChoices))};
 }
 
-CLI::Validator endsIn(const std::string& suffix)
+CLI::Validator endsIn(const std::vector<std::string>& suffixes)
 {
-  return {[suffix](std::string& path)
+  return {[suffixes](std::string& path)
           {
             const std::filesystem::path file(path);
-            if (CLI::detail::to_lower(file.extension().string()) == suffix)
+            const std::string suffix = CLI::detail::to_lower(file.extension().string());
+            if (std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end())
               return std::string();
-            return "the file's name must end in " + suffix + ", not '" + file.filename().string() +
-                   "'";
+            return "the file's name must end in " + CLI::detail::join(suffixes, " or ") +
+                   ", not '" + file.filename().string() + "'";
           },
           ""};
 }
@@ -102,7 +103,8 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count,
   }
   if (numbers.size() != count)
     throw UsageError(option + ": " + std::to_string(count) + " numbers are needed, not " +
-                     std::to_string(numbers.size()));
+                     std::to_string(numbers.size()) +
+                     (numbers.size() > count ? " (a decimal number has a point)" : ""));
   return numbers;
 }
 

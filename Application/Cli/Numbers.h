@@ -38,9 +38,9 @@ CLI::Validator offers(const std::vector<std::string>& names);
 /// Between the choices, in the name of such a check.
 constexpr char kBetweenChoices = '|';
 
-/// A file's name that ends in `suffix` (".png", case-insensitive): other programs rely on it. Not
-/// CLI::ExistingFile for files to be read: a missing one is bad input, not wrong usage.
-CLI::Validator endsIn(const std::string& suffix);
+/// A file's name that ends in one of `suffixes` (".png", case-insensitive): other programs rely on
+/// it. Not CLI::ExistingFile for files to be read: a missing one is bad input, not wrong usage.
+CLI::Validator endsIn(const std::vector<std::string>& suffixes);
 
 /// Exactly `count` finite numbers separated by commas; otherwise throws UsageError naming `option`.
 std::vector<double> parseNumbers(const std::string& text, std::size_t count,

@@ -173,9 +173,10 @@ void takeSoftTissue(const RenderOptions& options, const library::Library& librar
   if (options.softTissue.empty())
     return;
   if (options.softTissue != "true" && options.softTissue != "false")
-    value.softTissue =
-        presenters::withPreset(value, scene::kSoftTissue,
-                               appearance::OwnPresets(library.folder()).preset(options.softTissue));
+    value.softTissue = presenters::withPreset(
+        value, scene::kSoftTissue,
+        presenters::presetFor(value, scene::kSoftTissue, appearance::OwnPresets(library.folder()),
+                              options.softTissue));
   value.softTissue.shown = options.softTissue != "false";
 }
 
@@ -195,7 +196,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
   command.add_option("CASE", options.caseName)->required();
   command.add_option("--out", options.out, "Picture to write")
       ->type_name("F.png")
-      ->check(endsIn(".png") | endsIn(".mp4"))
+      ->check(endsIn({".png", ".mp4"}))
       ->required();
   command
       .add_option("--width-mm", options.widthMillimetres,
@@ -282,7 +283,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
       ->check(oneOf({"gpu", "reference"}));
   command.add_option("--depth", options.depth, "Also write the distance to the first surface, mm")
       ->type_name("F.npy")
-      ->check(endsIn(".npy"));
+      ->check(endsIn({".npy"}));
   addWithoutDamaged(command, options.withoutDamaged);
 }
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -203,7 +205,10 @@ std::string complaintOf(const imaging::ScanResult& result)
     const auto& findings = series.geometry.findings;
     const bool isCut = std::any_of(findings.begin(), findings.end(),
                                    [](const auto& finding)
-                                   { return finding.kind == imaging::FindingKind::MissingEnd; });
+                                   {
+                                     return finding.kind == imaging::FindingKind::MissingEnd ||
+                                            finding.kind == imaging::FindingKind::MissingBetween;
+                                   });
     const bool isSound = series.geometry.verdict == imaging::Verdict::Ok && !isCut;
     unsound += isSound || series.kind != imaging::SeriesKind::Image ? 0 : 1;
   }
@@ -226,6 +231,7 @@ void scan(const Context& context, const Options& options)
     imaging::chooseSeries(result, path); // throws, reporting what was found instead
   json list = json::array();
   std::vector<const imaging::DicomSeries*> volumes; // of one series
+  std::set<std::string> said;                       // an unreadable folder is a finding of each
   for (const auto& series : result.series)
   {
     if (!volumes.empty() && (series.volume.empty() || volumes.front()->uid != series.uid))
@@ -252,6 +258,8 @@ void scan(const Context& context, const Options& options)
     context.print(line + "  " + series.uid +
                   (series.volume.empty() ? "" : "  volume '" + series.volume + "'"));
     printFindings(context, series.geometry.findings);
+    for (const auto& finding : series.geometry.findings)
+      said.insert(finding.text);
     for (const auto& note : series.geometry.notes)
       context.print("    noted: " + note);
   }
@@ -262,11 +270,16 @@ void scan(const Context& context, const Options& options)
   const auto parts = presenters::partFilesOf(path, result, progress.part(0.7, 1.0));
   for (const presenters::PartFiles& files : parts)
     context.print("structures  " + lineOf(files));
-  printFindings(context, result.unreadable);
+  std::vector<imaging::Finding> others;
+  for (const auto& finding : result.unreadable)
+    if (said.insert(finding.text).second)
+      others.push_back(finding);
+  printFindings(context, others);
   std::vector<std::string> notes = result.lossNotes;
   notes.insert(notes.end(), result.notes.begin(), result.notes.end());
   for (const auto& note : notes)
-    context.print("noted: " + note);
+    if (said.insert(note).second)
+      context.print("noted: " + note);
   context.printJson({{"series", std::move(list)},
                      {"images", imagesJson(images)},
                      {"parts", partsJson(parts)},
@@ -287,9 +300,10 @@ void addScanCommand(CLI::App& app, Context& context)
       context.addCommand(app, "scan", "Judge the geometry of each DICOM series below a path",
                          [options, &context] { scan(context, *options); });
   command->add_option("PATH", options->path, "Folder or file")->required();
-  command->add_flag("--strict", options->strict,
-                    "Exit 3 unless every image series is ok with no end that may be missing, every "
-                    "DICOM file is readable, and all is there that a DICOMDIR lists");
+  command->add_flag(
+      "--strict", options->strict,
+      "Exit 3 unless every image series is ok with no slices that may be missing, every "
+      "DICOM file is readable, and all is there that a DICOMDIR lists");
   command->add_flag("--no-cache", options->noCache,
                     "Read every header, and remember none for the next scan of the same files");
 }

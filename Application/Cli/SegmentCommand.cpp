@@ -154,17 +154,17 @@ Made tube(const SegmentOptions& options, const scene::Case& value, const scene::
   const segmentation::Tube tube =
       presenters::traceOnCt(*source.volume.get(), source.mrFromCt, readPoints(options.tube),
                             tracing, progress.part(0.0, 0.6));
-  const volume::LabelMap labels = segmentation::labelTube(
+  const segmentation::TubeLabel label = segmentation::labelTube(
       tube, value.ct.geometry, {options.name, 1, {}, 0}, 1.0, progress.part(0.6, 0.8));
   Made made;
-  made.mask = segmentation::maskOf(labels, 1);
+  made.mask = segmentation::maskOf(label.map, 1);
   if (made.mask.count == 0)
-    throw core::InvalidParameter("the tube, of radius " + fixed(tube.radius, 2) +
-                                 " mm, covers half of no voxel; give a larger --radius");
+    throw core::InvalidParameter("the tube lies outside of the image");
   const double farthest = *std::max_element(tube.pointDistances.begin(), tube.pointDistances.end());
   made.facts = {
       {"length_mm", tube.length},
       {"resolved_mm", tube.resolvedLength},
+      {"bridging_voxels", label.bridging},
       {"radius_mm",
        {{"min", tube.smallestRadius}, {"median", tube.radius}, {"max", tube.largestRadius}}},
       {"points_to_path_mm", {{"max", farthest}, {"each", tube.pointDistances}}}};
@@ -185,6 +185,8 @@ Made tube(const SegmentOptions& options, const scene::Case& value, const scene::
                               fixed(tube.pointDistances[n], 2) +
                               " mm from the path, outside of the tube: move the point, or add one "
                               "beside it");
+  if (label.bridging > 0)
+    made.warnings.push_back(presenters::bridgingText(label));
   constexpr double kTenth = 0.1;
   if (tube.resolvedLength < tube.length * (1.0 - kTenth))
     made.warnings.push_back("the image resolves " + fixed(tube.resolvedLength, 1) + " of " +

@@ -370,7 +370,7 @@ void addSliceCommand(CLI::App& app, Context& context)
   command->add_option("CASE", options->caseName)->required();
   command->add_option("--out", options->out, "Picture to write")
       ->type_name("F.png")
-      ->check(endsIn(".png"))
+      ->check(endsIn({".png"}))
       ->required();
   command
       ->add_option(

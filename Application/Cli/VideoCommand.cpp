@@ -351,12 +351,12 @@ void addVideoCommand(CLI::App& app, Context& context)
                     "Forget landmarks and camera of the frame");
   command->add_option("--frame", options->frame, "Write the frame as a picture")
       ->type_name("F.png")
-      ->check(endsIn(".png"));
+      ->check(endsIn({".png"}));
   command
       ->add_option("--overlay", options->overlay,
                    "Write the scene from the frame's camera with the frame over it")
       ->type_name("F.png")
-      ->check(endsIn(".png"));
+      ->check(endsIn({".png"}));
   command->add_option("--size", options->size, "Pixels of the overlay (800x600)")->type_name("WxH");
   command->add_option("--opacity", options->opacity, "Of the frame over the scene; kept")
       ->check(within({0.0, 1.0}));

@@ -5,6 +5,7 @@
 #include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "ToolOptions.h"
 #include "ViewOptions.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Dissection/Catalogues.h"
@@ -28,6 +29,7 @@ struct ViewCommandOptions
   std::string caseName, view, camera, at, window, stereo, crop, roi, overlay, mode, burr;
   std::string show, saveAs;
   std::vector<std::string> clip, zoom, cleared, removed;
+  ToolOptions instrument;
   LightOptions light;
   std::optional<double> eyeSeparation, convergence, opacity, diameter, rpm, thrust;
 };
@@ -45,6 +47,8 @@ void clear(scene::Case& value, const std::string& part)
     view.stereo.reset();
   else if (part == "clipping")
     view.clipping = {};
+  else if (part == "instrument")
+    view.instrument.reset();
   else
     view.tool.reset();
 }
@@ -111,7 +115,8 @@ void changeSlices(scene::Case& value, const ViewCommandOptions& options)
 }
 
 void change(scene::Case& value, const ViewCommandOptions& options,
-            const std::optional<dissection::BurrModel>& burr)
+            const std::optional<dissection::BurrModel>& burr,
+            const std::optional<ViewState::Instrument>& instrument)
 {
   if (!options.view.empty() && !options.camera.empty())
     throw UsageError("view: give --view or --camera, not both");
@@ -157,6 +162,8 @@ void change(scene::Case& value, const ViewCommandOptions& options,
     view.tool->burr.rpm = options.rpm.value_or(view.tool->burr.rpm);
     view.tool->thrust = options.thrust.value_or(view.tool->thrust);
   }
+  if (instrument)
+    view.instrument = instrument;
   try
   {
     if (!options.saveAs.empty())
@@ -236,6 +243,11 @@ nlohmann::json viewJson(const scene::Case& value)
             {"rpm", view.tool->burr.rpm},
             {"thrust_n", view.tool->thrust},
             {"by_wheel", view.tool->byWheel}};
+  nlohmann::json instrument = nullptr;
+  if (view.instrument)
+    instrument = {{"name", view.instrument->name},
+                  {"axis", view.instrument->axis},
+                  {"object", view.instrument->object}};
   nlohmann::json saved = nlohmann::json::object();
   for (const auto& [name, one] : view.saved)
     saved[name] = {{"camera", cameraJson(one.camera)},
@@ -247,7 +259,8 @@ nlohmann::json viewJson(const scene::Case& value)
           {"light", std::move(light)},
           {"stereo", std::move(stereo)},
           {"clipping", std::move(clipping)},
-          {"tool", std::move(tool)}};
+          {"tool", std::move(tool)},
+          {"instrument", std::move(instrument)}};
 }
 
 void run(const Context& context, const ViewCommandOptions& options)
@@ -258,12 +271,23 @@ void run(const Context& context, const ViewCommandOptions& options)
   std::optional<dissection::BurrModel> burr;
   if (!options.burr.empty())
     burr = burrNamed(options.burr, dissection::Catalogues::in(library.folder()).burrs);
-  change(value, options, burr);
+  std::optional<ViewState::Instrument> instrument;
+  if (!options.instrument.file.empty())
+  {
+    const auto [surface, axis] = options.instrument.read(context.progress());
+    for (const std::string& note : presenters::makeInstrument(surface, axis).notes)
+      context.warn(options.instrument.file + ": " + note);
+    instrument = presenters::keptInstrument(surface, axis);
+  }
+  change(value, options, burr, instrument);
   warnOfView(context, value, options.view);
-  const nlohmann::json now = viewJson(value);
+  nlohmann::json now = viewJson(value);
   const bool isChanged = now != before;
   if (isChanged)
+  {
     library.save(value);
+    now = viewJson(value); // with the name of the instrument's object
+  }
   context.print("case '" + value.name + "'" + (isChanged ? " has another view" : ""));
   for (const auto& [part, what] : now.items())
     if (!what.is_null() && !what.empty())
@@ -339,6 +363,10 @@ void addViewCommand(CLI::App& app, Context& context)
   command->add_option("--thrust", options->thrust, "Of a device without force")
       ->type_name("N")
       ->check(within({0.0, 100.0, "N"}));
+  addToolOptions(*command, "--instrument",
+                 "The instrument that the case keeps for the window, as drill --tool: its surface "
+                 "is stored with the case",
+                 options->instrument);
   command
       ->add_option("--show", options->show,
                    "Take camera and slices from a saved view, before other options")
@@ -353,10 +381,11 @@ void addViewCommand(CLI::App& app, Context& context)
       ->type_name("NAME");
   command
       ->add_option("--clear", options->cleared,
-                   "Take out, before anything else: camera, slices, light, stereo, clipping, tool")
+                   "Take out, before anything else: camera, slices, light, stereo, clipping, tool, "
+                   "instrument")
       ->allow_extra_args(false)
       ->delimiter(',')
-      ->check(oneOf({"camera", "slices", "light", "stereo", "clipping", "tool"}));
+      ->check(oneOf({"camera", "slices", "light", "stereo", "clipping", "tool", "instrument"}));
 }
 
 } // namespace petrous::cli

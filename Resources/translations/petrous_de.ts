@@ -44,7 +44,7 @@
     </message>
     <message>
         <source>A face can be recognised in %1.</source>
-        <translation>In %1 ist ein Gesicht erkennbar.</translation>
+        <translation>Hier ist ein Gesicht erkennbar: %1.</translation>
     </message>
     <message>
         <source>An unexpected fault.</source>
@@ -161,6 +161,18 @@
     <message>
         <source>%1: %2</source>
         <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>MR “%1”</source>
+        <translation>MR „%1“</translation>
+    </message>
+    <message>
+        <source>main</source>
+        <translation>Hauptzugang</translation>
     </message>
 </context>
 <context>
@@ -745,6 +757,10 @@
         <source>%1 of %2</source>
         <translation>%1 von %2</translation>
     </message>
+    <message>
+        <source>Set to %1 turns a minute; by the pedal %2 on average, at most %3</source>
+        <translation>Eingestellt auf %1 Umdrehungen je Minute; durch das Pedal im Mittel %2, höchstens %3</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ArchiveDialog</name>
@@ -1312,10 +1328,6 @@
         <translation>Es muss vom selben Patienten sein.%1</translation>
     </message>
     <message>
-        <source> An MR is shown over the %1 once it is registered (F5).</source>
-        <translation> Ein MR wird über dem %1 gezeigt, sobald es registriert ist (F5).</translation>
-    </message>
-    <message>
         <source>&amp;Add to “%1”</source>
         <translation>Zu „%1“ &amp;hinzufügen</translation>
     </message>
@@ -1803,7 +1815,7 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     </message>
     <message>
         <source>and %1 of other approaches</source>
-        <translation>und %1 anderer Zugänge</translation>
+        <translation>und %1 in anderen Zugängen</translation>
     </message>
     <message>
         <source>“%1”</source>
@@ -1836,6 +1848,14 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>“%1” states another patient than the images of “%2” do. What differs: %3.</source>
         <translation>„%1“ nennt einen anderen Patienten als die Bilder von „%2“. Es unterscheiden sich: %3.</translation>
+    </message>
+    <message>
+        <source> An MR is shown over the %1 once it is registered.</source>
+        <translation> Ein MR wird über dem %1 gezeigt, sobald es registriert ist.</translation>
+    </message>
+    <message>
+        <source>Put air in place of the &amp;face, and leave out %1</source>
+        <translation>Luft an die Stelle des &amp;Gesichts setzen und weglassen: %1</translation>
     </message>
 </context>
 <context>
@@ -2956,6 +2976,18 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
 (length × width, and where its tip is then):</source>
         <translation>Von der Spitze zur Hand liegt das Instrument entlang dieser Achse seiner Datei
 (Länge × Breite, und wo die Spitze dann ist):</translation>
+    </message>
+    <message>
+        <source>instrument</source>
+        <translation>Instrument</translation>
+    </message>
+    <message>
+        <source>Shaft or handpiece keep the burr from where you press: turn the handpiece, or press where the burr rests</source>
+        <translation>Schaft oder Handstück halten die Fräse von der gedrückten Stelle ab: Handstück drehen oder dort drücken, wo die Fräse anliegt</translation>
+    </message>
+    <message>
+        <source>Tissue keeps the burr from where you press: press where the burr rests</source>
+        <translation>Gewebe hält die Fräse von der gedrückten Stelle ab: dort drücken, wo die Fräse anliegt</translation>
     </message>
 </context>
 <context>
@@ -4491,16 +4523,16 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
 <context>
     <name>petrous::workstation::MetricCurve</name>
     <message>
-        <source>Mutual information while the registration runs, nats; higher is better. A vertical line: the next finer level, with a scale of its own</source>
-        <translation>Transinformation, während die Registrierung läuft, nat; höher ist besser. Eine senkrechte Linie: die nächstfeinere Stufe, mit eigener Skala</translation>
-    </message>
-    <message>
         <source>Metric while the registration runs</source>
         <translation>Metrik, während die Registrierung läuft</translation>
     </message>
     <message>
         <source>level %1, metric %2</source>
         <translation>Stufe %1, Metrik %2</translation>
+    </message>
+    <message>
+        <source>Mutual information while the registration runs, nats; within a level, higher is better. A vertical line and a number: the next finer level, with a scale of its own. Values of two levels are not comparable: on finer images it is lower</source>
+        <translation>Transinformation, während die Registrierung läuft, in nat; innerhalb einer Stufe ist höher besser. Eine senkrechte Linie und eine Zahl: die nächste feinere Stufe mit eigener Skala. Werte zweier Stufen sind nicht vergleichbar: Auf feineren Bildern ist sie niedriger</translation>
     </message>
 </context>
 <context>
@@ -5656,6 +5688,10 @@ Verletzt: %1, %2</translation>
         <source> (%1%2 by hand)</source>
         <translation> (%1%2 von Hand)</translation>
     </message>
+    <message>
+        <source>The registration ended with its case; the MR lies as before</source>
+        <translation>Die Registrierung endete mit ihrem Fall; das MR liegt wie zuvor</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::RegistrationPanel</name>
@@ -5865,6 +5901,22 @@ Verletzt: %1, %2</translation>
     <message>
         <source>the %1</source>
         <translation>das %1</translation>
+    </message>
+    <message>
+        <source>mesh</source>
+        <translation>Netz</translation>
+    </message>
+    <message>
+        <source>drawn on %1</source>
+        <translation>gezeichnet auf %1</translation>
+    </message>
+    <message>
+        <source>%1 (%2)</source>
+        <translation>%1 (%2)</translation>
+    </message>
+    <message>
+        <source>Chosen: %1</source>
+        <translation>Gewählt: %1</translation>
     </message>
 </context>
 <context>
@@ -6150,6 +6202,18 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Choose a recording</source>
         <translation>Aufzeichnung wählen</translation>
+    </message>
+    <message>
+        <source>Mean speed drilling</source>
+        <translation>Mittlere Drehzahl bohrend</translation>
+    </message>
+    <message>
+        <source>/min</source>
+        <translation>/min</translation>
+    </message>
+    <message>
+        <source>Highest speed</source>
+        <translation>Höchste Drehzahl</translation>
     </message>
 </context>
 <context>
@@ -7951,6 +8015,10 @@ Nichts verlässt diesen Rechner.</translation>
     <message>
         <source>Drilled: %1</source>
         <translation>Abgetragen: %1</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
     </message>
 </context>
 <context>

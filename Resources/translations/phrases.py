@@ -208,7 +208,8 @@ def pattern(way):
         elif piece:
             text += piece
             previous_argument = False
-    return text
+    # The place of an error is a phrase with its preposition.
+    return re.sub(r"\(p95\) at %[#~]?(\d+)", r"(p95) %~\1", text)
 
 
 SKIPPED_CALLS = re.compile(r"^(info|debug|warning|error|trace|write|record)$")
@@ -275,11 +276,27 @@ def texts(source):
 SAYS = {"InvalidParameter", "report", "check"}
 
 
-def said(group, found):
+def said(group, found, is_saying=lambda before: before[-1] in SAYS):
     for n, token in enumerate(group):
         if isinstance(token, Group):
-            is_said = n > 0 and is_mark(group[n - 1]) and group[n - 1] in SAYS
-            (collect if is_said else said)(token, found)
+            before = [t if is_mark(t) else "" for t in ["", "", "", *group[max(0, n - 3):n]]]
+            (collect(token, found) if is_saying(before) else said(token, found, is_saying))
+
+
+def is_progress(before):
+    """Whether what is in the brackets after these tokens is said of a progress, where one word is a
+    text."""
+    return before[-1] == "report" and before[-2] in (".", "->")
+
+
+# As undo names what is changed in an appearance (lookEdit).
+NOUN = re.compile(r'\.called\("([^"]+)"\)')
+
+
+def appearances():
+    table = TREE / "Modules/Appearance/include/petrous/Appearance/StructureProperties.h"
+    for noun in [*NOUN.findall(table.read_text(encoding="utf-8")), "appearance"]:
+        yield from (f"{noun} of %1", f"{noun} of bone", f"{noun} of tissue")
 
 
 # Sources without phrases: words that are looked for, formats, and errors that only a defect of the
@@ -287,8 +304,8 @@ def said(group, found):
 WITHOUT = set("""
     BurrShell Catalogue CheckedParameters ClippedRegion ConstrainedProxy ContactQp
     DicomWriter DistanceField ForceDisplay ForceLimits GlProgram GoneNames HapticField
-    HeaderCache IdentityText IntensityHistogram IntensityVolume JsonFault LabelField LabelMap
-    LabelPriority LevelImage Log MaterialCatalogue NotedProvenance OccupancyGrid PassivityGuard
+    HeaderCache IdentityText IntensityHistogram IntensityVolume LabelField LabelMap
+    LabelPriority LevelImage Log NotedProvenance OccupancyGrid PassivityGuard
     Pedal PedalledDevice Phantom PhantomShapes PixelRays PointProxy PointerDevice
     PointerToolController RateControl RayCaster RayShader RayView ReferenceRayCaster
     RemovalDepthSolver RemovalLaw RenderQuality ReportHtml ReportWords SamplePatient SceneCheck
@@ -385,10 +402,13 @@ labels %1 %2
 ASSEMBLED = [
     "%1 touched (± %#2 mm)",
     "under 0.01 mm³",
-    "The folder has another %1 of %#2 slices of %#3 mm",
-    "The folder has another %1 of %#2 slices of %#3 mm (needs --repair)",
-    "The folder has another %1 of %#2 slices of %#3 mm (refused)",
-    "The folder has another %1 of %#2 slices (refused)",
+    *(f"{did} {what}" for did in ("show", "hide") for what in ("bone", "tissue")),
+    "view '%1'",
+    "removal of view '%1'",
+    "at (%#1, %#2, %#3)",
+    "at the middle of '%1'",
+    "at the centre of the %~1",
+    "at the centre of what both images show",
 ]
 ENDS = " ,;:"
 
@@ -434,7 +454,15 @@ def phrases():
             for text in of_window:
                 if is_phrase(text.strip(ENDS)):
                     found.setdefault(text.strip(ENDS), "Workstation")
-    for text in ASSEMBLED:
+    for folder in ("Application/Presenters", "Application/Workstation", "Modules"):
+        for file in sorted((TREE / folder).rglob("*.cpp")):
+            of_progress = []
+            if not {"Testing", "Benchmarks"} & set(file.parts):
+                said(tree(file.read_text(encoding="utf-8")), of_progress, is_progress)
+            for text in of_progress:
+                if re.search(r"[a-z]{3}", text):
+                    found.setdefault(text.strip(ENDS), "Progress")
+    for text in (*ASSEMBLED, *appearances()):
         found.setdefault(text, "Assembled")
     for material in json.loads((TREE / "Resources" / "materials.json").read_text())["materials"]:
         found.setdefault(material["title"], "Materials")

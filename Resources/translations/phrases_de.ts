@@ -164,6 +164,18 @@
         <translation>Neben den Schichten wurde an %#1 Stellen etwas ausgelassen.</translation>
     </message>
     <message>
+        <source>%1: every voxel that is no padding has the value %#2; an image of one single value shows nothing</source>
+        <translation>%1: Jedes Voxel außerhalb der Auffüllung hat den Wert %#2; ein Bild aus einem einzigen Wert zeigt nichts</translation>
+    </message>
+    <message>
+        <source>The image has only %#1 slices, which cover %#2 mm; look whether all that is needed is in it.</source>
+        <translation>Das Bild hat nur %#1 Schichten, die über %#2 mm reichen; sehen Sie nach, ob alles Benötigte darin ist.</translation>
+    </message>
+    <message>
+        <source>Its values go from %#1 to %#2, beyond those of any CT (-10000 to 100000): voxels are damaged, or the slope that the file states is wrong.</source>
+        <translation>Seine Werte reichen von %#1 bis %#2, weiter als die jedes CT (-10000 bis 100000): Voxel sind beschädigt, oder die Steigung, die die Datei angibt, ist falsch.</translation>
+    </message>
+    <message>
         <source>The file says that it is an MR; it is taken for an MR, as asked.</source>
         <translation>Laut Datei ein MR; wie gewünscht als MR genommen.</translation>
     </message>
@@ -288,6 +300,18 @@
         <translation>Struktur „%1“ heißt so, da der eigene Name zu lang, vergeben oder reserviert ist oder unsichtbare Zeichen hat</translation>
     </message>
     <message>
+        <source>%1: has %#2 different values, each of which would be a structure, and at most %#3 are taken; an image is added as an MR, and of an atlas only what is needed</source>
+        <translation>%1: hat %#2 verschiedene Werte, von denen jeder eine Struktur würde, und höchstens %#3 werden übernommen; ein Bild wird als MR hinzugefügt, und von einem Atlas nur, was gebraucht wird</translation>
+    </message>
+    <message>
+        <source>label %#1</source>
+        <translation>Label %#1</translation>
+    </message>
+    <message>
+        <source>%#1 values without a name became a structure each; if it is an image, remove them and add it as an MR</source>
+        <translation>%#1 Werte ohne Namen wurden je eine Struktur; ist es ein Bild, entfernen Sie sie und fügen Sie es als MR hinzu</translation>
+    </message>
+    <message>
         <source>states another patient's ID, name or date of birth than the case's images; it was added as asked</source>
         <translation>nennt eine andere Patienten-ID, einen anderen Namen oder ein anderes Geburtsdatum als die Bilder des Falls; wie gewünscht hinzugefügt</translation>
     </message>
@@ -322,6 +346,10 @@
     <message>
         <source>%#1 files of the folder are not a mask of one structure, and left out, among them %~2</source>
         <translation>%#1 Dateien des Ordners sind keine Masken einer Struktur und blieben weg, darunter %~2</translation>
+    </message>
+    <message>
+        <source>reading labels</source>
+        <translation>Labels werden gelesen</translation>
     </message>
     <message>
         <source>%1: none of its structures has a voxel; export it again with what was drawn</source>
@@ -876,6 +904,10 @@
         <translation>Netze, mit ihren Namen: %~1</translation>
     </message>
     <message>
+        <source>the surface of the instrument, without the name of its file</source>
+        <translation>die Oberfläche des Instruments, ohne den Namen seiner Datei</translation>
+    </message>
+    <message>
         <source>names of structures that are gone, in strokes that touched them: %~1</source>
         <translation>Namen von Strukturen, die nicht mehr da sind, in Bohrzügen, die sie berührten: %~1</translation>
     </message>
@@ -1108,6 +1140,14 @@
         <translation>%1: ist schon da; nennen Sie eine andere Datei, oder erlauben Sie das Ersetzen</translation>
     </message>
     <message>
+        <source>It is not known where the values of air end: those of soft tissue follow the scale of bone, and may be air</source>
+        <translation>Es ist nicht bekannt, wo die Werte der Luft enden: die des Weichgewebes folgen der Skala des Knochens und können Luft sein</translation>
+    </message>
+    <message>
+        <source>Estimated from the image's histogram: air ends at %1, and most of soft tissue is at %2</source>
+        <translation>Aus dem Histogramm des Bildes geschätzt: Luft endet bei %1, und das meiste Weichgewebe liegt bei %2</translation>
+    </message>
+    <message>
         <source>All tissue</source>
         <translation>Alles Gewebe</translation>
     </message>
@@ -1126,6 +1166,14 @@
     <message>
         <source>Soft tissue</source>
         <translation>Weichteile</translation>
+    </message>
+    <message>
+        <source>MR '%1' is left out</source>
+        <translation>das MR „%1“ ist weggelassen</translation>
+    </message>
+    <message>
+        <source>there is no MR '%1' to leave out</source>
+        <translation>es gibt kein MR „%1“, das wegzulassen wäre</translation>
     </message>
     <message>
         <source>loading structures</source>
@@ -2224,8 +2272,8 @@
         <translation>registriert auf %#1 mm (p95) hier</translation>
     </message>
     <message>
-        <source>registered to %#1 mm (p95) at %2, %#3 mm from here, where it may be more</source>
-        <translation>registriert auf %#1 mm (p95) an %2, %#3 mm von hier, wo es mehr sein kann</translation>
+        <source>registered to %#1 mm (p95) %~2, %#3 mm from here, where it may be more</source>
+        <translation>registriert auf %#1 mm (p95) %~2, %#3 mm von hier, wo es mehr sein kann</translation>
     </message>
     <message>
         <source>voxels %#1 x %#2 x %#3 mm, slices %#4 mm apart</source>
@@ -2292,8 +2340,8 @@
         <translation>Wie gut „%1“ auf dem CT liegt, ist nicht bekannt, der Fehler daher auch nicht.</translation>
     </message>
     <message>
-        <source>The error is that of both ways: to '%1', and from there to the CT (%#2 (p95) at %3).</source>
-        <translation>Der Fehler ist der beider Wege: zu „%1“ und von dort zum CT (%#2 (p95) an %3).</translation>
+        <source>The error is that of both ways: to '%1', and from there to the CT (%#2 (p95) %~3).</source>
+        <translation>Der Fehler ist der beider Wege: zu „%1“ und von dort zum CT (%#2 (p95) %~3).</translation>
     </message>
     <message>
         <source>That '%1' lies right on the CT is not sure.</source>
@@ -2322,6 +2370,10 @@
     <message>
         <source>resampling the MR</source>
         <translation>das MR wird umgerechnet</translation>
+    </message>
+    <message>
+        <source>where it is thinner than the voxels it is drawn one voxel wide, so that it has no gap: %#1 of its %#2 voxels, which its volume counts whole</source>
+        <translation>wo sie dünner als die Voxel ist, wird sie ein Voxel breit gezeichnet, damit sie keine Lücke hat: %#1 ihrer %#2 Voxel, die ihr Volumen ganz zählt</translation>
     </message>
     <message>
         <source>tympanic cavity</source>
@@ -2965,6 +3017,10 @@
     <message>
         <source>must be {"presets": [...]}, as the presets of structures.json</source>
         <translation>muss {"presets": [...]} sein, wie die Vorgaben in structures.json</translation>
+    </message>
+    <message>
+        <source>there is no preset '%1'; there are %2</source>
+        <translation>es gibt keine Vorgabe „%1“; es gibt %2</translation>
     </message>
     <message>
         <source>preset '%1' is built in and cannot be removed</source>
@@ -3824,6 +3880,30 @@
         <translation>der Name einer Fräse muss aus a bis z, 0 bis 9 und Bindestrichen bestehen, höchstens 40</translation>
     </message>
     <message>
+        <source>not a catalogue</source>
+        <translation>kein Katalog</translation>
+    </message>
+    <message>
+        <source>material '%1': '%2' must be above 0, it is %3</source>
+        <translation>Material „%1“: „%2“ muss über 0 liegen, es ist %3</translation>
+    </message>
+    <message>
+        <source>a material has an empty name</source>
+        <translation>ein Material hat einen leeren Namen</translation>
+    </message>
+    <message>
+        <source>material '%1' stands there twice</source>
+        <translation>das Material „%1“ steht zweimal da</translation>
+    </message>
+    <message>
+        <source>bone: 'from_hu' must lie below 'to_hu'</source>
+        <translation>Knochen: „from_hu“ muss unter „to_hu“ liegen</translation>
+    </message>
+    <message>
+        <source>there is no material '%1'; there are %2</source>
+        <translation>es gibt kein Material „%1“; es gibt %2</translation>
+    </message>
+    <message>
         <source>%1, line %#2: %~3</source>
         <translation>%1, Zeile %#2: %~3</translation>
     </message>
@@ -4194,12 +4274,16 @@
         <translation>nummeriert von %#1 bis %#2</translation>
     </message>
     <message>
+        <source>%~1; slices may be missing, also at its ends. Look whether all of the skull base that is needed is there.</source>
+        <translation>%~1; Schichten können fehlen, auch an seinen Enden. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
+    </message>
+    <message>
         <source>%~1; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
         <translation>%~1; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
     </message>
     <message>
-        <source>The slices are numbered in steps of %#1 and are %#2 mm thick, but stand %#3 mm apart: those between them may be missing. Look whether the series has more files.</source>
-        <translation>Die Schichten sind in Schritten von %#1 nummeriert und %#2 mm dick, stehen aber %#3 mm auseinander: Die dazwischen können fehlen. Sehen Sie nach, ob die Serie weitere Dateien hat.</translation>
+        <source>The slices are numbered in steps of %#1 and are %#2 mm thick, but stand %#3 mm apart: those between them may be missing, and %#4 mm from each to the next were not measured. Look whether the series has more files.</source>
+        <translation>Die Schichten sind in Schritten von %#1 nummeriert und %#2 mm dick, stehen aber %#3 mm auseinander: Die dazwischen können fehlen, und %#4 mm von jeder zur nächsten wurden nicht gemessen. Sehen Sie nach, ob die Serie weitere Dateien hat.</translation>
     </message>
     <message>
         <source>%#1 mm (%#2 slice)</source>
@@ -4462,12 +4546,12 @@
         <translation>Eine andere Studie als im Rest ist genannt in %1; lassen Sie im Ordner die Dateien einer Studie.</translation>
     </message>
     <message>
-        <source>No usable position, orientation and pixel spacing in %1, so nothing says where they lie in the patient.</source>
-        <translation>Keine verwendbare Lage, Orientierung und Pixelgröße in %1, daher sagt nichts, wo sie im Patienten liegen.</translation>
+        <source>No usable position, orientation and pixel spacing in %1 (%2), so nothing says where they lie in the patient.</source>
+        <translation>Keine verwendbare Lage, Orientierung und Pixelgröße in %1 (%2), daher sagt nichts, wo sie im Patienten liegen.</translation>
     </message>
     <message>
-        <source>Another frame of reference in %1, so their place relative to the others is unknown.</source>
-        <translation>Ein anderes Bezugssystem in %1, daher ist ihre Lage zu den anderen unbekannt.</translation>
+        <source>Another frame of reference in %1 (%2), so their place relative to the others is unknown.</source>
+        <translation>Ein anderes Bezugssystem in %1 (%2), daher ist ihre Lage zu den anderen unbekannt.</translation>
     </message>
     <message>
         <source>%#1 localizer (scout) is mixed in with the %#2 slices of the stack, and left out.</source>
@@ -4726,8 +4810,16 @@
         <translation>Auf %#1 mm zwischen %#2 und %#3 mm wurde nichts gemessen, mehr, als eine fehlende Schicht lässt, wo Schichten %#4 mm auseinander stehen; das wird nicht interpoliert.</translation>
     </message>
     <message>
+        <source>In %#1 places, %#2 mm of %#3 mm, a slice would have to be guessed; at most %#4 slice is interpolated. Whether slices were lost there or taken farther apart cannot be told, as no numbers run along the stack.</source>
+        <translation>An %#1 Stellen, %#2 mm von %#3 mm, müsste eine Schicht geraten werden; höchstens %#4 Schicht wird interpoliert. Ob dort Schichten verloren gingen oder weiter auseinander aufgenommen wurden, lässt sich nicht sagen, da keine Nummern den Stapel entlang laufen.</translation>
+    </message>
+    <message>
         <source>In %#1 places, %#2 mm of %#3 mm, a slice would have to be guessed; at most %#4 slice is interpolated.</source>
         <translation>An %#1 Stellen, %#2 mm von %#3 mm, müsste eine Schicht geraten werden; höchstens %#4 Schicht wird interpoliert.</translation>
+    </message>
+    <message>
+        <source>In %#1 places, %#2 mm of %#3 mm, a slice would have to be guessed; at most %#4 slices are interpolated. Whether slices were lost there or taken farther apart cannot be told, as no numbers run along the stack.</source>
+        <translation>An %#1 Stellen, %#2 mm von %#3 mm, müsste eine Schicht geraten werden; höchstens %#4 Schichten werden interpoliert. Ob dort Schichten verloren gingen oder weiter auseinander aufgenommen wurden, lässt sich nicht sagen, da keine Nummern den Stapel entlang laufen.</translation>
     </message>
     <message>
         <source>In %#1 places, %#2 mm of %#3 mm, a slice would have to be guessed; at most %#4 slices are interpolated.</source>
@@ -4882,10 +4974,6 @@
         <translation>exportieren Sie weniger ihrer Strukturen auf einmal</translation>
     </message>
     <message>
-        <source>reading labels</source>
-        <translation>Labels werden gelesen</translation>
-    </message>
-    <message>
         <source>of the table of names beside it, %~1; that entry was left out</source>
         <translation>in der Namenstabelle daneben, %~1; dieser Eintrag blieb weg</translation>
     </message>
@@ -4940,10 +5028,6 @@
     <message>
         <source>its structure number %#1 has no label value from 1 to 65535; save it again in 3D Slicer</source>
         <translation>ihre Struktur Nummer %#1 hat keinen Labelwert von 1 bis 65535; speichern Sie sie in 3D Slicer neu</translation>
-    </message>
-    <message>
-        <source>label %#1</source>
-        <translation>Label %#1</translation>
     </message>
     <message>
         <source>gives two structures the label value %#1; each needs its own, save it again in 3D Slicer</source>
@@ -6093,6 +6177,10 @@
         <translation>seine Knochenschwelle ist keine Intensität</translation>
     </message>
     <message>
+        <source>its values of soft tissue are no intensities</source>
+        <translation>seine Werte des Weichgewebes sind keine Intensitäten</translation>
+    </message>
+    <message>
         <source>an image's least intensity is above its largest</source>
         <translation>die kleinste Intensität eines Bildes liegt über der größten</translation>
     </message>
@@ -6219,6 +6307,10 @@
     <message>
         <source>a mesh cannot be read</source>
         <translation>ein Netz ist nicht lesbar</translation>
+    </message>
+    <message>
+        <source>an instrument cannot be read</source>
+        <translation>ein Instrument ist nicht lesbar</translation>
     </message>
     <message>
         <source>what a stroke removed cannot be read</source>
@@ -6541,6 +6633,10 @@
         <translation>%~1. Wer den Fall speichert, nimmt ihn so an, wie er ist; „petrous library repair --accept-changed“ tut dasselbe</translation>
     </message>
     <message>
+        <source>the instrument of case '%1'</source>
+        <translation>das Instrument des Falls „%1“</translation>
+    </message>
+    <message>
         <source>stroke %#1 of case '%2'</source>
         <translation>Bohrzug %#1 des Falls „%2“</translation>
     </message>
@@ -6705,6 +6801,10 @@
         <translation>%1: Anhang „%2“ des Falls „%3“: Die verknüpfte Datei ist eine andere als die angehängte; legen Sie die frühere zurück, oder entfernen Sie den Anhang und hängen Sie diese an</translation>
     </message>
     <message>
+        <source>a case of the library is open in Petrous elsewhere (%~1), where what was removed can still be put back; nothing was cleaned up: close it there first</source>
+        <translation>ein Fall der Bibliothek ist anderswo in Petrous offen (%~1), wo Entferntes noch zurückgeholt werden kann; nichts wurde aufgeräumt: schließen Sie ihn dort zuerst</translation>
+    </message>
+    <message>
         <source>reading cases</source>
         <translation>Fälle werden gelesen</translation>
     </message>
@@ -6739,6 +6839,10 @@
     <message>
         <source>%1: the file of case '%2' was changed outside of Petrous, or is damaged: it does not have the checksum that it states. Where images and structures lie, how an MR is registered and all else in it may be wrong: do not rely on it before you have compared it with a copy of the library, or restored it from there</source>
         <translation>%1: die Datei des Falls „%2“ wurde außerhalb von Petrous geändert oder ist beschädigt: Sie hat nicht die Prüfsumme, die sie angibt. Wo Bilder und Strukturen liegen, wie ein MR registriert ist und alles andere darin kann falsch sein: Verlassen Sie sich nicht darauf, bevor Sie sie mit einer Kopie der Bibliothek verglichen oder von dort wiederhergestellt haben</translation>
+    </message>
+    <message>
+        <source>the instrument</source>
+        <translation>das Instrument</translation>
     </message>
     <message>
         <source>%1: %~2 of case '%3' does not lie where its voxels say: what is placed by it may be wrong; restore the file from a copy of the library, or import the images again</source>
@@ -7910,6 +8014,10 @@
         <translation>der Grafiktreiber hat keinen Platz für eine Textur von %#1 x %#2 x %#3 (OpenGL-Fehler %#4)</translation>
     </message>
     <message>
+        <source>measuring the instrument</source>
+        <translation>Instrument wird vermessen</translation>
+    </message>
+    <message>
         <source>slices</source>
         <translation>Schichten</translation>
     </message>
@@ -7993,8 +8101,8 @@
         <translation>registriert: %~1, %~2</translation>
     </message>
     <message>
-        <source>error %#1 mm (p95) at %2</source>
-        <translation>Fehler %#1 mm (p95) an %2</translation>
+        <source>error %#1 mm (p95) %~2</source>
+        <translation>Fehler %#1 mm (p95) %~2</translation>
     </message>
     <message>
         <source>its error unknown</source>
@@ -8121,8 +8229,8 @@
         <translation>%~1: darf keine Steuerzeichen und keine unsichtbaren Zeichen haben (Leerzeichen ohne Breite, Richtungszeichen); geben Sie es neu ein</translation>
     </message>
     <message>
-        <source>%~1: must be a plain name without / \ : * ? " &lt; &gt; |, a dot or space at its ends, or a dash in front</source>
-        <translation>%~1: muss ein einfacher Name sein, ohne / \ : * ? " &lt; &gt; |, Punkt oder Leerzeichen an den Enden oder Strich am Anfang</translation>
+        <source>%~1 '%2': must be a plain name without / \ : * ? " &lt; &gt; |, a dot or space at its ends, or a dash in front</source>
+        <translation>%~1 „%2“: muss ein einfacher Name sein, ohne / \ : * ? " &lt; &gt; |, Punkt oder Leerzeichen an den Enden oder Strich am Anfang</translation>
     </message>
     <message>
         <source>case name</source>
@@ -8225,12 +8333,12 @@
         <translation>%1: %#2 % der Gesichtshaut blieben, da %~3 dort liegt und mit %#4 mm Umgebung bleibt; entfernen Sie es erst aus einer Kopie des Falls</translation>
     </message>
     <message>
-        <source>%1: %~2 with %#3 mm around lies in the masked part and stays, %#4 voxels</source>
-        <translation>%1: %~2 mit %#3 mm Umgebung liegt im maskierten Teil und bleibt, %#4 Voxel</translation>
-    </message>
-    <message>
         <source>%1: %~2; it cannot be masked. Leave the image out, or hand on the region of the ear alone (--roi)</source>
         <translation>%1: %~2; es lässt sich nicht maskieren. Lassen Sie das Bild weg, oder geben Sie allein die Region des Ohrs weiter</translation>
+    </message>
+    <message>
+        <source>%1: %~2 with %#3 mm around lies in the masked part and stays, %#4 voxels</source>
+        <translation>%1: %~2 mit %#3 mm Umgebung liegt im maskierten Teil und bleibt, %#4 Voxel</translation>
     </message>
     <message>
         <source>%1: the face is masked already, but not the auricles, which are found by it; mask both in the image as it was</source>
@@ -8579,6 +8687,14 @@
     <message>
         <source>a burr must be 0.01 to 100 mm wide and turn at 0 to 1000000 rpm, with a thrust of 0 to 100 N</source>
         <translation>eine Fräse muss 0.01 bis 100 mm breit sein und mit 0 bis 1000000 U/min drehen, bei einem Andruck von 0 bis 100 N</translation>
+    </message>
+    <message>
+        <source>an instrument lies along x+, x-, y+, y-, z+ or z-</source>
+        <translation>ein Instrument liegt entlang x+, x-, y+, y-, z+ oder z-</translation>
+    </message>
+    <message>
+        <source>the name of an instrument must be at most %#1 bytes of UTF-8 without characters that are not seen</source>
+        <translation>der Name eines Instruments darf höchstens %#1 Byte UTF-8 lang sein, ohne Zeichen, die man nicht sieht</translation>
     </message>
 </context>
 <context>
@@ -9272,6 +9388,77 @@
     </message>
 </context>
 <context>
+    <name>Progress</name>
+    <message>
+        <source>reading DICOM headers</source>
+        <translation>DICOM-Header werden gelesen</translation>
+    </message>
+    <message>
+        <source>writing DICOM slices</source>
+        <translation>DICOM-Schichten werden geschrieben</translation>
+    </message>
+    <message>
+        <source>writing segments</source>
+        <translation>Segmente werden geschrieben</translation>
+    </message>
+    <message>
+        <source>restoring</source>
+        <translation>Wiederherstellung</translation>
+    </message>
+    <message>
+        <source>archiving</source>
+        <translation>Archivierung</translation>
+    </message>
+    <message>
+        <source>saving</source>
+        <translation>Speichern</translation>
+    </message>
+    <message>
+        <source>repairing</source>
+        <translation>Reparatur</translation>
+    </message>
+    <message>
+        <source>checking</source>
+        <translation>Prüfung</translation>
+    </message>
+    <message>
+        <source>scanning the phantom</source>
+        <translation>das Phantom wird gescannt</translation>
+    </message>
+    <message>
+        <source>labelling the phantom</source>
+        <translation>das Phantom wird segmentiert</translation>
+    </message>
+    <message>
+        <source>measuring and writing surfaces</source>
+        <translation>Oberflächen werden vermessen und geschrieben</translation>
+    </message>
+    <message>
+        <source>registration's error</source>
+        <translation>Fehler der Registrierung</translation>
+    </message>
+    <message>
+        <source>registration's verdict</source>
+        <translation>Urteil über die Registrierung</translation>
+    </message>
+    <message>
+        <source>fitting</source>
+        <translation>Anpassung</translation>
+    </message>
+    <message>
+        <source>reference picture</source>
+        <translation>Referenzbild</translation>
+    </message>
+    <message>
+        <source>masking</source>
+        <translation>Maskierung</translation>
+    </message>
+    <message>
+        <source>decimation</source>
+        <translation>Dezimierung</translation>
+    </message>
+</context>
+<context>
     <name>Assembled</name>
     <message>
         <source>%1 touched (± %#2 mm)</source>
@@ -9282,20 +9469,224 @@
         <translation>unter 0.01 mm³</translation>
     </message>
     <message>
-        <source>The folder has another %1 of %#2 slices of %#3 mm</source>
-        <translation>Der Ordner hat noch ein %1 mit %#2 Schichten von %#3 mm</translation>
+        <source>show bone</source>
+        <translation>Knochen zeigen</translation>
     </message>
     <message>
-        <source>The folder has another %1 of %#2 slices of %#3 mm (needs --repair)</source>
-        <translation>Der Ordner hat noch ein %1 mit %#2 Schichten von %#3 mm (braucht Reparatur)</translation>
+        <source>show tissue</source>
+        <translation>Gewebe zeigen</translation>
     </message>
     <message>
-        <source>The folder has another %1 of %#2 slices of %#3 mm (refused)</source>
-        <translation>Der Ordner hat noch ein %1 mit %#2 Schichten von %#3 mm (abgelehnt)</translation>
+        <source>hide bone</source>
+        <translation>Knochen ausblenden</translation>
     </message>
     <message>
-        <source>The folder has another %1 of %#2 slices (refused)</source>
-        <translation>Der Ordner hat noch ein %1 mit %#2 Schichten (abgelehnt)</translation>
+        <source>hide tissue</source>
+        <translation>Gewebe ausblenden</translation>
+    </message>
+    <message>
+        <source>view '%1'</source>
+        <translation>Ansicht „%1“</translation>
+    </message>
+    <message>
+        <source>removal of view '%1'</source>
+        <translation>Entfernen der Ansicht „%1“</translation>
+    </message>
+    <message>
+        <source>at (%#1, %#2, %#3)</source>
+        <translation>bei (%#1, %#2, %#3)</translation>
+    </message>
+    <message>
+        <source>at the middle of '%1'</source>
+        <translation>in der Mitte von „%1“</translation>
+    </message>
+    <message>
+        <source>at the centre of the %~1</source>
+        <translation>in der Mitte des %~1</translation>
+    </message>
+    <message>
+        <source>at the centre of what both images show</source>
+        <translation>in der Mitte dessen, was beide Bilder zeigen</translation>
+    </message>
+    <message>
+        <source>preset of %1</source>
+        <translation>Vorgabe von %1</translation>
+    </message>
+    <message>
+        <source>preset of bone</source>
+        <translation>Vorgabe des Knochens</translation>
+    </message>
+    <message>
+        <source>preset of tissue</source>
+        <translation>Vorgabe des Gewebes</translation>
+    </message>
+    <message>
+        <source>visibility of %1</source>
+        <translation>Sichtbarkeit von %1</translation>
+    </message>
+    <message>
+        <source>visibility of bone</source>
+        <translation>Sichtbarkeit des Knochens</translation>
+    </message>
+    <message>
+        <source>visibility of tissue</source>
+        <translation>Sichtbarkeit des Gewebes</translation>
+    </message>
+    <message>
+        <source>touch of %1</source>
+        <translation>Fühlbarkeit von %1</translation>
+    </message>
+    <message>
+        <source>touch of bone</source>
+        <translation>Fühlbarkeit des Knochens</translation>
+    </message>
+    <message>
+        <source>touch of tissue</source>
+        <translation>Fühlbarkeit des Gewebes</translation>
+    </message>
+    <message>
+        <source>drilling of %1</source>
+        <translation>Bohrbarkeit von %1</translation>
+    </message>
+    <message>
+        <source>drilling of bone</source>
+        <translation>Bohrbarkeit des Knochens</translation>
+    </message>
+    <message>
+        <source>drilling of tissue</source>
+        <translation>Bohrbarkeit des Gewebes</translation>
+    </message>
+    <message>
+        <source>solidity of %1</source>
+        <translation>Art (Gewebe oder Hohlraum) von %1</translation>
+    </message>
+    <message>
+        <source>solidity of bone</source>
+        <translation>Art (Gewebe oder Hohlraum) des Knochens</translation>
+    </message>
+    <message>
+        <source>solidity of tissue</source>
+        <translation>Art (Gewebe oder Hohlraum) des Gewebes</translation>
+    </message>
+    <message>
+        <source>material of %1</source>
+        <translation>Material von %1</translation>
+    </message>
+    <message>
+        <source>material of bone</source>
+        <translation>Material des Knochens</translation>
+    </message>
+    <message>
+        <source>material of tissue</source>
+        <translation>Material des Gewebes</translation>
+    </message>
+    <message>
+        <source>stiffness of %1</source>
+        <translation>Steifigkeit von %1</translation>
+    </message>
+    <message>
+        <source>stiffness of bone</source>
+        <translation>Steifigkeit des Knochens</translation>
+    </message>
+    <message>
+        <source>stiffness of tissue</source>
+        <translation>Steifigkeit des Gewebes</translation>
+    </message>
+    <message>
+        <source>warning distance of %1</source>
+        <translation>Warnabstand von %1</translation>
+    </message>
+    <message>
+        <source>warning distance of bone</source>
+        <translation>Warnabstand des Knochens</translation>
+    </message>
+    <message>
+        <source>warning distance of tissue</source>
+        <translation>Warnabstand des Gewebes</translation>
+    </message>
+    <message>
+        <source>opacity of %1</source>
+        <translation>Deckkraft von %1</translation>
+    </message>
+    <message>
+        <source>opacity of bone</source>
+        <translation>Deckkraft des Knochens</translation>
+    </message>
+    <message>
+        <source>opacity of tissue</source>
+        <translation>Deckkraft des Gewebes</translation>
+    </message>
+    <message>
+        <source>transfer function of %1</source>
+        <translation>Transferfunktion von %1</translation>
+    </message>
+    <message>
+        <source>transfer function of bone</source>
+        <translation>Transferfunktion des Knochens</translation>
+    </message>
+    <message>
+        <source>transfer function of tissue</source>
+        <translation>Transferfunktion des Gewebes</translation>
+    </message>
+    <message>
+        <source>colour of %1</source>
+        <translation>Farbe von %1</translation>
+    </message>
+    <message>
+        <source>colour of bone</source>
+        <translation>Farbe des Knochens</translation>
+    </message>
+    <message>
+        <source>colour of tissue</source>
+        <translation>Farbe des Gewebes</translation>
+    </message>
+    <message>
+        <source>image of %1</source>
+        <translation>Bild für %1</translation>
+    </message>
+    <message>
+        <source>image of bone</source>
+        <translation>Bild für den Knochen</translation>
+    </message>
+    <message>
+        <source>image of tissue</source>
+        <translation>Bild für das Gewebe</translation>
+    </message>
+    <message>
+        <source>shininess of %1</source>
+        <translation>Glanz von %1</translation>
+    </message>
+    <message>
+        <source>shininess of bone</source>
+        <translation>Glanz des Knochens</translation>
+    </message>
+    <message>
+        <source>shininess of tissue</source>
+        <translation>Glanz des Gewebes</translation>
+    </message>
+    <message>
+        <source>priority of %1</source>
+        <translation>Vorrang von %1</translation>
+    </message>
+    <message>
+        <source>priority of bone</source>
+        <translation>Vorrang des Knochens</translation>
+    </message>
+    <message>
+        <source>priority of tissue</source>
+        <translation>Vorrang des Gewebes</translation>
+    </message>
+    <message>
+        <source>appearance of %1</source>
+        <translation>Aussehen von %1</translation>
+    </message>
+    <message>
+        <source>appearance of bone</source>
+        <translation>Aussehen des Knochens</translation>
+    </message>
+    <message>
+        <source>appearance of tissue</source>
+        <translation>Aussehen des Gewebes</translation>
     </message>
 </context>
 <context>

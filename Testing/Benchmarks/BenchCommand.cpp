@@ -296,7 +296,7 @@ void addBenchCommand(CLI::App& app, Context& context)
       ->delimiter(',');
   command
       ->add_option("--seconds", options->seconds,
-                   "Length of each live session, for servo, in s (20; 2 with --quick)")
+                   "Length of the live session, for servo, in s (20; 2 with --quick)")
       ->check(within({0.1, 86400.0, "s"}));
   command->add_flag("--quick", options->quick, "Smaller volumes, fewer repeats");
 }

@@ -582,6 +582,14 @@ TEST_F(AppearanceEditorTest, AConeBeamsPresetsAndRangeFollowItsValues)
   m_editor->setPoint(point);
   EXPECT_EQ(m_model->value().boneLook.transfer->points()[0].value, 20000.0);
   EXPECT_FALSE(m_model->value().boneLook.relative);
+  EXPECT_EQ(m_editor->estimate(), "") << "of bone";
+  value.softTissueValues = {6000.0, 13000.0};
+  open(value);
+  m_editor->select(AppearanceEditor::kSoftTissue);
+  ASSERT_FALSE(points().empty());
+  EXPECT_NEAR(points().front().value, 6000.0, 1e-6);
+  EXPECT_NE(m_editor->estimate().find("air ends at 6000"), std::string::npos)
+      << m_editor->estimate();
 }
 
 TEST_F(AppearanceEditorTest, ABoneThatShinesThroughKeepsItsOwnPoints)

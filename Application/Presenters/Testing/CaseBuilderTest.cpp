@@ -28,6 +28,14 @@ using presenters::PartSource;
 namespace
 {
 
+/// But for one voxel of bone: an image of one single value is refused.
+std::shared_ptr<const volume::Volume<std::int16_t>> softTissue(const core::GridGeometry& grid)
+{
+  auto scan = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{40});
+  scan->at(2, 2, 1) = 1200;
+  return scan;
+}
+
 class CaseBuilder : public ::testing::Test
 {
 protected:
@@ -56,8 +64,7 @@ protected:
   PartSource writeSeriesOf(const std::string& file, const std::string& id,
                            const std::string& name) const
   {
-    const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
-        core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
+    const auto scan = softTissue(core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()));
     imaging::SeriesDescription series;
     series.modality = file == "ct" ? imaging::SeriesDescription::Modality::Ct
                                    : imaging::SeriesDescription::Modality::Mr;
@@ -262,8 +269,7 @@ TEST_F(CaseBuilder, PutsTheSurfaceOfAnMrWhereTissueBegins)
 
 TEST_F(CaseBuilder, TellsImagesOfOneFrameOfReferenceWithoutItsUid)
 {
-  const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
-      core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
+  const auto scan = softTissue(core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()));
   const auto write = [&](const std::string& name, const std::string& frame)
   {
     imaging::SeriesDescription series;
@@ -390,8 +396,7 @@ TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPatientJoins)
 
 TEST_F(CaseBuilder, AsksBeforeStructuresOfAnotherPatientJoin)
 {
-  const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
-      core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
+  const auto scan = softTissue(core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()));
   imaging::SeriesDescription series;
   series.patientId = "4711";
   series.patientName = "Doe^Jane";
@@ -447,6 +452,59 @@ TEST_F(CaseBuilder, AsksBeforeStructuresOfAnotherPatientJoin)
     ASSERT_EQ(value.labels[2].notes.size(), 1u);
     EXPECT_NE(value.labels[2].notes[0].find("added as asked"), std::string::npos);
   }
+}
+
+TEST_F(CaseBuilder, RefusesAnImageThatShowsNothing)
+{
+  const auto refusal = [this]
+  {
+    try
+    {
+      presenters::buildCase("ear", m_sources, {});
+    }
+    catch (const core::InvalidParameter& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d::Zero());
+  for (const int value : {0, 700, -1000})
+  {
+    volume::Volume<std::int16_t> ct(grid, static_cast<std::int16_t>(value));
+    imaging::writeVolume(m_folder / "ct.nrrd", ct);
+    EXPECT_NE(refusal().find("has the value " + std::to_string(value)), std::string::npos)
+        << refusal();
+    ct.at(3, 4, 5) = static_cast<std::int16_t>(value + 1);
+    imaging::writeVolume(m_folder / "ct.nrrd", ct);
+    EXPECT_EQ(refusal(), "");
+  }
+}
+
+TEST_F(CaseBuilder, NotesFewSlicesAndValuesBeyondAnyCt)
+{
+  const auto isNoted = [this](int slices, float value, const std::string& text)
+  {
+    const core::GridGeometry grid({16, 16, slices}, Vector3d(1, 1, 0.5), Vector3d::Zero());
+    volume::Volume<float> ct(grid, -1000.0f);
+    for (int j = 4; j < 12; ++j)
+      for (int i = 4; i < 12; ++i)
+        ct.at(i, j, 1) = 40.0f;
+    ct.at(6, 6, 1) = value;
+    imaging::writeVolume(m_folder / "ct.nrrd", ct);
+    const auto built = presenters::buildCase("ear", m_sources, {});
+    return std::any_of(built.ct.notes.begin(), built.ct.notes.end(),
+                       [&text](const std::string& note)
+                       { return note.find(text) != std::string::npos; });
+  };
+  EXPECT_TRUE(isNoted(9, 1200.0f, "only 9 slices, which cover 4.5 mm"));
+  EXPECT_FALSE(isNoted(10, 1200.0f, "slices, which cover"));
+  const std::string beyond = "beyond those of any CT";
+  EXPECT_TRUE(isNoted(12, 1e30f, beyond));
+  EXPECT_TRUE(isNoted(12, -1e30f, beyond));
+  EXPECT_TRUE(isNoted(12, 100001.0f, beyond));
+  EXPECT_TRUE(isNoted(12, -10001.0f, beyond));
+  EXPECT_FALSE(isNoted(12, 30000.0f, beyond)) << "metal, on an extended scale";
 }
 
 TEST_F(CaseBuilder, CallsNothingHounsfieldUnitsThatTheFileDoesNot)
@@ -746,8 +804,8 @@ TEST_F(CaseBuilder, SaysWhereAFrameOfReferenceCannotBeCompared)
   EXPECT_FALSE(said.provenance.isFrameAssumed);
 
   // A CT whose frame is known: another one, overruled, stays known to be another one.
-  const auto ct = std::make_shared<const volume::Volume<std::int16_t>>(
-      core::GridGeometry({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3)), std::int16_t{40});
+  const auto ct =
+      softTissue(core::GridGeometry({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3)));
   imaging::SeriesDescription series;
   series.studyUid = "1.2.3";
   series.seriesUid = "1.2.3.5";
@@ -767,8 +825,7 @@ TEST_F(CaseBuilder, SaysWhereAFrameOfReferenceCannotBeCompared)
 // The CT lacks slices in the middle: the sound MR beside it is not taken in its place.
 TEST_F(CaseBuilder, TakesNoMrForACtThatCannotBeUsed)
 {
-  const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
-      core::GridGeometry({8, 8, 24}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
+  const auto scan = softTissue(core::GridGeometry({8, 8, 24}, Vector3d::Ones(), Vector3d::Zero()));
   using Modality = imaging::SeriesDescription::Modality;
   for (const auto& [name, modality] : {std::pair{"ct", Modality::Ct}, {"mr", Modality::Mr}})
   {
@@ -802,8 +859,7 @@ TEST_F(CaseBuilder, TakesNoMrForACtThatCannotBeUsed)
 
 TEST_F(CaseBuilder, SaysThatAnMrIsACt)
 {
-  const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
-      core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
+  const auto scan = softTissue(core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()));
   using Modality = imaging::SeriesDescription::Modality;
   for (const auto& [name, modality] : {std::pair{"angio", Modality::Ct}, {"T2", Modality::Mr}})
   {
@@ -1056,6 +1112,43 @@ TEST_F(CaseBuilder, StructuresWithoutANameDifferInColour)
   EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
 }
 
+// An MR that was chosen for a label map: its values are not structures.
+TEST_F(CaseBuilder, TellsAnImageFromALabelMapByTheNumberOfItsValues)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  const auto built = [&](int count)
+  {
+    auto labels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+    for (int n = 0; n < count; ++n)
+      labels->at(n % 16, n / 16 % 12, n / 192) = static_cast<std::uint16_t>(n + 1);
+    imaging::writeLabelFile(m_folder / "many.nii.gz", volume::makeLabelMap(std::move(labels), {}));
+    m_sources.parts.labels = {{"", m_folder / "many.nii.gz"}};
+    return presenters::buildCase("x", m_sources, {});
+  };
+  const auto isNoted = [](const scene::Case& value)
+  {
+    const auto& notes = value.labels.front().notes;
+    return std::any_of(notes.begin(), notes.end(),
+                       [](const std::string& note)
+                       { return note.find("without a name became") != std::string::npos; });
+  };
+  EXPECT_FALSE(isNoted(built(120)));
+  const scene::Case many = built(1000);
+  EXPECT_EQ(many.labels.front().structures.size(), 1000u);
+  EXPECT_TRUE(isNoted(many));
+  try
+  {
+    built(1001);
+    FAIL();
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("many.nii.gz: has 1001 different values"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // Labels and MR on the CT's grid, written in three frames: all coincide with the CT.
 TEST_F(CaseBuilder, PutsImagesAndLabelsOfEveryNrrdSpaceInOnePlace)
 {
@@ -1141,11 +1234,7 @@ TEST_F(CaseBuilder, TakesNoPatientsNameFromWhatADicomFolderHoldsBesideItsSlices)
   series.studyUid = "1.2.3";
   series.frameOfReferenceUid = "1.2.4";
   series.seriesUid = imaging::deterministicUid(1, "ct");
-  imaging::writeDicomSeries(
-      m_folder / "series",
-      volume::IntensityVolume(
-          std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{40})),
-      series);
+  imaging::writeDicomSeries(m_folder / "series", volume::IntensityVolume(softTissue(grid)), series);
   ASSERT_EQ(::mkfifo((m_folder / "series/Doe, John.pipe").c_str(), 0600), 0);
   std::filesystem::create_directory(m_folder / "elsewhere");
   std::filesystem::create_directory_symlink(m_folder / "elsewhere", m_folder / "series/DOE^JOHN");
@@ -1306,11 +1395,7 @@ TEST_F(CaseBuilder, HangsASegmentationOnTheMrOfItsGridOrAsks)
     series.studyUid = "1.2.3";
     series.seriesUid = imaging::deterministicUid(1, name);
     series.frameOfReferenceUid = "1.2.3.9";
-    imaging::writeDicomSeries(
-        m_folder / name,
-        volume::IntensityVolume(
-            std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{40})),
-        series);
+    imaging::writeDicomSeries(m_folder / name, volume::IntensityVolume(softTissue(grid)), series);
   }
   const auto drawnOn = [this](const core::GridGeometry& grid, const std::string& first,
                               const std::string& second, const std::string& on = "")
@@ -1498,6 +1583,7 @@ TEST_F(CaseBuilder, AsksHowAMeshCountsWhereItWouldLieElsewhere)
   {
     const core::GridGeometry grid({80, 80, 60}, Vector3d::Ones(), origin);
     auto ct = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{0});
+    ct->at(0, 0, 0) = 1; // an image of one single value is refused
     for (int k = 0; k < 60; ++k)
       for (int j = 0; j < 80; ++j)
         for (int i = 0; i < 80; ++i)

@@ -16,6 +16,7 @@
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Presenters/CaseExport.h"
+#include "petrous/Presenters/LeavingImages.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
@@ -172,6 +173,26 @@ std::string element(int group, int number, const std::string& vr, std::string te
   for (const int value : {group, number})
     bytes += {static_cast<char>(value & 0xff), static_cast<char>(value >> 8)};
   return bytes + vr + static_cast<char>(text.size()) + '\0' + text;
+}
+
+// As an archive does with one whose face cannot be masked.
+TEST(LeavingImages, AnMrIsLeftOutUnlessStructuresWereDrawnOnIt)
+{
+  scene::Case value;
+  for (const char* name : {"T1", "T2"})
+  {
+    value.mr.emplace_back();
+    value.mr.back().name = name;
+  }
+  value.meshes.emplace_back();
+  value.meshes.back().name = "tumour";
+  value.meshes.back().drawnOn = "T1";
+  leaveOutMrs(value, {"T2"});
+  ASSERT_EQ(value.mr.size(), 1U);
+  EXPECT_EQ(value.mr[0].name, "T1");
+  EXPECT_THROW(leaveOutMrs(value, {"T1"}), core::Error);
+  EXPECT_THROW(leaveOutMrs(value, {"tumour"}), core::InvalidParameter);
+  EXPECT_EQ(value.meshes.size(), 1U);
 }
 
 TEST_F(CaseExport, DicomStatesWhatIsKnownToBeWrongWithTheImage)

@@ -10,6 +10,7 @@
 #include "HeldTool.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Presenters/BoneOpacity.h"
+#include "petrous/Presenters/Phrasebook.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Scene/CaseField.h"
 
@@ -127,6 +128,65 @@ TEST_F(EditUndoTest, TheSideIsKeptWithTheCaseAndCanBeUndone)
   EXPECT_FALSE(model->canUndo());
   model->redo();
   EXPECT_EQ(model->value().description.side, scene::Side::Left);
+}
+
+TEST_F(EditUndoTest, EveryStepHasAGermanName)
+{
+  open();
+  int steps = 0;
+  const auto expectGerman = [&]
+  {
+    const std::string english = model->undoText();
+    const std::string german = germanPhrases().text(english);
+    const std::string kind = english.substr(0, english.find(' '));
+    EXPECT_NE(german, english);
+    EXPECT_EQ((german + ' ').find(kind + ' '), std::string::npos) << german;
+    ++steps;
+  };
+  using Look = appearance::StructureAppearance;
+  const std::function<void(Look&)> changes[] = {
+      [](Look& look) { look.shown = !look.shown; },
+      [](Look& look) { look.touchable = !look.touchable; },
+      [](Look& look) { look.drillable = !look.drillable; },
+      [](Look& look) { look.solid = !look.solid; },
+      [](Look& look) { look.stiffness += 1.0; },
+      [](Look& look) { look.warning += 1.0; },
+      [](Look& look) { look.opacity *= 0.5F; },
+      [](Look& look) { look.priority += 1; },
+      [](Look& look) { look.color[0] = 1.0F - look.color[0]; },
+      [](Look& look)
+      {
+        look.shown = !look.shown;
+        look.opacity *= 0.5F;
+      }};
+  for (const auto& change : changes)
+  {
+    Look next = look(kVein);
+    change(next);
+    model->setLook(name(kVein), next);
+    expectGerman();
+    next = *model->lookOf("ct");
+    next.opacity *= 0.5F;
+    model->setBoneLook(next);
+    expectGerman();
+  }
+  model->setSide(scene::Side::Left);
+  expectGerman();
+  model->setIso(512.0);
+  expectGerman();
+  model->saveView("from behind", {}, slices());
+  expectGerman();
+  model->removeView("from behind");
+  expectGerman();
+  EXPECT_EQ(steps, 24);
+  for (const auto& property : appearance::kStructureProperties)
+    for (const char* of : {" of sigmoid sinus", " of bone", " of 3 parts", " of soft tissue"})
+    {
+      const std::string german = germanPhrases().text(property.noun + std::string(of));
+      EXPECT_EQ(german.find(std::string(property.noun) + " of"), std::string::npos) << german;
+      for (const char* word : {"bone", "parts", "soft"})
+        EXPECT_EQ(german.find(word), std::string::npos) << german;
+    }
 }
 
 TEST_F(EditUndoTest, WhatWasAddedIsTakenBackAsOneStepAndComesAgain)

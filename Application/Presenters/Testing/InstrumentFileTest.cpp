@@ -215,6 +215,26 @@ TEST_F(InstrumentFileTest, RefusesWhatIsNoInstrumentAndSaysWhatWouldBeRight)
   EXPECT_EQ(inMetres.find("cm"), std::string::npos) << "1.6 mm long is no instrument";
 }
 
+TEST_F(InstrumentFileTest, IsTheSameFromACaseThatKeepsIt)
+{
+  const auto path = write("far.ply", pick(40.0, Vector3d(100.0, -20.0, 5.0), Vector3d::UnitX()));
+  const InstrumentSurface surface = readInstrumentSurface(path);
+  scene::ViewState::Instrument kept = keptInstrument(surface, "x+");
+  EXPECT_EQ(kept.name, "far.ply");
+  EXPECT_EQ(kept.object, "") << "not stored yet";
+  const LoadedInstrument one = readInstrument(path, "x+");
+  const LoadedInstrument other = makeInstrument(surfaceOf(kept), kept.axis);
+  EXPECT_TRUE(one.instrument->surface->vertices == other.instrument->surface->vertices);
+  EXPECT_EQ(one.notes, other.notes);
+  kept.name.clear();
+  EXPECT_EQ(surfaceOf(kept, "pick").name, "pick");
+  // What came from elsewhere is checked as a file is.
+  core::TriangleMesh open = surface.mesh;
+  open.triangles.pop_back();
+  kept.mesh = std::make_shared<const core::TriangleMesh>(open);
+  EXPECT_THROW(surfaceOf(kept), core::InvalidParameter);
+}
+
 TEST_F(InstrumentFileTest, PressesOnBoneWithItsTipAndTakesNone)
 {
   scene::Case value = block();

@@ -147,3 +147,27 @@ TEST(IntensityDisplay, NamesTheValuesWhereMoreThanTheCtIsSeen)
   value.mr[0].range = {0.0, 1.0};
   EXPECT_EQ(displayOf(value.mr[0]).text(0.25), "0.250");
 }
+
+TEST(IntensityDisplay, SaysOfSoftTissueWhatIsEstimated)
+{
+  EXPECT_EQ(softTissueEstimate(caseOf(300.0, 1800.0, -1024.0, 3071.0)), "");
+  // Metal: 1 HU seems to be 40 units, and -700 HU to lie below the image.
+  scene::Case value = caseOf(18200.0, 78200.0, 0.0, 56000.0);
+  EXPECT_EQ(softTissueScale(value).dense, 78200.0);
+  EXPECT_NE(softTissueEstimate(value).find("not known where the values of air end"),
+            std::string::npos);
+  value.softTissueValues = {4200.0, 14560.0};
+  EXPECT_NEAR(softTissueScale(value).iso, 18200.0, 1e-6);
+  EXPECT_NEAR(softTissueScale(value).dense, 39200.0, 1e-6);
+  EXPECT_EQ(softTissueEstimate(value), "Estimated from the image's histogram: air ends at 4200, "
+                                       "and most of soft tissue is at 14560");
+  value.softTissue.relative = false; // values of its own
+  EXPECT_EQ(softTissueEstimate(value), "");
+  value.softTissue.relative = true;
+  value.ct.modality = scene::Modality::Mr;
+  EXPECT_EQ(softTissueEstimate(value), "");
+  // Of a manifest that was written by hand.
+  value.ct.modality = scene::Modality::Ct;
+  value.softTissueValues = {14560.0, 4200.0};
+  EXPECT_EQ(softTissueScale(value).dense, 78200.0);
+}

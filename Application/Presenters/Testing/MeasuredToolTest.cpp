@@ -101,6 +101,80 @@ TEST(MeasuredTool, OfAnInstrumentIsTheNearestOfItsPoints)
   EXPECT_GT(near, 20);
 }
 
+// A bound that is too small, as volume::SurfaceDistance::bound is by up to a cell's diagonal, rules
+// out less, but nothing that matters.
+TEST(MeasuredTool, GivesTheSameWithACheaperBound)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> inBox(-1.0, 1.0);
+  haptics::PointShell shell;
+  for (int n = 0; n < 2000; ++n)
+  {
+    const double z = 80.0 * std::pow(0.5 * (1.0 + inBox(random)), 2);
+    shell.points.emplace_back(1.5 * inBox(random), 1.5 * inBox(random), z);
+  }
+  shell.burrSpacing = 0.1;
+  shell.spacing = 1.3;
+  const MeasuredTool tool(shell);
+  const auto bound = [](const Vector3d& patient, double most)
+  {
+    const double away = toBall(patient);
+    const double less = 0.25 * (1.0 + std::sin(50.0 * patient.x())); // 0 to 0.5 mm
+    return away <= 0.0 ? -most : std::min(most, std::max(0.0, away - less));
+  };
+  int near = 0, tips = 0, shafts = 0;
+  for (int n = 0; n < 400; ++n)
+  {
+    const Eigen::Quaterniond rotation =
+        Eigen::Quaterniond(inBox(random), inBox(random), inBox(random), inBox(random)).normalized();
+    const auto pose =
+        poseAt(kBall + 30.0 * Vector3d(inBox(random), inBox(random), inBox(random)), rotation);
+    // The truth: of all points.
+    double tip = 1e9, shaft = 1e9;
+    for (const Vector3d& point : shell.points)
+    {
+      double& least = point.norm() <= haptics::kInstrumentTip - shell.spacing ? tip : shaft;
+      least = std::min(least, toBall(pose * point));
+    }
+    const double nearest = std::min(tip, shaft);
+    const double least = std::min(tip - shell.burrSpacing, shaft - shell.spacing);
+    int asked = 0, askedAlone = 0;
+    const auto counted = [](int& count)
+    {
+      return [&count](const Vector3d& patient, double most)
+      {
+        ++count;
+        return clamped(patient, most);
+      };
+    };
+    const auto found = tool.distance(pose, counted(asked), 20.0, bound);
+    const auto alone = tool.distance(pose, counted(askedAlone), 20.0);
+    EXPECT_LT(asked, 400) << "of 2000";
+    if (nearest >= 20.0)
+    {
+      EXPECT_GE(found.millimetres, 20.0);
+      continue;
+    }
+    if (nearest <= 0.0)
+    {
+      EXPECT_LE(found.millimetres, 0.0);
+      EXPECT_LE(alone.millimetres, 0.0);
+      continue;
+    }
+    ++near;
+    ++(tip < shaft ? tips : shafts);
+    EXPECT_NEAR(found.millimetres, nearest, 1e-12);
+    EXPECT_NEAR(alone.millimetres, nearest, 1e-12);
+    if (std::max(tip, shaft) < 20.0)
+    {
+      EXPECT_NEAR(found.millimetres - found.sampling, least, 1e-12);
+    }
+  }
+  EXPECT_GT(near, 50);
+  EXPECT_GT(tips, 5);
+  EXPECT_GT(shafts, 5);
+}
+
 TEST(MeasuredTool, StatesByHowMuchPlacesBetweenThePointsMayBeNearer)
 {
   const MeasuredTool tool(needle());

@@ -70,6 +70,21 @@ TEST_F(Measures, ADistanceIsTwoPointsAndTheNextOneIsNumbered)
   EXPECT_EQ(all()[1].name, "distance 2");
 }
 
+TEST_F(Measures, ANewOneIsNamedInTheUsersLanguage)
+{
+  m_editor.inLanguage = [](const std::string& name)
+  { return name == "distance" ? std::string("Abstand") : name; };
+  for (const double at : {3.0, 5.0})
+  {
+    m_editor.setTool(Tool::Distance);
+    m_editor.set({0, 0, 0});
+    m_editor.set({at, 4, 0});
+  }
+  ASSERT_EQ(all().size(), 2U);
+  EXPECT_EQ(all()[0].name, "Abstand 1");
+  EXPECT_EQ(all()[1].name, "Abstand 2");
+}
+
 TEST_F(Measures, APolygonEndsWhenItIsAskedTo)
 {
   m_editor.setTool(Tool::Area);

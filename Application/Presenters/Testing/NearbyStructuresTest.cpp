@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <random>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -130,6 +132,70 @@ TEST(NearbyStructures, WarnOfWhatAnInstrumentMayReach)
   EXPECT_EQ(stateAt(kRadius - 0.1), State::Warned); // pierces it between two points
   EXPECT_EQ(stateAt(kRadius + 0.3), State::Warned);
   EXPECT_EQ(stateAt(kRadius + 2.0), std::nullopt);
+}
+
+// What is skipped where only warnings are wanted could not have been in one.
+TEST(NearbyStructures, WarnOfTheSameWhetherAllIsMeasuredOrWarningsAlone)
+{
+  scene::Case value = balls();
+  NearbyStructures nearby(value);
+  nearby.surfaces();
+  haptics::PointShell needle;
+  for (int n = 0; n <= 100; ++n)
+    needle.points.emplace_back(0.0, 0.0, 0.4 * n);
+  needle.burrSpacing = 0.2;
+  needle.spacing = 1.1;
+  needle.reach = 40.0;
+  const MeasuredTool tools[] = {MeasuredTool(needle), MeasuredTool(1.0)};
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> inBox(-1.0, 1.0);
+  int warned = 0, silent = 0;
+  const auto compare = [&](int poses)
+  {
+    for (int n = 0; n < poses; ++n)
+      for (const MeasuredTool& tool : tools)
+      {
+        const haptics::Pose pose{
+            kNerve + 9.0 * Vector3d(inBox(random), inBox(random), inBox(random)),
+            Eigen::Quaterniond(inBox(random), inBox(random), inBox(random), inBox(random))
+                .normalized()};
+        const auto states = [&](double reach)
+        {
+          std::map<std::string, State> result;
+          for (const NearbyStructure& near : nearby.around(value, tool, pose, reach))
+            if (near.state != State::Clear)
+              result[near.name] = near.state;
+          return result;
+        };
+        const auto alone = states(0.0);
+        EXPECT_EQ(alone, states(20.0));
+        ++(alone.empty() ? silent : warned);
+      }
+  };
+  compare(300);
+  value.labels[0].structures[0].look.shown = false;
+  value.labels[0].structures[1].look.solid = false; // of a lumen without a distance never
+  compare(300);
+  EXPECT_GT(warned, 100);
+  EXPECT_GT(silent, 100);
+}
+
+TEST(NearbyStructures, KnowWhetherAnythingCanBeWarnedOf)
+{
+  scene::Case value = balls();
+  EXPECT_TRUE(canBeWarnedOf(value));
+  appearance::StructureAppearance& nerve = value.labels[0].structures[0].look;
+  appearance::StructureAppearance& vessel = value.labels[0].structures[1].look;
+  vessel.shown = false;
+  nerve.shown = false;
+  EXPECT_TRUE(canBeWarnedOf(value)) << "hidden, but with a distance";
+  nerve.warning = 0.0;
+  EXPECT_FALSE(canBeWarnedOf(value));
+  vessel.shown = true;
+  EXPECT_TRUE(canBeWarnedOf(value)) << "it can be touched";
+  vessel.solid = false;
+  EXPECT_FALSE(canBeWarnedOf(value)) << "a lumen is opened";
+  EXPECT_FALSE(canBeWarnedOf({}));
 }
 
 TEST(NearbyStructures, WarnOfWhatARegistrationMayHaveDisplaced)

@@ -127,6 +127,16 @@ TEST(Phrasebook, ThePhraseWithTheMostWordsOfItsOwnIsTaken)
             "der Datenträger von node 7 ist voll alter Fälle");
 }
 
+TEST(Phrasebook, ASentenceBeginsWithACapital)
+{
+  const Phrasebook book({{"the fits of '%1' agree", "über „%1“ sind sich die Anpassungen einig"},
+                         {"The disk is full", "Die Platte ist voll"}});
+  EXPECT_EQ(book.text("The fits of 'T2' agree."), "Über „T2“ sind sich die Anpassungen einig.");
+  EXPECT_EQ(book.text("the fits of 'T2' agree"), "über „T2“ sind sich die Anpassungen einig");
+  EXPECT_EQ(book.text("The disk is full"), "Die Platte ist voll");
+  EXPECT_FALSE(book.find("the disk is full")) << "no sentence of the program";
+}
+
 TEST(Phrasebook, PartsOfATextAreFoundAndWhatIsNoPhraseStays)
 {
   EXPECT_EQ(few().text("/data/a b.nrrd: the disk is full"),
@@ -180,9 +190,20 @@ TEST(GermanPhrases, AreThoseOfMessagesAsTheyAreShown)
        "weitere"},
       {"registered by landmarks, refined by mutual information, good, error 0.24 mm (p95) at the "
        "middle of 'incus', not signed off",
-       "registriert: Landmarken, verfeinert durch Transinformation, gut, Fehler 0.24 mm (p95) an "
-       "die "
+       "registriert: Landmarken, verfeinert durch Transinformation, gut, Fehler 0.24 mm (p95) in "
+       "der "
        "Mitte von „incus“, nicht freigegeben"},
+      {"registered by mutual information, good, error 0.32 mm (p95) at the centre of the CT, not "
+       "signed off",
+       "registriert: Transinformation, gut, Fehler 0.32 mm (p95) in der Mitte des CT, nicht "
+       "freigegeben"},
+      {"Repeated fits agree; 95 of 100 errors are below 0.32 mm.",
+       "Wiederholte Anpassungen stimmen überein; 95 von 100 Fehlern liegen unter 0.32 mm."},
+      {"hide 3 parts", "3 Teile ausblenden"},
+      {"removal of left lateral semicircular canal",
+       "Entfernen von left lateral semicircular canal"},
+      {"view 'from behind'", "Ansicht „from behind“"},
+      {"masking", "Maskierung"},
       {"MR 'T2' is not registered with the CT; register it first",
        "das MR „T2“ ist nicht mit dem CT registriert; registrieren Sie es erst"},
       {"tube: the radius must lie within 0.1 to 5 mm, not 7",
@@ -195,6 +216,10 @@ TEST(GermanPhrases, AreThoseOfMessagesAsTheyAreShown)
        "/x/labels.nrrd: sagt nicht, welche Seite des Patienten links ist; die Achsen wurden als "
        "LPS "
        "genommen, wie gewünscht"},
+      {"/x/materials.json: material 'bone': 'friction' must be above 0, it is -0.5",
+       "/x/materials.json: Material „bone“: „friction“ muss über 0 liegen, es ist -0.5"},
+      {"/x/materials.json: there is no material 'enamel'; there are cellular-bone, nerve",
+       "/x/materials.json: es gibt kein Material „enamel“; es gibt cellular-bone, nerve"},
       {"3 structures read, 1 left out, 2 not read",
        "3 Strukturen gelesen, 1 blieben weg, 2 nicht gelesen"},
   };

@@ -103,6 +103,37 @@ TEST(PlanReport, HasStrokesAndTimeOfEachApproach)
   EXPECT_THROW(planReport(planned(), second), core::InvalidParameter);
 }
 
+TEST(PlanReport, StatesTheSpeedThatAPedalGaveBesideTheSetOne)
+{
+  scene::Case value = planned();
+  const auto columns = [&value]
+  {
+    const PlanReport report = planReport(value, small());
+    return find(report, "strokes")->table.columns;
+  };
+  const std::vector<std::string> usual{"Stroke", "Burr",    "Set speed",
+                                       "Time",   "Removed", "Of structures"};
+  EXPECT_EQ(columns(), usual);
+  value.dissection.beginStroke({});
+  value.dissection.cut({{10.0, 8.0, 12.0}, {10.0, 8.0, 12.0}, 2.0});
+  value.dissection.openInfo().burr.rpm = 60000.0;
+  value.dissection.openInfo().speed = dissection::SpindleSpeed{24000.0, 41000.0};
+  value.dissection.endStroke();
+  const PlanReport report = planReport(value, small());
+  const ReportTable& strokes = find(report, "strokes")->table;
+  const std::vector<std::string> byPedal{"Stroke",        "Burr", "Set speed", "Mean speed",
+                                         "Highest speed", "Time", "Removed",   "Of structures"};
+  EXPECT_EQ(strokes.columns, byPedal);
+  ASSERT_EQ(strokes.rows.size(), 4U);
+  for (const auto& row : strokes.rows)
+    ASSERT_EQ(row.size(), byPedal.size());
+  EXPECT_EQ(strokes.rows[0][3].text, "") << "of that stroke it is not known";
+  EXPECT_EQ(strokes.rows[2][2].value, 60000.0);
+  EXPECT_EQ(strokes.rows[2][3].value, 24000.0);
+  EXPECT_EQ(strokes.rows[2][4].value, 41000.0);
+  EXPECT_EQ(strokes.rows[3][5].value, 3.5) << "of all strokes, the last one in no time";
+}
+
 TEST(PlanReport, SaysWhatIsNotResolvedAndWhatWasGuessed)
 {
   const PlanReport report = planReport(planned(), small());
@@ -374,6 +405,67 @@ TEST(PlanReport, SpeaksGerman)
   const PlanReport english = planReport(planned(), small());
   for (std::size_t n = 0; n < report.sections.size(); ++n)
     EXPECT_NE(report.sections[n].title, english.sections[n].title);
+}
+
+// What the window says in German of the same case, the paper does, too.
+TEST(PlanReport, SaysTheNotesAndReasonsOfItsPartsInGerman)
+{
+  scene::Case value = planned();
+  value.ct.notes = {"The slices are numbered from 1080 to 1245; the stack has no gap, but its ends "
+                    "may be missing. Look whether all of the skull base that is needed is there."};
+  value.labels.front().notes = {"states no unit of length; taken as mm"};
+  value.mr.emplace_back();
+  value.mr.back().name = "T2 0.5";
+  value.mr.back().geometry = value.ct.geometry;
+  value.mr.back().registered = true;
+  scene::Registration& how = value.mr.back().registration.emplace();
+  how.verdict = scene::Registration::Verdict::Good;
+  how.text = "Repeated fits agree; 95 of 100 errors are below 0.32 mm.";
+  how.error.emplace();
+  how.error->place = "the centre of the CT";
+  ReportOptions options = small();
+  options.language = ReportLanguage::German;
+  const PlanReport report = planReport(value, options);
+  EXPECT_EQ(find(report, "registration")->remarks,
+            std::vector<std::string>{"T2 0.5: Wiederholte Anpassungen stimmen überein; 95 von 100 "
+                                     "Fehlern liegen unter 0,32 mm."});
+  EXPECT_EQ(find(report, "registration")->table.rows[0][6].text, "die Mitte des CT");
+  const auto& notes = find(report, "import")->table.rows;
+  ASSERT_EQ(notes.size(), 3U);
+  EXPECT_EQ(notes[1][1].text.find("Die Schichten sind von 1080 bis 1245 nummeriert"), 0U)
+      << notes[1][1].text;
+  EXPECT_EQ(notes[2][1].text, "nennt keine Längeneinheit; als mm genommen");
+  EXPECT_EQ(find(report, "approaches")->table.rows[0][0].text.find("Hauptzugang"), 0U);
+  EXPECT_EQ(find(planReport(value, small()), "approaches")->table.rows[0][0].text.find("main"), 0U);
+}
+
+// As German writes them, wherever they stand; a name stays as it was given.
+TEST(PlanReport, HasNoNumberWithAPointInGerman)
+{
+  ReportOptions options = small();
+  options.language = ReportLanguage::German;
+  const PlanReport report = planReport(planned(), options);
+  int commas = 0;
+  const auto check = [&commas](const std::string& text)
+  {
+    const auto isDigit = [&text](std::size_t at)
+    { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+    for (std::size_t at = 1; at + 1 < text.size(); ++at)
+      if (isDigit(at - 1) && isDigit(at + 1))
+      {
+        EXPECT_NE(text[at], '.') << text;
+        commas += text[at] == ',' ? 1 : 0;
+      }
+  };
+  for (const ReportSection& section : report.sections)
+  {
+    std::for_each(section.paragraphs.begin(), section.paragraphs.end(), check);
+    std::for_each(section.remarks.begin(), section.remarks.end(), check);
+    for (const auto& row : section.table.rows)
+      for (const ReportCell& cell : row)
+        check(cell.text);
+  }
+  EXPECT_GT(commas, 10);
 }
 
 TEST(PlanReport, CanBeCancelled)

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <random>
 
 #include <Eigen/Geometry>
@@ -310,6 +311,42 @@ TEST_F(RegistrationSessionTest, SaysThatTheMiddleEarIsNotKnown)
   EXPECT_NE(session.placeNote(), "");
   session.take(result(scene::Registration::Verdict::Good));
   EXPECT_EQ(session.placeNote(), "");
+}
+
+TEST_F(RegistrationSessionTest, TellsPlacesOfAlikeNamesApart)
+{
+  session.take(result(scene::Registration::Verdict::Good));
+  model.changeMr(
+      [](scene::Case& value)
+      {
+        value.labels = {drawnOn(value.ct, "cochlea"), drawnOn(value.mr[0], "cochlea 2"),
+                        drawnOn(value.ct, "canal 3")};
+        value.labels[0].drawnOn = value.labels[2].drawnOn = "";
+        value.labels[0].structures[0].volume = 74.0;
+        value.labels[1].structures[0].volume = 80.0;
+        core::TriangleMesh triangle;
+        triangle.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+        triangle.triangles = {{0, 1, 2}};
+        scene::MeshPart mesh;
+        mesh.mesh = std::make_shared<const core::TriangleMesh>(triangle);
+        mesh.name = "cochlea";
+        value.meshes = {mesh};
+        mesh.name = "cochlea_3";
+        value.meshes.push_back(mesh);
+      });
+  const auto places = session.placeChoices();
+  ASSERT_EQ(places.size(), 4U) << "a structure and its mesh are one place";
+  std::map<std::string, PlaceChoice> byName;
+  for (const PlaceChoice& place : places)
+    byName[place.name] = place;
+  EXPECT_TRUE(byName.at("cochlea").isAlike && byName.at("cochlea 2").isAlike);
+  EXPECT_FALSE(byName.at("canal 3").isAlike) << "there is no other canal";
+  EXPECT_FALSE(byName.at("cochlea").isMesh);
+  EXPECT_TRUE(byName.at("cochlea_3").isMesh && byName.at("cochlea_3").isAlike);
+  EXPECT_EQ(byName.at("cochlea").drawnOn, "");
+  EXPECT_EQ(byName.at("cochlea 2").drawnOn, "T2");
+  EXPECT_EQ(byName.at("cochlea").volume, 74.0);
+  EXPECT_EQ(byName.at("cochlea 2").volume, 80.0);
 }
 
 TEST_F(RegistrationSessionTest, OffersForTheAimOnlyWhatCanBe)

@@ -221,6 +221,10 @@ TEST(SceneAssembly, DrawsSoftTissueWhereItIsShown)
   EXPECT_EQ(softTissueMissing(value), "");
   value.denseBone = 2000.0; // not in Hounsfield units
   EXPECT_NE(sceneContents(value).softTissue->transfer.points().front().value, -700.0);
+  value.softTissueValues = {-650.0, 60.0}; // its function begins where air ends
+  const auto begun = sceneContents(value).softTissue;
+  ASSERT_TRUE(begun);
+  EXPECT_NEAR(begun->transfer.points().front().value, -650.0, 1e-6);
   EXPECT_FALSE(sceneContents(thumbnailCase(value)).softTissue) << "a face is recognised";
 }
 

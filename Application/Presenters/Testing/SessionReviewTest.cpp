@@ -152,6 +152,36 @@ TEST(RecordedCourse, MeasuresTimePathAndForceOfAStraightStroke)
   EXPECT_EQ(metrics.drillStarts, 1u);
 }
 
+TEST(RecordedCourse, TellsTheSpeedThatAPedalGave)
+{
+  const auto course = [](std::uint8_t bits)
+  {
+    RecordedCourse made;
+    for (int n = 0; n <= 3000; ++n) // 1 s before, 1 s at half speed, 1 s at full speed
+    {
+      session::TickRecord record = tick(0.001 * n, {0.0, 0.0, 0.0}, n >= 1000);
+      record.input.pedal = n < 1000 ? 0.0 : n < 2000 ? 0.5 : 1.0;
+      record.input.parameters.drill = bits;
+      made.add(record);
+    }
+    return made;
+  };
+  const auto speed = course(session::ServoParameters::kPedalSpeed).speed(50000.0);
+  ASSERT_TRUE(speed);
+  EXPECT_NEAR(speed->mean, 37500.0, 0.1);
+  EXPECT_NEAR(speed->max, 50000.0, 1e-9);
+  EXPECT_FALSE(course(0).speed(50000.0)) << "of a pedal that is a switch";
+
+  SessionReview review;
+  review.burr.rpm = 50000.0;
+  EXPECT_EQ(metricsCsv(review).find("mean_spindle_speed"), std::string::npos);
+  review.speed = speed;
+  const std::string metrics = metricsCsv(review);
+  EXPECT_NE(metrics.find("mean_spindle_speed_drilling,,37500,1/min"), std::string::npos)
+      << metrics;
+  EXPECT_NE(metrics.find("max_spindle_speed,,50000,1/min"), std::string::npos) << metrics;
+}
+
 TEST(RecordedCourse, CountsNoTremorAsPath)
 {
   RecordedCourse course;

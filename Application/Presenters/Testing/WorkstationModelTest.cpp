@@ -477,11 +477,17 @@ TEST_F(WorkstationModelTest, SavesWithAllVoxelsIntoAnotherLibrary)
 {
   library::Library library(folder / "one");
   scene::Case value = block("block");
+  auto pick = std::make_shared<core::TriangleMesh>();
+  pick->vertices = {{0, 0, 0}, {1, 0, 40}, {0, 1, 40}, {-1, -1, 40}};
+  pick->triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
+  value.view.instrument.emplace();
+  value.view.instrument->mesh = std::shared_ptr<const core::TriangleMesh>(pick);
   library.save(value);
   WorkstationModel model{library};
   model.open("block");
   stroke(model);
   model.saveElsewhere(folder / "two", "block");
+  EXPECT_EQ(model.value().view.instrument->object, value.view.instrument->object);
   EXPECT_TRUE(until([this] { return !exists(folder / "one" / "cases" / "block.journal"); }))
       << "the journal's thread removes it";
   std::filesystem::remove_all(folder / "one");
@@ -490,6 +496,8 @@ TEST_F(WorkstationModelTest, SavesWithAllVoxelsIntoAnotherLibrary)
   two.loadDissection(opened);
   EXPECT_EQ(opened.applied(), 1u);
   EXPECT_EQ(opened.ct.volume.get()->at(1, 1, 1), 1500.0);
+  ASSERT_TRUE(opened.view.instrument);
+  EXPECT_EQ(opened.view.instrument->mesh.get()->triangles.size(), 4u);
   EXPECT_EQ(model.library().folder(), folder / "two");
 }
 

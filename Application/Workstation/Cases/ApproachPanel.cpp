@@ -225,7 +225,8 @@ void ApproachPanel::add(QTreeWidgetItem* above, const ApproachNode& node)
   {
     const auto summary = scene::summaryOf(value, node.state);
     const bool isPresent = node.approach == present.name;
-    item->setText(Stroke, (isPresent ? QString::fromUtf8("▶ ") : QString()) + words(node.approach));
+    item->setText(Stroke,
+                  (isPresent ? QString::fromUtf8("▶ ") : QString()) + approachName(node.approach));
     item->setText(Removed, volumeText(summary.removed));
     item->setText(Time, durationText(summary.duration));
     item->setText(Burr,
@@ -248,6 +249,10 @@ void ApproachPanel::add(QTreeWidgetItem* above, const ApproachNode& node)
     item->setText(Removed, volumeText(info.removed));
     item->setText(Time, durationText(info.duration));
     item->setText(Burr, burrText(info.burr));
+    if (info.speed)
+      item->setToolTip(Burr, tr("Set to %1 turns a minute; by the pedal %2 on average, at most %3")
+                                 .arg(numberText(info.burr.rpm, 0), numberText(info.speed->mean, 0),
+                                      numberText(info.speed->max, 0)));
     item->setToolTip(Stroke, injuryText(info));
     if (!info.structures.empty())
       item->setForeground(Removed, harmColor());

@@ -8,6 +8,7 @@
 #include "AskName.h"
 #include "Commands.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Scene/Branches.h"
 
 namespace petrous::workstation
@@ -25,7 +26,7 @@ QString lineOf(const scene::Case& value, const Branch& branch, int number)
 {
   const auto summary = scene::summaryOf(value, branch.position);
   QString text = BranchController::tr("%1: %2 %3, %4 mm³")
-                     .arg(words(branch.name))
+                     .arg(approachName(branch.name))
                      .arg(summary.strokes)
                      .arg(summary.strokes == 1 ? BranchController::tr("stroke")
                                                : BranchController::tr("strokes"))
@@ -201,19 +202,20 @@ void BranchController::rename(const std::string& name)
 {
   if (!m_model.hasCase() || !m_model.value().dissection.history().find(name))
     return;
-  const std::string to = bytes(askName(
-      m_window, tr("Rename the approach"), tr("New name of “%1”:").arg(words(name)), words(name),
-      [this, &name](const std::string& wanted)
-      {
-        scene::checkBranchName(wanted);
-        if (wanted != name && m_model.hasCase() &&
-            m_model.value().dissection.history().find(wanted))
-          throw core::InvalidParameter("there is an approach '" + wanted +
-                                       "' already; take another name");
-      }));
+  const std::string to =
+      bytes(askName(m_window, tr("Rename the approach"),
+                    tr("New name of “%1”:").arg(approachName(name)), words(name),
+                    [this, &name](const std::string& wanted)
+                    {
+                      scene::checkBranchName(wanted);
+                      if (wanted != name && m_model.hasCase() &&
+                          m_model.value().dissection.history().find(wanted))
+                        throw core::InvalidParameter("there is an approach '" + wanted +
+                                                     "' already; take another name");
+                    }));
   if (!to.empty() && to != name && m_model.hasCase() &&
       change([this, &name, &to] { m_model.renameBranch(name, to); }))
-    emit statusMessage(tr("“%1” is now “%2”").arg(words(name), words(to)));
+    emit statusMessage(tr("“%1” is now “%2”").arg(approachName(name), approachName(to)));
 }
 
 void BranchController::remove(const std::string& name)
@@ -236,7 +238,8 @@ void BranchController::remove(const std::string& name)
               m_model.goToBranch(next);
             m_model.removeBranch(gone);
           }))
-    emit statusMessage(tr("The approach “%1” is deleted; Undo brings it back").arg(words(gone)));
+    emit statusMessage(
+        tr("The approach “%1” is deleted; Undo brings it back").arg(approachName(gone)));
 }
 
 void BranchController::compare(const std::string& with)

@@ -76,6 +76,23 @@ QString lineOf(const SourceContent& source)
                                                    titleOf(source));
 }
 
+// Of the MRs, which are read once they are shown: what their files lack, a sentence each.
+std::vector<std::string> lostMrs(const library::Library& library, const scene::Case& value)
+{
+  if (value.mr.empty())
+    return {};
+  scene::Case others = value;
+  others.mr.clear();
+  const std::vector<std::string> known = library.lost(others);
+  std::vector<std::string> lost = library.lost(value);
+  lost.erase(std::remove_if(lost.begin(), lost.end(),
+                            [&known](const std::string& sentence) {
+                              return std::find(known.begin(), known.end(), sentence) != known.end();
+                            }),
+             lost.end());
+  return lost;
+}
+
 // What the user can do about a scan that cannot be used.
 QString remedyOf(const std::vector<imaging::Finding>& findings)
 {
@@ -87,7 +104,8 @@ QString remedyOf(const std::vector<imaging::Finding>& findings)
                          return std::find(kinds.begin(), kinds.end(), finding.kind) != kinds.end();
                        });
   };
-  if (isAny({Kind::MissingSlice, Kind::UnevenSpacing, Kind::Unreadable, Kind::MissingEnd}))
+  if (isAny({Kind::MissingSlice, Kind::UnevenSpacing, Kind::Unreadable, Kind::MissingEnd,
+             Kind::MissingBetween}))
     return CaseDocumentController::tr(
         "Copy or send the series again, with all of its slices: Library > Receive fetches it from "
         "the archive. Anatomy that is missing is not made up.");
@@ -697,7 +715,7 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
                             : tr("They must be of the same patient.%1"))
             .arg(sources.parts.mr.empty()
                      ? QString()
-                     : tr(" An MR is shown over the %1 once it is registered (F5).").arg(primary)),
+                     : tr(" An MR is shown over the %1 once it is registered.").arg(primary)),
         newCase.empty() ? tr("&Add to “%1”").arg(QString(name).replace('&', "&&"))
                         : tr("&Make the case"),
         parts, taken, mrs, primary, &m_window);
@@ -1588,6 +1606,9 @@ void CaseDocumentController::lookForDamage()
            "Or remove it (Library > Cases).");
   for (const std::string& one : m_model.leftOut())
     lines += tr("Left out, neither shown nor felt: %1.").arg(phrase(one));
+  if (m_model.hasCase())
+    for (const std::string& one : lostMrs(m_model.library(), m_model.value()))
+      lines += tr("Left out, neither shown nor felt: %1.").arg(phrase(one));
   for (const std::string& one : m_model.damagedStrokes())
     lines += tr("Damaged, and not applied: %1.").arg(phrase(one));
   if (const std::size_t undone = m_model.undoneForDamage())
@@ -1673,7 +1694,7 @@ void CaseDocumentController::exportPart(const QString& what, const QString& part
     if (mayDropDraft && !mayDropDraft())
       return;
     const FaceCheck faces = lookForFaces(m_model.value(), m_window);
-    if (!m_model.hasCase())
+    if (faces.isCancelled || !m_model.hasCase())
       return;
     std::optional<ExportDialog::Choices> proposed = m_exported;
     if (!what.isEmpty())
@@ -1774,7 +1795,8 @@ void CaseDocumentController::offerCtGrid(const presenters::ExportOptions& option
 }
 
 // Whether a face in the case's images goes along. False: the archive is not to be written.
-bool CaseDocumentController::askOfFace(const std::string& name, scene::ImageMask& mask)
+bool CaseDocumentController::askOfFace(const std::string& name, scene::ImageMask& mask,
+                                       std::vector<std::string>& withoutMrs)
 {
   const bool isOpen = m_model.hasCase() && m_model.value().name == name;
   scene::Case stored;
@@ -1787,24 +1809,56 @@ bool CaseDocumentController::askOfFace(const std::string& name, scene::ImageMask
   {
     return true; // archiving says what is wrong with the case
   }
-  const FaceCheck faces = lookForFaces(isOpen ? m_model.value() : stored, m_window);
+  const scene::Case& value = isOpen ? m_model.value() : stored;
+  const FaceCheck faces = lookForFaces(value, m_window);
+  if (faces.isCancelled || (isOpen && !m_model.hasCase()))
+    return false;
   if (!faces.mayHave())
     return true;
+  // Before the long work: what cannot be masked is left out, if it can be.
+  scene::Case rest = value;
+  std::vector<std::string> out;
+  QStringList outNames, faults;
+  bool canMask = true;
+  for (const scene::ImageWithFace& image : faces.images)
+    if (!image.fault.empty())
+      try
+      {
+        faults += sentence(capitalized(phrase(image.fault)));
+        canMask = canMask && !image.mr.empty();
+        if (image.mr.empty())
+          continue;
+        presenters::leaveOutMrs(rest, {image.mr});
+        out.push_back(image.mr);
+        outNames += textOf(image);
+      }
+      catch (const core::Error& error) // structures were drawn on it
+      {
+        faults += sentence(capitalized(toString(error)));
+        canMask = false;
+      }
   QMessageBox ask(QMessageBox::Warning, tr("Archive “%1”").arg(words(name)), textOf(faces),
                   QMessageBox::Cancel, &m_window);
   ask.setObjectName("archiveFace");
   ask.setTextFormat(Qt::PlainText);
-  auto* box = new QCheckBox(tr("Put air in place of the &face"));
+  ask.setInformativeText(faults.join('\n'));
+  auto* box =
+      new QCheckBox(out.empty() || !canMask ? tr("Put air in place of the &face")
+                                            : tr("Put air in place of the &face, and leave out %1")
+                                                  .arg(outNames.join(", ").replace('&', "&&")));
   box->setObjectName("archiveMaskFace");
   box->setToolTip(
       tr("In front of a plane about 50 mm behind the tip of the nose. What is segmented "
          "or drilled and the temporal bones stay; the case here does not change"));
-  box->setChecked(true);
+  box->setChecked(canMask);
+  box->setEnabled(canMask);
   ask.setCheckBox(box);
   auto* go = ask.addButton(tr("&Archive"), QMessageBox::AcceptRole);
   ask.setDefaultButton(go);
   ask.exec();
   mask.face = box->isChecked();
+  if (mask.face)
+    withoutMrs = std::move(out);
   return ask.clickedButton() == go;
 }
 
@@ -1823,6 +1877,7 @@ void CaseDocumentController::archive(const std::string& which)
   fs::path file;
   library::ArchiveOptions options;
   scene::ImageMask mask;
+  std::vector<std::string> withoutMrs;
   std::string name = which;
   {
     const QScopedValueRollback<bool> asking(m_asking, true);
@@ -1841,7 +1896,7 @@ void CaseDocumentController::archive(const std::string& which)
     {
       return refuse(toString(fault));
     }
-    if (!options.planOnly && !askOfFace(name, mask))
+    if (!options.planOnly && !askOfFace(name, mask, withoutMrs))
       return;
     if (isOpen)
     {
@@ -1851,10 +1906,10 @@ void CaseDocumentController::archive(const std::string& which)
     }
   }
   work(tr("Archiving %1").arg(words(name)),
-       [this, library = m_model.library(), name, file, mask,
+       [this, library = m_model.library(), name, file, mask, withoutMrs,
         options](const core::Progress& progress) mutable -> BackgroundWork::Reply
        {
-         options.prepare = presenters::maskForArchive(library, mask);
+         options.prepare = presenters::maskForArchive(library, mask, withoutMrs);
          const library::ArchiveSummary done =
              library::archiveCase(library, name, file, options, progress);
          const QString contents = contentsOf(library.open(name), done.planOnly);

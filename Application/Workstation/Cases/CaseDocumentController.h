@@ -109,7 +109,8 @@ signals:
   void working(const QString& title);      ///< on something with progress; empty: it has ended
 
 private:
-  bool askOfFace(const std::string& name, scene::ImageMask& mask);
+  bool askOfFace(const std::string& name, scene::ImageMask& mask,
+                 std::vector<std::string>& withoutMrs);
   using Sources = std::vector<presenters::SourceContent>;
   /// How files were chosen.
   struct Purpose

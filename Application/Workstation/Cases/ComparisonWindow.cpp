@@ -184,8 +184,22 @@ void ComparisonWindow::setApproaches(const QStringList& names, const std::array<
 
 void ComparisonWindow::setStamp(const QString& text)
 {
-  for (ThreeDView* view : m_views)
-    view->setStamp(text);
+  m_stamp = text;
+  stampViews();
+}
+
+// A picture names the approach that it shows; of both in one, the legend tells.
+void ComparisonWindow::stampViews()
+{
+  for (std::size_t n = 0; n < m_views.size(); ++n)
+  {
+    QStringList parts;
+    if (m_comparison && !showsDifference())
+      parts += words(m_comparison->sides[n].name);
+    if (!m_stamp.isEmpty())
+      parts += m_stamp;
+    m_views[n]->setStamp(parts.join(QString::fromUtf8(" · ")));
+  }
 }
 
 void ComparisonWindow::setCamera(const core::CameraPose& camera)
@@ -245,6 +259,7 @@ void ComparisonWindow::draw()
 {
   if (!m_comparison)
     return;
+  stampViews();
   const auto& sides = m_comparison->sides;
   const bool isDifference = showsDifference();
   m_views[1]->setVisible(!isDifference);

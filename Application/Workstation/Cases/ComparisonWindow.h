@@ -56,6 +56,7 @@ protected:
 private:
   void showWork(bool working, const QString& fault);
   void draw();
+  void stampViews();
   void fillTable();
   void addRow(const QString& what, const QString& first, const QString& second,
               const QString& tip = {});
@@ -69,6 +70,7 @@ private:
   QProgressBar* m_progress;
   QPushButton* m_cancel; // beside the progress
   QTableWidget* m_table;
+  QString m_stamp; // of the case
   rendering::SceneContents m_contents;
   std::shared_ptr<const presenters::ApproachComparison> m_comparison;
   bool m_isTurning = false;

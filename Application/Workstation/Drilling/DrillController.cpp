@@ -81,6 +81,13 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
           [this](const QString& why)
           {
             const QString file = m_fileRead;
+            if (file.isEmpty()) // of the case, which keeps it as it is
+            {
+              m_ofCase.reset();
+              emit statusMessage({});
+              emit instrumentRefused(why);
+              return;
+            }
             if (file == m_instrumentFile)
               m_instrumentFile.clear(); // the user is asked next time
             emit statusMessage({});
@@ -323,14 +330,11 @@ void DrillController::makeInstrument(const QString& file, const QString& axis,
   m_fileRead = file;
   const auto taken = std::make_shared<presenters::InstrumentSurface>(std::move(surface));
   m_reading.replace(
-      [this, file, axis, taken](const core::Progress& progress) -> BackgroundWork::Reply
+      [this, file, axis, taken](const core::Progress& progress)
       {
-        const auto made = std::make_shared<presenters::LoadedInstrument>(
-            presenters::makeInstrument(std::move(*taken), bytes(axis), progress));
-        const auto measured =
-            std::make_shared<const presenters::MeasuredTool>(*made->instrument->shell);
-        return [this, file, axis, made, measured]
-        { instrumentCame(file, axis, std::move(*made), measured); };
+        const auto kept =
+            presenters::keptInstrument(*taken, bytes(axis)); // before it is moved from
+        return made(file, kept, std::move(*taken), progress);
       });
 }
 
@@ -339,25 +343,62 @@ void DrillController::readInstrument(const QString& file, const QString& axis)
   emit statusMessage(tr("Reading the instrument…"));
   m_fileRead = file;
   m_reading.replace(
-      [this, file, axis](const core::Progress& progress) -> BackgroundWork::Reply
+      [this, file, axis](const core::Progress& progress)
       {
-        const auto read = std::make_shared<presenters::LoadedInstrument>(
-            presenters::readInstrument(pathOf(file), bytes(axis), progress));
-        const auto measured =
-            std::make_shared<const presenters::MeasuredTool>(*read->instrument->shell);
-        return [this, file, axis, read, measured]
-        { instrumentCame(file, axis, std::move(*read), measured); };
+        presenters::InstrumentSurface surface =
+            presenters::readInstrumentSurface(pathOf(file), progress.part(0.0, 0.5));
+        const auto kept = presenters::keptInstrument(surface, bytes(axis));
+        return made(file, kept, std::move(surface), progress.part(0.5, 1.0));
       });
 }
 
-void DrillController::instrumentCame(const QString& file, const QString& axis,
+void DrillController::setCaseInstrument(
+    const std::optional<scene::ViewState::Instrument>& instrument)
+{
+  const bool isLoaded = m_loaded && instrument && *m_loaded == *instrument;
+  m_ofCase = instrument;
+  if (isLoaded || (!instrument && !m_isLoadedFromCase))
+    return;
+  m_instrument.reset(); // it is read when it is taken up
+  m_measured.reset();
+  m_loaded.reset();
+}
+
+void DrillController::readCaseInstrument()
+{
+  emit statusMessage(tr("Reading the instrument…"));
+  m_fileRead.clear();
+  m_reading.replace(
+      [this, kept = *m_ofCase, unnamed = bytes(tr("instrument"))](const core::Progress& progress)
+      { return made({}, kept, presenters::surfaceOf(kept, unnamed), progress); });
+}
+
+BackgroundWork::Reply DrillController::made(const QString& file,
+                                            const scene::ViewState::Instrument& kept,
+                                            presenters::InstrumentSurface surface,
+                                            const core::Progress& progress)
+{
+  const auto instrument = std::make_shared<presenters::LoadedInstrument>(
+      presenters::makeInstrument(std::move(surface), kept.axis, progress));
+  const auto measured =
+      std::make_shared<const presenters::MeasuredTool>(*instrument->instrument->shell);
+  return [this, file, kept, instrument, measured]
+  { instrumentCame(file, kept, std::move(*instrument), measured); };
+}
+
+void DrillController::instrumentCame(const QString& file, const scene::ViewState::Instrument& kept,
                                      presenters::LoadedInstrument instrument,
                                      std::shared_ptr<const presenters::MeasuredTool> measured)
 {
-  setInstrument(file, axis);
   m_instrument = std::move(instrument.instrument);
   m_measured = std::move(measured);
-  emit instrumentRead(file, axis);
+  m_loaded = m_ofCase = kept;
+  m_isLoadedFromCase = file.isEmpty();
+  if (!file.isEmpty())
+  {
+    setInstrument(file, words(kept.axis));
+    emit instrumentRead(file, words(kept.axis));
+  }
   const bool isTaken = !m_model.drilling(); // an open stroke goes on
   if (isTaken && m_tool == Tool::Instrument)
   {
@@ -409,9 +450,13 @@ void DrillController::setTool(Tool tool)
   if (tool == Tool::Instrument && !m_instrument)
   {
     m_bar.instrumentAction()->setChecked(false); // until it is read
+    if (m_ofCase)
+      return readCaseInstrument();
     return m_instrumentFile.isEmpty() ? chooseInstrument()
                                       : readInstrument(m_instrumentFile, m_instrumentAxis);
   }
+  if (tool == Tool::Instrument)
+    m_ofCase = m_loaded;
   m_view.tool().DrillModeOff(); // stops the drill first
   m_view.tool().ProbeModeOff();
   putAway();
@@ -763,6 +808,11 @@ QString DrillController::whyStalled(const TickRecord& record) const
            : held == TickRecord::kHandpiece
                ? tr("The handpiece lies on tissue and holds the burr off")
                : tr("Shaft and handpiece lie on tissue and hold the burr off");
+  if (m_stall.cannotArrive())
+    return record.held != 0
+               ? tr("Shaft or handpiece keep the burr from where you press: turn the handpiece, or "
+                    "press where the burr rests")
+               : tr("Tissue keeps the burr from where you press: press where the burr rests");
   if (!m_stall.stalls())
     return {};
   const Eigen::Vector3d force(record.burrForce[0], record.burrForce[1], record.burrForce[2]);

@@ -46,6 +46,13 @@ public:
   /// Reads it in the background and takes it up, unless another tool or case came meanwhile
   /// (setTool, releaseTool) or a stroke is open. axis: of presenters::kInstrumentAxes.
   void readInstrument(const QString& file, const QString& axis);
+  /// The instrument of the open case, which comes first; nullopt: it has none.
+  void setCaseInstrument(const std::optional<scene::ViewState::Instrument>& instrument);
+  /// That one, or the one that was taken up since: what the case is to keep.
+  const std::optional<scene::ViewState::Instrument>& caseInstrument() const noexcept
+  {
+    return m_ofCase;
+  }
   /// Asks the user for a file, reads it in the background, and then asks for the axis.
   void chooseInstrument();
 
@@ -95,7 +102,11 @@ private:
   void askAxis(const QString& file, presenters::InstrumentSurface surface);
   void makeInstrument(const QString& file, const QString& axis,
                       presenters::InstrumentSurface surface);
-  void instrumentCame(const QString& file, const QString& axis,
+  void readCaseInstrument();
+  /// What makes an instrument of a surface; `file` is empty if that is the case's. For m_reading.
+  BackgroundWork::Reply made(const QString& file, const scene::ViewState::Instrument& kept,
+                             presenters::InstrumentSurface surface, const core::Progress& progress);
+  void instrumentCame(const QString& file, const scene::ViewState::Instrument& kept,
                       presenters::LoadedInstrument instrument,
                       std::shared_ptr<const presenters::MeasuredTool> measured);
   void follow(const Eigen::Vector3d& tip);
@@ -132,8 +143,11 @@ private:
   BackgroundWork m_reading;     // of an instrument
   std::shared_ptr<const session::Instrument> m_instrument;
   std::shared_ptr<const presenters::MeasuredTool> m_measured; // it
+  std::optional<scene::ViewState::Instrument> m_loaded;       // it, as a case keeps it
+  std::optional<scene::ViewState::Instrument> m_ofCase;
+  bool m_isLoadedFromCase = false;
   QString m_instrumentFile, m_instrumentAxis;
-  QString m_fileRead;                   // the one being read
+  QString m_fileRead;                   // the one being read; empty: the case's instrument
   std::optional<Eigen::Vector3d> m_tip; // last one probed, or followed
   QTimer m_frames;
   QTimer m_anew;

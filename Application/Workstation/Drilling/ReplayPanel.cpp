@@ -372,6 +372,11 @@ void ReplayPanel::showMetrics()
   add(tr("Time"), durationText(metrics.duration));
   add(tr("Time drilling"), durationText(metrics.drilling));
   add(tr("Drill switched on"), QString::number(metrics.drillStarts));
+  if (m_review->speed)
+  {
+    add(tr("Mean speed drilling"), fixed(m_review->speed->mean, 0, tr("/min")));
+    add(tr("Highest speed"), fixed(m_review->speed->max, 0, tr("/min")));
+  }
   add(tr("Path of the burr"), fixed(metrics.path, 1, tr("mm")));
   add(tr("Path drilling"), fixed(metrics.drillingPath, 1, tr("mm")));
   add(tr("Mean force drilling"), fixed(metrics.meanForce, 2, tr("N")));

@@ -8,44 +8,26 @@
 namespace petrous::workstation
 {
 
-namespace
-{
-constexpr int kAgain = 60; // ms; faster than anyone can read
-}
-
-ToolWarnings::ToolWarnings(presenters::WorkstationModel& model, QObject* parent)
+ToolWarnings::ToolWarnings(QObject* parent)
   : QObject(parent)
-  , m_model(model)
 {
 }
 
-void ToolWarnings::toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose)
+void ToolWarnings::show(const presenters::ToolSurroundings& near)
 {
-  if (m_sinceAsked.isValid() && m_sinceAsked.elapsed() < kAgain)
-    return;
-  m_sinceAsked.start();
-  try
-  {
-    const auto warnings = m_model.warnings(tool, pose);
-    // The user must know that there can be no warnings yet, or not of all.
-    if (warnings)
-    {
-      QStringList lines{phrase(*warnings), phrase(m_model.unmeasuredNearby())};
-      lines.removeAll({});
-      warn(lines.join('\n'), !warnings->empty());
-    }
-    else
-      warn(tr("no warnings yet: structures are being measured"));
-  }
-  catch (const std::exception&) // out of memory, a missing file; the panel shows which
-  {
-    warn(tr("no warnings: the structures cannot be measured"));
-  }
+  if (!near.fault.empty()) // the panel shows which
+    return warn(tr("no warnings: the structures cannot be measured"));
+  // The user must know that there can be no warnings yet, or not of all.
+  if (!near.isMeasured)
+    return warn(tr("no warnings yet: structures are being measured"));
+  const std::string warnings = presenters::warningsOf(near.structures);
+  QStringList lines{phrase(warnings), phrase(near.unmeasured)};
+  lines.removeAll({});
+  warn(lines.join('\n'), !warnings.empty());
 }
 
 void ToolWarnings::toolGone()
 {
-  m_sinceAsked.invalidate();
   warn({});
 }
 

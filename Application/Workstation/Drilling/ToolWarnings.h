@@ -1,9 +1,8 @@
 #pragma once
 
-#include <QElapsedTimer>
 #include <QObject>
 
-#include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Presenters/NearbyStructures.h"
 
 namespace petrous::workstation
 {
@@ -14,10 +13,9 @@ class ToolWarnings : public QObject
 {
   Q_OBJECT
 public:
-  explicit ToolWarnings(presenters::WorkstationModel& model, QObject* parent = nullptr);
+  explicit ToolWarnings(QObject* parent = nullptr);
 
-  /// At X_PT.
-  void toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose);
+  void show(const presenters::ToolSurroundings& near);
   void toolGone(); ///< it was put away
 
 signals:
@@ -29,8 +27,6 @@ signals:
 private:
   void warn(const QString& lines, bool near = false);
 
-  presenters::WorkstationModel& m_model;
-  QElapsedTimer m_sinceAsked;
   QString m_warned;
   bool m_alarmed = false;
 };

@@ -176,7 +176,10 @@ void ExchangeController::send(const std::string& which)
 
 void ExchangeController::offer(const scene::Case& value, const std::vector<network::Node>& nodes)
 {
-  SendDialog dialog(value, m_model.library(), lookForFaces(value, m_window), nodes, &m_window);
+  const FaceCheck faces = lookForFaces(value, m_window);
+  if (faces.isCancelled)
+    return;
+  SendDialog dialog(value, m_model.library(), faces, nodes, &m_window);
   if (dialog.exec() != QDialog::Accepted)
     return;
   const std::string name = value.name;

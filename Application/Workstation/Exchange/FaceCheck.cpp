@@ -5,9 +5,11 @@
 #include <QApplication>
 #include <QEventLoop>
 #include <QProgressDialog>
+#include <QTimer>
 
 #include "BackgroundWork.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/CaseTransfer.h"
 
 namespace petrous::workstation
@@ -28,29 +30,59 @@ struct WaitCursor
 
 FaceCheck lookForFaces(const scene::Case& value, QWidget& parent)
 {
-  const WaitCursor cursor;
-  QProgressDialog progress(QObject::tr("Looking for a face in the images…"), {}, 0, 0, &parent);
-  progress.setObjectName("faceProgress");
-  progress.setWindowModality(Qt::WindowModal);
-  progress.setMinimumDuration(500);
-  progress.setValue(0);
+  constexpr int kShownAfter = 500; // ms
   FaceCheck result{{}, false};
   QEventLoop loop;
   BackgroundWork work; // ends before what it refers to
-  QObject::connect(&work, &BackgroundWork::failed, &loop, &QEventLoop::quit);
-  QObject::connect(&work, &BackgroundWork::cancelled, &loop, &QEventLoop::quit);
+  bool isDone = false;
+  const auto done = [&loop, &isDone]
+  {
+    isDone = true;
+    loop.quit();
+  };
+  QObject::connect(&work, &BackgroundWork::failed, &loop, done);
+  QObject::connect(&work, &BackgroundWork::cancelled, &loop, done);
   const auto copy = std::make_shared<const scene::Case>(value); // shares voxels
   work.start(
-      [&result, &loop, copy](const core::Progress&) -> BackgroundWork::Reply
+      [&result, done, copy](const core::Progress& progress) -> BackgroundWork::Reply
       {
-        return [&result, &loop, images = presenters::facesToMask(*copy)]
+        return [&result, done, images = presenters::facesToMask(*copy, progress)]
         {
-          result = {images, true};
-          loop.quit();
+          result.images = images;
+          result.isKnown = true;
+          done();
         };
       });
-  loop.exec(QEventLoop::ExcludeUserInputEvents);
+  {
+    const WaitCursor cursor;
+    QTimer::singleShot(kShownAfter, &loop, &QEventLoop::quit);
+    loop.exec(QEventLoop::ExcludeUserInputEvents);
+  }
+  if (isDone)
+    return result;
+  QProgressDialog progress(QObject::tr("Looking for a face in the images…"), QObject::tr("Cancel"),
+                           0, 0, &parent); // it cannot be told how far it is
+  progress.setObjectName("faceProgress");
+  progress.setWindowModality(Qt::WindowModal);
+  progress.setAutoReset(false);
+  progress.setAutoClose(false);
+  progress.setMinimumDuration(0);
+  QObject::connect(&progress, &QProgressDialog::canceled, &work,
+                   [&work, &result, done]
+                   {
+                     result.isCancelled = true;
+                     work.cancel();
+                     done(); // the work is joined where it goes out of scope
+                   });
+  progress.show();
+  while (!isDone)
+    loop.exec();
   return result;
+}
+
+QString textOf(const scene::ImageWithFace& image)
+{
+  return image.mr.empty() ? phrase(image.text) : QObject::tr("MR “%1”").arg(words(image.mr));
 }
 
 QString textOf(const FaceCheck& faces)
@@ -59,8 +91,8 @@ QString textOf(const FaceCheck& faces)
     return QObject::tr("Whether a face can be recognised is not known, as an image of the case "
                        "could not be read.");
   QStringList images;
-  for (const std::string& image : faces.images)
-    images += words(image);
+  for (const scene::ImageWithFace& image : faces.images)
+    images += textOf(image);
   return images.isEmpty() ? QString()
                           : QObject::tr("A face can be recognised in %1.").arg(images.join(", "));
 }

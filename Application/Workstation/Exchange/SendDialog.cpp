@@ -123,8 +123,15 @@ void SendDialog::update()
   m_send->setEnabled(any);
   if (!any)
     return m_report->setPlainText(tr("Nothing is chosen."));
-  const auto* faces = m_faces.isKnown ? &m_faces.images : nullptr;
+  std::vector<std::string> images;
+  for (const scene::ImageWithFace& image : m_faces.images)
+    images.push_back(image.text);
+  const auto* faces = m_faces.isKnown ? &images : nullptr;
   QString text = phrase(presenters::identityReport(m_value, what, faces, &m_library).text());
+  if (what.mask.face)
+    for (const scene::ImageWithFace& image : m_faces.images)
+      if (!image.fault.empty())
+        text += '\n' + phrase(image.fault);
   if (!m_faces.isKnown)
     text += '\n' + textOf(m_faces);
   m_report->setPlainText(text);

@@ -134,6 +134,7 @@ MeasureController::MeasureController(presenters::WorkstationModel& model, SliceC
   m_view.installEventFilter(this);
   m_editor.events.changed = [this] { refresh(); };
   m_editor.events.hovered = [this] { draw(); };
+  m_editor.inLanguage = [](const std::string& name) { return bytes(phrase(name)); };
   m_editor.inBackground = [this](MeasurementEditor::Work work) { compute(std::move(work)); };
   connect(m_computing.get(), &BackgroundWork::progressed, this,
           [this](double fraction)
@@ -158,6 +159,7 @@ MeasureController::MeasureController(presenters::WorkstationModel& model, SliceC
 MeasureController::~MeasureController()
 {
   m_editor.events = {};
+  m_editor.inLanguage = {};
   m_editor.inBackground = {};
   m_view.removeEventFilter(this);
 }

@@ -145,9 +145,10 @@ bool MeasureOverlay::set(const std::vector<DrawnMeasure>& measures)
     place->SetReferenceCoordinate(one->anchor);
     place->SetValue(kAway, kAway);
     one->label->PickableOff();
-    m_renderer->AddViewProp(one->label);
     m_drawn.push_back(std::move(one));
   }
+  for (const auto& one : m_drawn) // over all lines and handles
+    m_renderer->AddViewProp(one->label);
   return true;
 }
 
@@ -175,6 +176,12 @@ void MeasureOverlay::place()
   const double scale = pixelsPerPoint(*m_renderer); // another one on another screen
   const double away = scale * kAway;
   const double line = scale * kLine;
+  // A label lies on no handle, of its own or another's.
+  const double reach = scale * (0.5 * kDot + 3.0);
+  for (const DrawnMeasure& measure : m_measures)
+    for (const std::size_t handle : measure.handles)
+      if (const auto at = pixelOf(measure.points[handle]))
+        taken.push_back({(*at)[0] - reach, (*at)[0] + reach, (*at)[1] - reach, (*at)[1] + reach});
   for (std::size_t n = 0; n < m_drawn.size(); ++n)
   {
     Drawn& one = *m_drawn[n];

@@ -24,6 +24,7 @@ namespace petrous::workstation
 namespace
 {
 constexpr int kSettle = 150;   // ms
+constexpr int kAwait = 100;    // ms, from frame to frame
 constexpr double kRate = 30.0; // Hz, target frame rate
 // A machine that takes so long for a picture gets as long a pause after each part of more samples.
 constexpr double kSlow = 500.0; // ms
@@ -70,6 +71,9 @@ SceneDisplay::SceneDisplay(vtkGenericOpenGLRenderWindow& window, std::function<b
           });
   m_refine.setSingleShot(true);
   connect(&m_refine, &QTimer::timeout, this, &SceneDisplay::refine);
+  m_await.setSingleShot(true);
+  m_await.setInterval(kAwait);
+  connect(&m_await, &QTimer::timeout, this, [this] { redraw(); });
   m_rests.start();
   setRate();
 }
@@ -80,6 +84,7 @@ void SceneDisplay::release()
 {
   m_settle.stop();
   m_refine.stop();
+  m_await.stop();
   for (const unsigned long observer : m_observers)
     m_window.RemoveObserver(observer);
   m_shown = [] { return false; };
@@ -383,6 +388,8 @@ void SceneDisplay::frameEnded()
   // A large undo is uploaded to the GPU over several frames.
   if (!m_failing && m_picture.statistics().pendingEdits > 0)
     QTimer::singleShot(0, this, [this] { redraw(m_moving); });
+  if (!m_failing && m_picture.statistics().pendingShadow && !m_await.isActive())
+    m_await.start();
   refineSoon();
 }
 

@@ -130,6 +130,7 @@ private:
   QPointer<SceneDisplay> m_follower;
   QTimer m_settle;
   QTimer m_refine;
+  QTimer m_await; // until an instrument's shadow has been measured
   int m_samples;
   QElapsedTimer m_rests; // since the last motion
   QElapsedTimer m_clock;

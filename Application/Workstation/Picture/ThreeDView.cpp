@@ -7,6 +7,7 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMouseEvent>
+#include <QRegion>
 
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
@@ -23,6 +24,7 @@ namespace petrous::workstation
 namespace
 {
 constexpr int kLetterMargin = 10; // px
+constexpr int kFrame = 2;         // px, of what has the keyboard focus
 constexpr double kFine = 0.2;     // of a notch of the wheel, with Shift
 constexpr double kDegreesPerNotch = 5.0;
 } // namespace
@@ -53,8 +55,12 @@ ThreeDView::ThreeDView(QWidget* parent)
   m_notes->setObjectName("guessed");
   m_notes->setTextFormat(Qt::PlainText);
   m_notes->setAttribute(Qt::WA_TransparentForMouseEvents);
-  m_notes->move(kLetterMargin, kLetterMargin);
   m_notes->hide();
+  m_focusFrame = new QWidget(this);
+  m_focusFrame->setObjectName("focusFrame");
+  m_focusFrame->setAttribute(Qt::WA_StyledBackground);
+  m_focusFrame->setAttribute(Qt::WA_TransparentForMouseEvents);
+  m_focusFrame->hide();
   observe();
 }
 
@@ -130,6 +136,7 @@ void ThreeDView::setNotes(const QStringList& lines)
   m_notes->setText(lines.join('\n'));
   m_notes->adjustSize();
   m_notes->setVisible(!lines.isEmpty());
+  placeNotes();
   if (lines == m_noteLines)
     return;
   m_noteLines = lines;
@@ -148,6 +155,25 @@ void ThreeDView::placeStamp()
   m_stamp->move(left, isBeside ? kLetterMargin : top.geometry().bottom() + kLetterMargin / 2);
 }
 
+// Below letter and stamp where there is no room beside them.
+void ThreeDView::placeNotes()
+{
+  int top = kLetterMargin;
+  const QLabel* const others[] = {m_letters[2], m_stamp};
+  for (const QLabel* other : others)
+    if (!other->isHidden() && QRect({kLetterMargin, top}, m_notes->size())
+                                  .adjusted(0, 0, kLetterMargin / 2, 0)
+                                  .intersects(other->geometry()))
+      top = other->geometry().bottom() + kLetterMargin / 2;
+  m_notes->move(kLetterMargin, top);
+}
+
+void ThreeDView::placeFocusFrame()
+{
+  m_focusFrame->setGeometry(rect());
+  m_focusFrame->setMask(QRegion(rect()) - rect().adjusted(kFrame, kFrame, -kFrame, -kFrame));
+}
+
 void ThreeDView::placeLetters()
 {
   // In stereo they would float in front of or behind the patient.
@@ -157,7 +183,7 @@ void ThreeDView::placeLetters()
   m_stamp->setVisible(mono && !m_stampText.isEmpty());
   m_display->setFirstRow(mapToGlobal(QPoint(0, 0)).y());
   if (!mono)
-    return;
+    return placeNotes();
   const auto edges = interaction::edgeDirections(picture().camera());
   const std::string* const texts[] = {&edges.left, &edges.right, &edges.top, &edges.bottom};
   for (std::size_t n = 0; n < m_letters.size(); ++n)
@@ -174,12 +200,14 @@ void ThreeDView::placeLetters()
   put(2, middle(across, m_letters[2]->width()), kLetterMargin);
   put(3, middle(across, m_letters[3]->width()), down - kLetterMargin - m_letters[3]->height());
   placeStamp();
+  placeNotes();
 }
 
 void ThreeDView::resizeEvent(QResizeEvent* event)
 {
   QVTKOpenGLNativeWidget::resizeEvent(event);
   placeLetters();
+  placeFocusFrame();
 }
 
 void ThreeDView::setCamera(const core::CameraPose& pose)
@@ -246,7 +274,14 @@ bool ThreeDView::event(QEvent* event)
                           QApplication::keyboardModifiers()));
     return taken;
   }
+  case QEvent::FocusIn:
+  {
+    const Qt::FocusReason reason = static_cast<QFocusEvent*>(event)->reason();
+    m_focusFrame->setVisible(reason == Qt::TabFocusReason || reason == Qt::BacktabFocusReason);
+    break;
+  }
   case QEvent::FocusOut: // a release event sent to another window would leave the drill on
+    m_focusFrame->hide();
     m_tool->Release();
     m_style->OnLeftButtonUp();
     m_style->OnMiddleButtonUp();

@@ -75,6 +75,8 @@ private:
   void sendWheel(const QWheelEvent& event);
   void placeLetters();
   void placeStamp();
+  void placeNotes();
+  void placeFocusFrame();
 
   vtkNew<vtkGenericOpenGLRenderWindow> m_window;
   std::unique_ptr<SceneDisplay> m_display;
@@ -86,6 +88,7 @@ private:
   QString m_stampText;              // whole
   std::optional<QPointF> m_clicked; // where the left button went down, until the pointer leaves
   QLabel* m_notes;
+  QWidget* m_focusFrame; // while the keyboard focus came by Tab
   QStringList m_noteLines;
 };
 

@@ -167,6 +167,8 @@ ViewStateController::State ViewStateController::present() const
   state.view.light = m_picture.settings().lightState();
   state.view.stereo = m_picture.settings().stereoState();
   state.view.tool = {m_bar.wanted(), m_bar.thrust(), m_bar.wheelAction()->isChecked()};
+  if (instrument)
+    state.view.instrument = instrument();
   return state;
 }
 
@@ -188,6 +190,8 @@ void ViewStateController::show()
     m_bar.setThrust(view.tool->thrust);
     m_bar.wheelAction()->setChecked(view.tool->byWheel);
   }
+  if (showInstrument)
+    showInstrument(view.instrument);
   m_shown = present();
   fillSaved();
 }
@@ -209,6 +213,7 @@ void ViewStateController::collect()
   take(view.light, now.view.light, m_shown.view.light, all);
   take(view.stereo, now.view.stereo, m_shown.view.stereo, all);
   take(view.tool, now.view.tool, m_shown.view.tool, all);
+  take(view.instrument, now.view.instrument, m_shown.view.instrument, all);
   m_model.setView(view);
   m_shown = now;
 }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include <QObject>
 
 #include "petrous/Presenters/WorkstationModel.h"
@@ -35,6 +38,10 @@ public:
   void savedViewsChanged(); ///< of the model
   /// Camera and slices, under a name of the user's; they are saved with the case.
   QMenu* savedMenu() const noexcept { return m_savedMenu; }
+
+  /// The instrument that the case is to keep, and the one that it has.
+  std::function<std::optional<scene::ViewState::Instrument>()> instrument;
+  std::function<void(const std::optional<scene::ViewState::Instrument>&)> showInstrument;
 
   core::CameraPose camera() const; ///< as a save would store it
   void showCamera(const core::CameraPose& camera);

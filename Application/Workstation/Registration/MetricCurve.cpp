@@ -22,8 +22,9 @@ MetricCurve::MetricCurve(QWidget* parent)
 {
   setObjectName("metricCurve");
   setToolTip(
-      tr("Mutual information while the registration runs, nats; higher is better. A vertical "
-         "line: the next finer level, with a scale of its own"));
+      tr("Mutual information while the registration runs, nats; within a level, higher is better. "
+         "A vertical line and a number: the next finer level, with a scale of its own. Values of "
+         "two levels are not comparable: on finer images it is lower"));
   setAccessibleName(tr("Metric while the registration runs"));
 }
 
@@ -50,7 +51,7 @@ void MetricCurve::paintEvent(QPaintEvent*)
   painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));
   if (m_points.empty())
     return;
-  const QRectF area = QRectF(rect()).adjusted(kMargin, kMargin + 12, -kMargin, -kMargin);
+  const QRectF area = QRectF(rect()).adjusted(kMargin, kMargin + 12, -kMargin, -kMargin - 8);
   const double step =
       m_points.size() > 1 ? area.width() / static_cast<double>(m_points.size() - 1) : 0.0;
   for (std::size_t first = 0; first < m_points.size();)
@@ -80,6 +81,9 @@ void MetricCurve::paintEvent(QPaintEvent*)
       painter.setPen(kFrame);
       painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
     }
+    painter.setPen(kInk);
+    painter.drawText(QPointF(area.left() + step * static_cast<double>(first), area.bottom() + 5.0),
+                     QString::number(m_points[first].level + 1));
     painter.setPen(QPen(kLine, 1.6));
     painter.drawPath(path);
     first = end;

@@ -222,6 +222,14 @@ bool RegistrationController::running() const
 
 void RegistrationController::caseChanged()
 {
+  const bool stopped = running();
+  beginAnew();
+  if (stopped)
+    emit statusMessage(tr("The registration ended with its case; the MR lies as before"));
+}
+
+void RegistrationController::beginAnew()
+{
   m_run->drop();
   m_waiting.reset();
   delete m_question; // of the previous case
@@ -241,7 +249,7 @@ void RegistrationController::partsChanged()
 {
   const std::string onto = m_session.aim().onto;
   if (!m_session.partsChanged())
-    return caseChanged();
+    return beginAnew();
   enableMenu();
   if (running() && m_session.aim().onto != onto)
   {

@@ -62,6 +62,7 @@ private:
   QAction* addAction(const QString& text, const QKeySequence& keys, const QString& tip);
   void connectPanel();
   void chosen();
+  void beginAnew(); ///< of another case, or without the MR that was chosen
   void nameImages();
   void enableMenu();
   void moveManually(const std::function<void()>& move);

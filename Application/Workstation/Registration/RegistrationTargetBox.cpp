@@ -2,10 +2,14 @@
 
 #include <algorithm>
 
+#include <QAbstractItemView>
 #include <QComboBox>
 #include <QFormLayout>
 #include <QLabel>
+#include <QScrollBar>
 #include <QSpinBox>
+#include <QStyleOptionComboBox>
+#include <QStylePainter>
 
 #include "Theme.h"
 #include "WindowTexts.h"
@@ -20,6 +24,55 @@ using Aim = presenters::RegistrationAim;
 constexpr int kWhole = 10; // mm; shown as text
 constexpr int kLargestBox = 250;
 constexpr int kFirstStructure = 2; // row of m_place
+constexpr int kWidestList = 600;   // px
+
+// Of names, which often differ at their ends: what has no room is elided in its middle.
+class NameBox : public QComboBox
+{
+public:
+  using QComboBox::QComboBox;
+
+  void showPopup() override
+  {
+    constexpr int kBeside = 16; // px, margins and frame
+    view()->setTextElideMode(Qt::ElideMiddle);
+    int wanted = 0;
+    for (int row = 0; row < count(); ++row)
+      wanted = std::max(wanted, view()->fontMetrics().horizontalAdvance(itemText(row)));
+    wanted += kBeside + view()->verticalScrollBar()->sizeHint().width();
+    view()->setMinimumWidth(std::min(wanted, kWidestList));
+    QComboBox::showPopup();
+  }
+
+protected:
+  void paintEvent(QPaintEvent*) override
+  {
+    QStyleOptionComboBox option;
+    initStyleOption(&option);
+    const int room =
+        style()
+            ->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, this)
+            .width() -
+        2; // px, which the style leaves beside the text
+    option.currentText = fontMetrics().elidedText(currentText(), Qt::ElideMiddle, room);
+    QStylePainter painter(this);
+    painter.drawComplexControl(QStyle::CC_ComboBox, option);
+    painter.drawControl(QStyle::CE_ComboBoxLabel, option);
+  }
+};
+
+// What tells a place from another one whose name is alike.
+QString detailOf(const presenters::PlaceChoice& place)
+{
+  QStringList details;
+  if (place.isMesh)
+    details += RegistrationTargetBox::tr("mesh");
+  if (!place.drawnOn.empty())
+    details += RegistrationTargetBox::tr("drawn on %1").arg(words(place.drawnOn));
+  if (place.volume > 0.0)
+    details += words(presenters::cubicMillimetres(place.volume));
+  return details.join(", ");
+}
 } // namespace
 
 RegistrationTargetBox::RegistrationTargetBox(presenters::RegistrationSession& session,
@@ -83,10 +136,8 @@ void RegistrationTargetBox::addBox()
 
 void RegistrationTargetBox::addPlace()
 {
-  m_place = choiceBox("registrationPlace",
-                      tr("Where the error is stated. The middle ear: an ossicle, or else the "
-                         "tympanic cavity or the inner ear; without these the centre of what both "
-                         "images show"));
+  m_place = new NameBox;
+  m_place->setObjectName("registrationPlace");
   m_place->setMaxVisibleItems(12);
   m_place->setStyleSheet("QComboBox { combobox-popup: 0; }"); // else some styles show all of them
   addChoice(tr("Error &at"), m_place);
@@ -118,22 +169,27 @@ void RegistrationTargetBox::addPlace()
 
 void RegistrationTargetBox::fillPlaces()
 {
-  QStringList names;
-  for (const std::string& name : m_session.placeNames())
-    names << words(name);
-  std::sort(names.begin(), names.end(),
-            [](const QString& a, const QString& b)
-            { return QString::localeAwareCompare(shownName(bytes(a)), shownName(bytes(b))) < 0; });
-  QStringList shown;
-  for (int n = kFirstStructure; n < m_place->count(); ++n)
-    shown << m_place->itemData(n).toString();
-  if (names == shown && m_place->count() >= kFirstStructure)
-    return;
-  m_place->clear();
-  m_place->addItem(tr("the middle ear"));
-  m_place->addItem(tr("the crosshair"));
-  for (const QString& name : names)
-    m_place->addItem(shownName(bytes(name)), name);
+  auto places = m_session.placeChoices();
+  std::sort(places.begin(), places.end(),
+            [](const presenters::PlaceChoice& a, const presenters::PlaceChoice& b)
+            { return QString::localeAwareCompare(shownName(a.name), shownName(b.name)) < 0; });
+  while (m_place->count() > static_cast<int>(places.size()) + kFirstStructure)
+    m_place->removeItem(m_place->count() - 1);
+  if (m_place->count() == 0)
+    m_place->addItems({tr("the middle ear"), tr("the crosshair")});
+  for (std::size_t n = 0; n < places.size(); ++n)
+  {
+    const presenters::PlaceChoice& place = places[n];
+    const int row = kFirstStructure + static_cast<int>(n);
+    const QString name = shownName(place.name);
+    const QString detail = detailOf(place);
+    const QString whole = detail.isEmpty() ? name : tr("%1 (%2)").arg(name, detail);
+    if (row == m_place->count())
+      m_place->addItem(QString());
+    m_place->setItemText(row, place.isAlike ? whole : name);
+    m_place->setItemData(row, words(place.name));
+    m_place->setItemData(row, whole, Qt::ToolTipRole);
+  }
 }
 
 void RegistrationTargetBox::refresh()
@@ -160,12 +216,16 @@ void RegistrationTargetBox::refresh()
   const bool choice = m_onto->count() > 1;
   m_onto->setVisible(choice);
   m_form->labelForField(m_onto)->setVisible(choice);
-  showPlaceNote();
   m_bound.refresh();
+  showPlaceNote();
 }
 
 void RegistrationTargetBox::showPlaceNote()
 {
+  m_place->setToolTip(tr("Where the error is stated. The middle ear: an ossicle, or else the "
+                         "tympanic cavity or the inner ear; without these the centre of what both "
+                         "images show") +
+                      '\n' + tr("Chosen: %1").arg(m_place->currentText()));
   const QString note = sentence(capitalized(phrase(m_session.placeNote())));
   m_placeNote->setText(note);
   m_placeNote->setVisible(!note.isEmpty());

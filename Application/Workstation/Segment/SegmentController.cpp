@@ -146,6 +146,7 @@ SegmentController::SegmentController(presenters::WorkstationModel& model, SliceC
     const QString line = tr("%1 is a structure of the case now, %2; Undo makes it a draft again")
                              .arg(shownName(name), volumeText(volume));
     m_panel->say(line);
+    m_created = line;
     emit statusMessage(line);
     if (m_panel->isAncestorOf(QApplication::focusWidget()))
       emit viewFocusAsked(); // keys are those of the next tool
@@ -254,6 +255,11 @@ void SegmentController::connectSlices()
   connect(&m_slices, &SliceColumn::toolDragged, this,
           [this](const Eigen::Vector3d& patient) { m_editor.drag(patient); });
   connect(&m_slices, &SliceColumn::toolReleased, this, [this] { m_editor.release(); });
+}
+
+void SegmentController::strokeEnded()
+{
+  m_panel->withdraw(std::exchange(m_created, {}));
 }
 
 void SegmentController::caseChanged()

@@ -39,6 +39,7 @@ public:
   void addKeysTo(QWidget& widget);
 
   void caseChanged(); ///< or closed
+  void strokeEnded(); ///< which is undone before what was created
   void partsChanged();
   void mrMoved();
   void setShown(const presenters::ShownImages& shown); ///< in the slices
@@ -107,6 +108,7 @@ private:
   std::unique_ptr<BackgroundWork> m_work;
   std::unique_ptr<BackgroundWork> m_surfaceWork;
   QTimer m_surfaceLater;
+  QString m_created;      ///< what was said of the last structure that was created
   std::string m_createAs; ///< once the preview is done; empty: not
   bool m_asking = false;
 };

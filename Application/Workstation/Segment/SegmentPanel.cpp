@@ -555,6 +555,12 @@ void SegmentPanel::complain(const QString& line)
   m_complains = true;
 }
 
+void SegmentPanel::withdraw(const QString& line)
+{
+  if (!line.isEmpty() && m_line->text() == line)
+    say({});
+}
+
 void SegmentPanel::say(const QString& line)
 {
   m_complains = false;

@@ -43,6 +43,7 @@ public:
   void setProgress(double fraction, const QString& text);
   void partsChanged() override;
   void say(const QString& line);      ///< what was done; empty: nothing
+  void withdraw(const QString& line); ///< if it was said last
   void complain(const QString& line); ///< a refusal, which goes with the next change
   void focusName();
 

@@ -119,7 +119,7 @@ ReportDialog::ReportDialog(const scene::Case& value, QWidget* parent)
   const dissection::History& history = value.dissection.history();
   for (const auto& branch : history.branches())
   {
-    m_approach->addItem(words(branch.name), words(branch.name));
+    m_approach->addItem(approachName(branch.name), words(branch.name));
     if (&branch == &history.branch())
       m_approach->setCurrentIndex(m_approach->count() - 1);
   }

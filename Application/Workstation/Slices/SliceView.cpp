@@ -420,9 +420,11 @@ void SliceView::paintEvent(QPaintEvent*)
   paintTool(painter);
   if (hasFocus())
   {
-    painter.setPen(QPen(planeColor(m_orientation), 1.0));
+    QPen frame(planeColor(m_orientation), 2.0);
+    frame.setJoinStyle(Qt::MiterJoin);
+    painter.setPen(frame);
     painter.setBrush(Qt::NoBrush);
-    painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));
+    painter.drawRect(QRectF(rect()).adjusted(1.0, 1.0, -1.0, -1.0));
   }
 }
 

@@ -10,7 +10,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
-#include <QPainter>
 #include <QPushButton>
 #include <QSlider>
 #include <QToolButton>
@@ -38,25 +37,11 @@ namespace
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 20; // bytes, as of the command
 constexpr int kMargin = 10;                                      // px
 constexpr double kFarthest = 1e7;                                // value that can be entered
+constexpr int kSwatch = 14;                                      // px
 
 QColor toColor(const std::array<float, 3>& color)
 {
   return QColor::fromRgbF(double(color[0]), double(color[1]), double(color[2]));
-}
-
-QIcon swatch(const QColor& color)
-{
-  constexpr int kSize = 14; // px
-  const qreal scale = qApp->devicePixelRatio();
-  QPixmap pixmap(QSize(kSize, kSize) * scale);
-  pixmap.setDevicePixelRatio(scale);
-  pixmap.fill(Qt::transparent);
-  QPainter painter(&pixmap);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QColor(0, 0, 0, 160));
-  painter.setBrush(color);
-  painter.drawRoundedRect(QRectF(0.5, 0.5, kSize - 1.0, kSize - 1.0), 3.0, 3.0);
-  return QIcon(pixmap);
 }
 
 QToolButton* menuButton(const QString& text, const char* name, const QString& tip, QMenu* menu)
@@ -358,7 +343,7 @@ void AppearancePanel::showParts()
           if (m_part->itemData(row, Qt::UserRole + 1).value<QColor>() != color)
           {
             m_part->setItemData(row, color, Qt::UserRole + 1);
-            m_part->setItemIcon(row, swatch(color));
+            m_part->setItemIcon(row, swatch(color, kSwatch));
           }
         }
       });
@@ -426,7 +411,7 @@ void AppearancePanel::showPoint()
   if (!part)
     return;
   const QColor color = toColor(m_editor.color());
-  m_color->setIcon(swatch(color));
+  m_color->setIcon(swatch(color, kSwatch));
   m_color->setText(color.name());
 }
 
@@ -442,7 +427,9 @@ void AppearancePanel::showNote()
           (m_editor.canFit() ? tr(". Function > Fit to the histogram sets some.") : QString('.'));
     else if (part->name == AppearanceEditor::kSoftTissue)
       text = tr("It has no surface: colours and opacities of the points are seen, these times the "
-                "opacity of the whole. Below its first point it is transparent, as air must be.");
+                "opacity of the whole. Below its first point it is transparent, as air must be.") +
+             (m_editor.estimate().empty() ? QString()
+                                          : QChar(' ') + phrase(m_editor.estimate()) + QChar('.'));
     else if (!part->look.solid)
       text = tr("A space without tissue tints the bone around it: its colours count, its opacities "
                 "do not.");
@@ -524,14 +511,16 @@ void AppearancePanel::fillPresets(QMenu& menu)
     const QString name = words(preset.look.preset);
     const QString shown =
         QString(preset.isOwn ? name : tr(preset.look.preset.c_str())).replace('&', "&&");
-    QAction* action = menu.addAction(swatch(toColor(preset.look.color)), shown);
+    if (preset.isOwn)
+      connect(remove->addAction(shown), &QAction::triggered, this,
+              [this, name] { attempt([&] { m_editor.deletePreset(bytes(name)); }); });
+    if (!m_editor.canHave(preset))
+      continue;
+    QAction* action = menu.addAction(swatch(toColor(preset.look.color), kSwatch), shown);
     action->setCheckable(true);
     action->setChecked(preset.look.preset == present);
     connect(action, &QAction::triggered, this,
             [this, name] { attempt([&] { m_editor.applyPreset(bytes(name)); }); });
-    if (preset.isOwn)
-      connect(remove->addAction(shown), &QAction::triggered, this,
-              [this, name] { attempt([&] { m_editor.deletePreset(bytes(name)); }); });
   }
   menu.addSeparator();
   QAction* save = menu.addAction(tr("&Save as a preset…"), this, &AppearancePanel::savePreset);

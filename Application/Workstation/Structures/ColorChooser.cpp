@@ -6,7 +6,6 @@
 #include <QGridLayout>
 #include <QGuiApplication>
 #include <QKeyEvent>
-#include <QPainter>
 #include <QPixmap>
 #include <QPushButton>
 #include <QScreen>
@@ -25,18 +24,6 @@ namespace
 constexpr int kColumns = 8;
 constexpr int kCell = 20;  // px
 constexpr int kRest = 120; // ms before a colour under the pointer is previewed
-
-QIcon iconOf(const QColor& color)
-{
-  QPixmap pixmap(kCell, kCell);
-  pixmap.fill(Qt::transparent);
-  QPainter painter(&pixmap);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QColor(0, 0, 0, 160));
-  painter.setBrush(color);
-  painter.drawRoundedRect(QRectF(0.5, 0.5, kCell - 1.0, kCell - 1.0), 3.0, 3.0);
-  return pixmap;
-}
 } // namespace
 
 ColorChooser::ColorChooser(const QColor& present, QWidget* parent)
@@ -75,7 +62,7 @@ ColorChooser::ColorChooser(const QColor& present, QWidget* parent)
 void ColorChooser::add(const QColor& color, const QString& name)
 {
   auto* cell = new QToolButton;
-  cell->setIcon(iconOf(color));
+  cell->setIcon(swatch(color, kCell));
   cell->setIconSize({kCell, kCell});
   cell->setStyleSheet("QToolButton { padding: 1px; }");
   cell->setToolTip(name.isEmpty() ? color.name() : name);

@@ -12,11 +12,6 @@
 namespace petrous::workstation
 {
 
-namespace
-{
-constexpr int kAgain = 60; // ms; faster than anyone can read
-}
-
 NearbyPanel::NearbyPanel(presenters::WorkstationModel& model, QWidget* parent)
   : Panel(parent)
   , m_model(model)
@@ -69,7 +64,6 @@ void NearbyPanel::stateChanged()
   if (!m_model.hasCase() || !isVisible())
     return;
   showRemoved();
-  m_sinceAsked.invalidate();
 }
 
 // Includes the open stroke.
@@ -89,42 +83,42 @@ void NearbyPanel::showRemoved()
   m_removed->setText(text);
 }
 
-void NearbyPanel::toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose)
+void NearbyPanel::toolMoved(const presenters::MeasuredTool& /*tool*/, const haptics::Pose& /*pose*/)
 {
   m_hasBurr = true;
-  if (!isVisible() || (m_sinceAsked.isValid() && m_sinceAsked.elapsed() < kAgain))
+}
+
+void NearbyPanel::toolMeasured(const presenters::ToolSurroundings& near)
+{
+  if (!isVisible())
     return;
-  m_sinceAsked.start();
   showRemoved();
-  try
-  {
-    auto near = m_model.nearby(tool, pose);
-    if (!near)
-    {
-      m_structures->show({});
-      return say(tr("Measuring the structures…"));
-    }
-    const QString unmeasured = phrase(m_model.unmeasuredNearby());
-    const QString none = tool.isInstrument()
-                             ? tr("No structure that is shown lies within %1 mm of the instrument")
-                             : tr("No structure that is shown lies within %1 mm of the burr");
-    say(near->empty() && unmeasured.isEmpty()
-            ? none.arg(presenters::WorkstationModel::kNear, 0, 'f', 0)
-            : unmeasured);
-    m_structures->show(std::move(*near));
-  }
-  catch (const std::exception& error) // out of memory, a missing file
+  if (!near.fault.empty())
   {
     m_structures->show({});
-    say(tr("The structures cannot be measured: %1").arg(phrase(error.what())));
+    return say(tr("The structures cannot be measured: %1").arg(phrase(near.fault)));
   }
+  if (!near.isMeasured)
+  {
+    m_structures->show({});
+    return say(tr("Measuring the structures…"));
+  }
+  if (!near.isWide) // of what is warned of alone
+    return;
+  const QString unmeasured = phrase(near.unmeasured);
+  const QString none = near.isInstrument
+                           ? tr("No structure that is shown lies within %1 mm of the instrument")
+                           : tr("No structure that is shown lies within %1 mm of the burr");
+  say(near.structures.empty() && unmeasured.isEmpty()
+          ? none.arg(presenters::WorkstationModel::kNear, 0, 'f', 0)
+          : unmeasured);
+  m_structures->show(near.structures);
 }
 
 void NearbyPanel::toolGone()
 {
   m_hasBurr = false;
   m_structures->show({});
-  m_sinceAsked.invalidate();
   say(tr("Take up the burr (D) or an instrument to see how far the structures are from it"));
 }
 

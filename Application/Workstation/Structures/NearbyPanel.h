@@ -1,7 +1,5 @@
 #pragma once
 
-#include <QElapsedTimer>
-
 #include "Panels.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -12,7 +10,7 @@ namespace petrous::workstation
 
 class NearbyModel;
 
-/// Structures near the burr, injured ones, and the removed volume. Queries the model only while
+/// Structures near the burr, injured ones, and the removed volume. Shows what is near only while
 /// visible.
 class NearbyPanel : public Panel
 {
@@ -24,6 +22,8 @@ public:
   void stateChanged() override;
   void toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose) override;
   void toolGone() override;
+  bool showsNear() const override { return isVisible(); }
+  void toolMeasured(const presenters::ToolSurroundings& near) override;
 
   const NearbyModel& structures() const { return *m_structures; }
 
@@ -39,7 +39,6 @@ private:
   NearbyModel* m_structures;
   QLabel* m_removed;
   QLabel* m_line;
-  QElapsedTimer m_sinceAsked;
   bool m_hasBurr = false; // in use
 };
 

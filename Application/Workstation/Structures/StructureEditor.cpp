@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -14,6 +15,7 @@
 #include <QPushButton>
 #include <QSlider>
 #include <QSpinBox>
+#include <QStandardItemModel>
 
 #include "AppearancePanel.h"
 #include "ColorChooser.h"
@@ -38,6 +40,7 @@ using appearance::StructureProperty;
 using presenters::EditHistory;
 
 constexpr char kBone[] = "ct";
+constexpr int kIsSolid = Qt::UserRole + 1; // of a preset: whether bone can have it
 
 const StructureProperty& propertyOf(const char* key)
 {
@@ -119,6 +122,10 @@ StructureEditor::StructureEditor(presenters::WorkstationModel& model, QWidget* p
   grid->addWidget(priority, 6, 1);
   grid->setColumnStretch(1, 1);
   grid->setColumnStretch(3, 1);
+  for (Number& one : m_numbers)
+    one.tip = one.box->toolTip();
+  for (Flag& one : m_flags)
+    one.tip = one.box->toolTip();
   refresh();
 }
 
@@ -225,7 +232,10 @@ QComboBox* StructureEditor::addPresets()
                                       "structure; marks stay as they are"));
   const auto presets = appearance::StructurePresets::builtIn();
   for (const auto& look : presets.all())
+  {
     box->addItem(AppearancePanel::tr(look.preset.c_str()), words(look.preset));
+    box->setItemData(box->count() - 1, look.solid, kIsSolid);
+  }
   connect(box, qOverload<int>(&QComboBox::activated), this,
           [this, box, &property](int row)
           {
@@ -234,8 +244,7 @@ QComboBox* StructureEditor::addPresets()
             change(
                 [this, preset](const std::string& part, StructureAppearance& look)
                 {
-                  const bool isStructure = part != kBone && part != scene::kSoftTissue;
-                  if (isStructure || preset.solid) // a lumen can be neither
+                  if (presenters::canBeLookOf(m_model.value(), part, preset))
                     look = presenters::withPreset(m_model.value(), part, preset);
                 },
                 property);
@@ -287,25 +296,41 @@ void StructureEditor::materialsChanged()
   refresh();
 }
 
+std::vector<std::string> StructureEditor::partsWith(const StructureProperty& property) const
+{
+  std::vector<std::string> parts;
+  for (const std::string& part : m_parts)
+    if (const auto* look = m_model.lookOf(part);
+        look && has(part, property) && StructuresModel::idleText(*look, property).isEmpty())
+      parts.push_back(part);
+  return parts;
+}
+
 void StructureEditor::change(
     const std::function<void(const std::string&, StructureAppearance&)>& to,
     const StructureProperty& property)
 {
-  std::vector<std::string> parts;
-  for (const std::string& part : m_parts)
-    if (has(part, property))
-      parts.push_back(part);
-  presenters::changeLooks(m_model, parts, to);
+  presenters::changeLooks(m_model, partsWith(property), to);
 }
 
 std::vector<const StructureAppearance*>
 StructureEditor::looks(const StructureProperty& property) const
 {
   std::vector<const StructureAppearance*> all;
-  for (const std::string& part : m_parts)
-    if (const auto* look = m_model.lookOf(part); look && has(part, property))
-      all.push_back(look);
+  for (const std::string& part : partsWith(property))
+    all.push_back(m_model.lookOf(part));
   return all;
+}
+
+QString StructureEditor::withIdle(const QString& tip, const StructureProperty& property) const
+{
+  if (!partsWith(property).empty())
+    return tip;
+  for (const std::string& part : m_parts)
+    if (const auto* look = m_model.lookOf(part))
+      if (const QString idle = StructuresModel::idleText(*look, property); !idle.isEmpty())
+        return tip + '\n' + idle;
+  return tip;
 }
 
 bool StructureEditor::differ(const StructureProperty& property) const
@@ -335,12 +360,14 @@ void StructureEditor::refresh()
         {
           one.box->setEnabled(!looks(*one.property).empty());
           one.box->setPrefix(differ(*one.property) ? differs : QString());
+          one.box->setToolTip(withIdle(one.tip, *one.property));
         }
         for (const Flag& one : m_flags)
         {
           const auto flag = std::get<StructureProperty::Flag>(one.property->member);
           const auto all = looks(*one.property);
           one.box->setEnabled(!all.empty());
+          one.box->setToolTip(withIdle(one.tip, *one.property));
           const bool isMixed = differ(*one.property);
           one.box->setTristate(isMixed);
           one.box->setCheckState(isMixed                              ? Qt::PartiallyChecked
@@ -356,6 +383,14 @@ void StructureEditor::refresh()
           const auto text = std::get<StructureProperty::Text>(one.property->member);
           const auto all = looks(*one.property);
           one.box->setEnabled(!all.empty());
+          // Those that none of them can have stay in the list, greyed.
+          const bool isAnyStructure = std::any_of(
+              m_parts.begin(), m_parts.end(),
+              [](const std::string& part) { return part != kBone && part != scene::kSoftTissue; });
+          auto* rows = qobject_cast<QStandardItemModel*>(one.box->model());
+          for (int row = 0; rows && row < rows->rowCount(); ++row)
+            if (const QVariant isSolid = rows->item(row)->data(kIsSolid); isSolid.isValid())
+              rows->item(row)->setEnabled(isAnyStructure || isSolid.toBool());
           one.box->setCurrentIndex(all.empty() || differ(*one.property)
                                        ? -1
                                        : one.box->findData(words(all.front()->*text)));
@@ -408,7 +443,12 @@ void StructureEditor::chooseColor(const std::vector<std::string>& parts, const Q
   const auto hold = std::make_shared<EditHistory::Hold>(m_model.edits()); // dies with the chooser
   const auto before = m_model.edits().last();
   const auto of = m_model.shownAs();
-  const auto paint = [this, parts, of](const QColor& color)
+  // Each colour is tried on these: a dark one in between would flatten their transfer functions.
+  std::map<std::string, StructureAppearance> looks;
+  for (const std::string& part : parts)
+    if (const auto* look = m_model.lookOf(part))
+      looks.emplace(part, *look);
+  const auto paint = [this, parts, of, looks = std::move(looks)](const QColor& color)
   {
     if (m_model.shownAs() != of)
       return;
@@ -416,8 +456,12 @@ void StructureEditor::chooseColor(const std::vector<std::string>& parts, const Q
                                    static_cast<float>(color.greenF()),
                                    static_cast<float>(color.blueF())};
     presenters::changeLooks(m_model, parts,
-                            [&rgb](const std::string&, StructureAppearance& look)
-                            { setColor(look, rgb); });
+                            [&](const std::string& part, StructureAppearance& look)
+                            {
+                              if (const auto found = looks.find(part); found != looks.end())
+                                look = found->second;
+                              setColor(look, rgb);
+                            });
   };
   connect(chooser, &ColorChooser::previewed, this, paint);
   connect(chooser, &ColorChooser::chosen, this,

@@ -54,11 +54,13 @@ private:
   {
     const Property* property;
     QDoubleSpinBox* box;
+    QString tip = {};
   };
   struct Flag
   {
     const Property* property;
     QCheckBox* box;
+    QString tip = {};
   };
   struct Text
   {
@@ -75,6 +77,10 @@ private:
               const Property& property);
   std::vector<const appearance::StructureAppearance*> looks(const Property& property) const;
   bool differ(const Property& property) const;
+  /// The selected parts of which the property changes something.
+  std::vector<std::string> partsWith(const Property& property) const;
+  /// The tip, and why the property changes nothing of those that are selected.
+  QString withIdle(const QString& tip, const Property& property) const;
 
   presenters::WorkstationModel& m_model;
   std::vector<std::string> m_parts;

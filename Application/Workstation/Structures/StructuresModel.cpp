@@ -7,8 +7,9 @@
 #include <QApplication>
 #include <QColor>
 #include <QPainter>
+#include <QPainterPath>
+#include <QPalette>
 #include <QPixmap>
-#include <QPixmapCache>
 
 #include "NearbyModel.h"
 #include "Theme.h"
@@ -25,35 +26,57 @@ namespace petrous::workstation
 
 namespace
 {
+constexpr int kSwatch = 12; // px
+
 QColor colorOf(const appearance::StructureAppearance& look)
 {
   return QColor::fromRgbF(double(look.color[0]), double(look.color[1]), double(look.color[2]));
 }
 
-QPixmap swatch(const appearance::StructureAppearance& look)
-{
-  // A view asks for it whenever it measures or draws the row.
-  constexpr int kSize = 12; // px
-  const qreal scale = qApp->devicePixelRatio();
-  QPixmap pixmap;
-  const QString key =
-      QString("petrous-swatch-%1-%2").arg(colorOf(look).name()).arg(std::lround(100.0 * scale));
-  if (QPixmapCache::find(key, &pixmap))
-    return pixmap;
-  pixmap = QPixmap(QSize(kSize, kSize) * scale);
-  pixmap.setDevicePixelRatio(scale);
-  pixmap.fill(Qt::transparent);
-  QPainter painter(&pixmap);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QColor(0, 0, 0, 160));
-  painter.setBrush(colorOf(look));
-  painter.drawRoundedRect(QRectF(0.5, 0.5, kSize - 1.0, kSize - 1.0), 3.0, 3.0);
-  painter.end();
-  QPixmapCache::insert(key, pixmap);
-  return pixmap;
-}
-
 using appearance::StructureProperty;
+
+// In place of the title of a column of check boxes: an eye, a ball pressed on a surface, a burr.
+QPixmap flagIcon(const StructureProperty& property)
+{
+  constexpr int kSize = 16; // px, of a small icon of the style
+  const QColor color = qApp->palette().color(QPalette::ButtonText);
+  return pixmapOf(QString("flag-%1-%2").arg(property.key, color.name()), kSize,
+                  [&](QPainter& painter)
+                  {
+                    painter.setPen(QPen(color, 1.4, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+                    const std::string name = property.key;
+                    QPainterPath path;
+                    if (name == "shown")
+                    {
+                      path.moveTo(1.0, 8.0);
+                      path.quadTo(8.0, 0.5, 15.0, 8.0);
+                      path.quadTo(8.0, 15.5, 1.0, 8.0);
+                      painter.drawPath(path);
+                      painter.setBrush(color);
+                      painter.drawEllipse(QPointF(8.0, 8.0), 1.6, 1.6);
+                    }
+                    else if (name == "touchable")
+                    {
+                      path.moveTo(1.0, 10.0);
+                      path.lineTo(3.0, 10.0);
+                      path.cubicTo(5.0, 10.0, 5.0, 14.5, 8.0, 14.5);
+                      path.cubicTo(11.0, 14.5, 11.0, 10.0, 13.0, 10.0);
+                      path.lineTo(15.0, 10.0);
+                      painter.drawPath(path);
+                      painter.setBrush(color);
+                      painter.drawEllipse(QPointF(8.0, 7.5), 3.5, 3.5);
+                    }
+                    else
+                    {
+                      painter.drawEllipse(QPointF(5.5, 10.5), 4.0, 4.0);
+                      painter.drawLine(QPointF(3.0, 8.0), QPointF(8.0, 13.0)); // flutes
+                      painter.drawLine(QPointF(2.5, 11.5), QPointF(4.5, 13.5));
+                      painter.drawLine(QPointF(6.5, 7.5), QPointF(8.5, 9.5));
+                      painter.setPen(QPen(color, 2.2, Qt::SolidLine, Qt::RoundCap));
+                      painter.drawLine(QPointF(9.0, 7.0), QPointF(14.5, 1.5)); // shaft
+                    }
+                  });
+}
 
 // The properties with a column.
 const std::vector<const StructureProperty*>& columns()
@@ -145,6 +168,15 @@ int StructuresModel::columnOf(const std::string& key)
     if (columns()[n]->key == key)
       return FirstProperty + static_cast<int>(n);
   return -1;
+}
+
+QString StructuresModel::idleText(const appearance::StructureAppearance& look,
+                                  const StructureProperty& property)
+{
+  const std::string key = property.key;
+  return !look.solid && (key == "touchable" || key == "stiffness_n_per_mm")
+             ? tr("Not felt: %1").arg(phrase("it is a space without tissue"))
+             : QString();
 }
 
 StructuresModel::StructuresModel(presenters::WorkstationModel& model, QObject* parent)
@@ -485,7 +517,7 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
       return row.row.missing.empty() ? name : tr("%1 (not on the %2)").arg(name, primary());
     }
     if (role == Qt::DecorationRole)
-      return swatch(row.row.look);
+      return swatch(colorOf(row.row.look), kSwatch);
     if (role == Qt::AccessibleTextRole)
       return tr("%1, colour %2, %3")
           .arg(title(row.row), colorOf(row.row.look).name(),
@@ -552,6 +584,16 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
   }
 }
 
+std::vector<const StructuresModel::Row*>
+StructuresModel::changedBy(const Kind& kind, const StructureProperty& property) const
+{
+  std::vector<const Row*> changed;
+  for (std::size_t n = kind.first; n < kind.first + kind.count; ++n)
+    if (idleText(m_rows[n].row.look, property).isEmpty())
+      changed.push_back(&m_rows[n]);
+  return changed;
+}
+
 // How many there are, and whether they are shown, touched and drilled: all, none or some.
 QVariant StructuresModel::kindData(const Kind& kind, int column, int role) const
 {
@@ -559,13 +601,19 @@ QVariant StructuresModel::kindData(const Kind& kind, int column, int role) const
     return tr("%1 (%2)").arg(tr(titleOfKind(kind.kind))).arg(kind.count);
   if (column == Name && role == Qt::ToolTipRole)
     return tr("Its check boxes are those of all of them");
-  if (role != Qt::CheckStateRole || column < FirstProperty || !isFlag(propertyAt(column)))
+  if (column < FirstProperty || !isFlag(propertyAt(column)))
+    return {};
+  const auto changed = changedBy(kind, propertyAt(column));
+  if (role == Qt::ToolTipRole && changed.empty())
+    return idleText(m_rows[kind.first].row.look, propertyAt(column));
+  if (role != Qt::CheckStateRole || changed.empty())
     return {};
   const auto flag = std::get<StructureProperty::Flag>(propertyAt(column).member);
-  std::size_t set = 0;
-  for (std::size_t n = 0; n < kind.count; ++n)
-    set += m_rows[kind.first + n].row.look.*flag;
-  return set == 0 ? Qt::Unchecked : set == kind.count ? Qt::Checked : Qt::PartiallyChecked;
+  const auto set = std::count_if(changed.begin(), changed.end(),
+                                 [flag](const Row* row) { return row->row.look.*flag; });
+  return set == 0                                             ? Qt::Unchecked
+         : set == static_cast<std::ptrdiff_t>(changed.size()) ? Qt::Checked
+                                                              : Qt::PartiallyChecked;
 }
 
 QVariant StructuresModel::propertyData(const Row& row, const StructureProperty& property,
@@ -587,6 +635,8 @@ QVariant StructuresModel::propertyData(const Row& row, const StructureProperty& 
     return {};
   }
   const auto flag = std::get<StructureProperty::Flag>(property.member);
+  if (const QString idle = idleText(row.row.look, property); !idle.isEmpty())
+    return role == Qt::ToolTipRole ? QVariant(idle) : QVariant();
   if (role == Qt::ToolTipRole && flag == &appearance::StructureAppearance::touchable &&
       row.row.kind == StructureKind::Mesh)
     return untouchableText(row.row.part);
@@ -602,11 +652,19 @@ QVariant StructuresModel::headerData(int section, Qt::Orientation orientation, i
   if (section < 0 || section >= columnCount())
     return {};
   const bool isProperty = section >= FirstProperty;
-  if (role == Qt::DisplayRole)
+  const bool isIcon = isProperty && isFlag(propertyAt(section)); // narrow in every language
+  if (role == Qt::DecorationRole)
+    return isIcon ? QVariant(flagIcon(propertyAt(section))) : QVariant();
+  if (role == Qt::DisplayRole && isIcon)
+    return {};
+  if (role == Qt::DisplayRole || role == Qt::AccessibleTextRole)
     return isProperty                ? tr(propertyAt(section).column.title)
            : section == Name         ? tr("Structure")
            : section == VolumeColumn ? tr("Volume")
                                      : tr("Tool");
+  if (role == Qt::ToolTipRole && isIcon)
+    return tr("%1: %2").arg(tr(propertyAt(section).column.title),
+                            tr(propertyAt(section).column.tip));
   if (role == Qt::ToolTipRole)
     return isProperty        ? tr(propertyAt(section).column.tip)
            : section == Name ? tr("Name and colour: click the colour to change it")
@@ -630,6 +688,9 @@ Qt::ItemFlags StructuresModel::flags(const QModelIndex& index) const
   const Row* row = at(index);
   if (row && isSingle(row->row.kind) && !isOfBone(property))
     return flags;
+  if (row ? !idleText(row->row.look, property).isEmpty()
+          : changedBy(*kindAt(index), property).empty())
+    return flags;
   if (isFlag(property))
     flags |= Qt::ItemIsUserCheckable;
   else if (row)
@@ -644,9 +705,10 @@ bool StructuresModel::setData(const QModelIndex& index, const QVariant& value, i
   const StructureProperty& property = propertyAt(index.column());
   std::vector<std::string> parts;
   if (const Kind* kind = kindAt(index))
-    for (std::size_t n = 0; n < kind->count; ++n)
-      parts.push_back(m_rows[kind->first + n].row.part);
-  else if (const Row* row = at(index); row && (!isSingle(row->row.kind) || isOfBone(property)))
+    for (const Row* row : changedBy(*kind, property))
+      parts.push_back(row->row.part);
+  else if (const Row* row = at(index); row && idleText(row->row.look, property).isEmpty() &&
+                                       (!isSingle(row->row.kind) || isOfBone(property)))
     parts = {row->row.part};
   const bool isNumber =
       role == Qt::EditRole && property.isNumber() && property.accepts(value.toDouble());

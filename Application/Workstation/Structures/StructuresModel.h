@@ -38,6 +38,10 @@ public:
 
   /// The column of the property with this key; -1 if it has none.
   static int columnOf(const std::string& key);
+  /// Why the property changes nothing of a part with this appearance, as a lumen is not felt
+  /// whatever its mark says; empty if it does.
+  static QString idleText(const appearance::StructureAppearance& look,
+                          const appearance::StructureProperty& property);
 
   explicit StructuresModel(presenters::WorkstationModel& model, QObject* parent = nullptr);
 
@@ -97,6 +101,9 @@ private:
   const Measured* measuredOf(const scene::MeshPart& part) const; // nullptr: not yet
   void measureMeshes();
   QVariant kindData(const Kind& kind, int column, int role) const;
+  /// Of the kind, those of which the property changes something.
+  std::vector<const Row*> changedBy(const Kind& kind,
+                                    const appearance::StructureProperty& property) const;
   QVariant propertyData(const Row& row, const appearance::StructureProperty& property,
                         int role) const;
   QString primary() const; ///< image: "CT" or "MR"

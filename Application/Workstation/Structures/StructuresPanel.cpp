@@ -34,13 +34,13 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr int kPadding = 4;     // px, beside a column's text
-constexpr int kIndent = 8;      // px, of a structure below its kind
-constexpr int kSwatch = 30;     // px, colour and margins of a name
-constexpr int kSwatchHit = 20;  // px, of the colour, to be clicked
-constexpr int kFitAfter = 30;   // ms
-constexpr int kNearAgain = 150; // ms; faster than anyone can read
-constexpr int kLeastName = 16;  // characters; where the panel is narrower it scrolls sideways
+constexpr int kPadding = 4;    // px, beside a column's text
+constexpr int kIndent = 8;     // px, of a structure below its kind
+constexpr int kSwatch = 30;    // px, colour and margins of a name
+constexpr int kSwatchHit = 20; // px, of the colour, to be clicked
+constexpr int kFitAfter = 30;  // ms
+constexpr int kLeastName = 12; // characters; where the panel is narrower it scrolls sideways
+constexpr int kTitleIcon = 16; // px, of a column without a written title
 } // namespace
 
 StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* parent)
@@ -167,6 +167,8 @@ void StructuresPanel::addList(QVBoxLayout& layout)
   m_list->installEventFilter(this);
   keepKeysInEditors(*m_list);
   header->setSectionHidden(StructuresModel::Burr, true);
+  // What is set comes before what is read: it is the volume that scrolls out of sight first.
+  header->moveSection(header->visualIndex(StructuresModel::VolumeColumn), header->count() - 1);
   connect(m_structures, &QAbstractItemModel::modelReset, this, &StructuresPanel::fitColumns);
   m_fitLater.setSingleShot(true);
   m_fitLater.setInterval(kFitAfter);
@@ -453,7 +455,7 @@ void StructuresPanel::fitColumns()
     constexpr int kBorder = 2; // px, of a section
     const QString title =
         m_structures->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-    int width = header->fontMetrics().horizontalAdvance(title);
+    int width = title.isEmpty() ? kTitleIcon : header->fontMetrics().horizontalAdvance(title);
     if (column == StructuresModel::Burr) // its texts come and go, and none is cut off
     {
       presenters::NearbyStructure far;
@@ -477,17 +479,14 @@ void StructuresPanel::fitColumns()
   fitNames();
 }
 
-// The names take what the other columns leave, or as much more as the user gave them, and never so
-// little that none can be read.
+// The names take what the other columns leave, or as much more as the user gave them: they are
+// elided before a column scrolls out of sight, though never so much that none can be read.
 void StructuresPanel::fitNames()
 {
   const QScopedValueRollback<bool> fitting(m_fitting, true);
   QHeaderView* header = m_list->header();
   const int others = header->length() - header->sectionSize(StructuresModel::Name);
-  constexpr int kWidest = 200;            // px, of a name that is not cut off
-  const QAbstractItemView* view = m_list; // public there
-  const int least = std::max(kSwatch + kLeastName * m_list->fontMetrics().averageCharWidth(),
-                             std::min(view->sizeHintForColumn(StructuresModel::Name), kWidest));
+  const int least = kSwatch + kLeastName * m_list->fontMetrics().averageCharWidth();
   header->resizeSection(StructuresModel::Name,
                         std::max({m_list->viewport()->width() - others, m_nameWidth, least}));
 }
@@ -582,22 +581,12 @@ void StructuresPanel::appearanceChanged()
   showRange();
 }
 
-// Measured only where it is seen.
-void StructuresPanel::toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose)
+void StructuresPanel::toolMeasured(const presenters::ToolSurroundings& near)
 {
-  if (!isVisible() || (m_sinceNear.isValid() && m_sinceNear.elapsed() < kNearAgain))
+  if (!isVisible() || (near.isMeasured && !near.isWide))
     return;
-  m_sinceNear.start();
-  try
-  {
-    auto near = m_model.nearby(tool, pose);
-    // Distances from where the tool was are none.
-    m_structures->setNear(near ? std::move(*near) : std::vector<presenters::NearbyStructure>());
-  }
-  catch (const std::exception&) // said in the panel "Near the tool"
-  {
-    m_structures->setNear({});
-  }
+  // Distances from where the tool was are none. A fault is said in the panel "Near the tool".
+  m_structures->setNear(near.structures);
   if (m_list->isColumnHidden(StructuresModel::Burr))
   {
     m_list->setColumnHidden(StructuresModel::Burr, false);

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include <QElapsedTimer>
 #include <QTimer>
 
 #include "Bind.h"
@@ -42,8 +41,9 @@ public:
   void caseChanged() override;
   void partsChanged() override;
   void appearanceChanged() override;
-  void toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose) override;
   void toolGone() override;
+  bool showsNear() const override { return isVisible(); }
+  void toolMeasured(const presenters::ToolSurroundings& near) override;
 
 signals:
   void thicknessAsked(const QString& structure); ///< a second request turns it off
@@ -90,7 +90,6 @@ private:
   StructureEditor* m_editor;
   presenters::OnlyThese m_alone;
   QTimer m_fitLater;               // one fit for all that changed
-  QElapsedTimer m_sinceNear;       // distances were shown
   std::vector<QAction*> m_actions; // of the context menu
   Bindings m_bound;
 };

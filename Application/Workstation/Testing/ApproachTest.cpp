@@ -245,6 +245,13 @@ TEST_F(Approaches, AreComparedByOneKey)
   EXPECT_NEAR(cell("Distance to nerve", 1).section(' ', 0, 0).toDouble(), 5.0, 0.31);
   const auto [first, second] = comparison()->views();
   EXPECT_TRUE(second->isVisible());
+  // Each picture names the approach that it shows, and then the case.
+  const QString ofCase = view().stamp();
+  EXPECT_FALSE(ofCase.isEmpty());
+  for (const auto& [picture, column] : {std::pair(first, 1), std::pair(second, 2)})
+    EXPECT_EQ(picture->stamp(), comparison()->table().horizontalHeaderItem(column)->text() +
+                                    QString::fromUtf8(" · ") + ofCase);
+  EXPECT_NE(first->stamp(), second->stamp());
   core::CameraPose camera = first->picture().camera();
   camera.position = kBallCenter + Vector3d(0, -60, 30);
   first->setCamera(camera);
@@ -257,22 +264,27 @@ TEST_F(Approaches, AreComparedByOneKey)
   const QImage before = steady([&] { return slice->grab().toImage(); });
   comparison()->findChild<QCheckBox*>("showDifference")->click();
   EXPECT_FALSE(second->isVisible());
-  QTest::qWait(700);
+  EXPECT_EQ(first->stamp(), ofCase) << "it shows both";
+  // Orange where main alone removed bone.
+  QImage drawn;
+  int orange = 0, blue = 0;
+  const auto isCoded = [&]
+  {
+    drawn = first->grabFramebuffer();
+    orange = blue = 0;
+    for (int y = 0; y < drawn.height(); ++y)
+      for (int x = 0; x < drawn.width(); ++x)
+      {
+        const QColor pixel = drawn.pixelColor(x, y);
+        orange += pixel.red() > 2 * pixel.blue() + 40;
+        blue += pixel.blue() > 2 * pixel.red() + 20;
+      }
+    return orange > 100 && blue > 100;
+  };
+  EXPECT_TRUE(waitFor(isCoded)) << orange << " orange, " << blue << " blue";
   const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
   if (!pictures.isEmpty())
     window().screen()->grabWindow(comparison()->winId()).save(pictures + "/comparison.png");
-  // Orange where main alone removed bone.
-  const QImage drawn = first->grabFramebuffer();
-  int orange = 0, blue = 0;
-  for (int y = 0; y < drawn.height(); ++y)
-    for (int x = 0; x < drawn.width(); ++x)
-    {
-      const QColor pixel = drawn.pixelColor(x, y);
-      orange += pixel.red() > 2 * pixel.blue() + 40;
-      blue += pixel.blue() > 2 * pixel.red() + 20;
-    }
-  EXPECT_GT(orange, 100);
-  EXPECT_GT(blue, 100);
   QTest::keyClick(comparison(), Qt::Key_Escape);
   EXPECT_TRUE(waitFor([this] { return !comparison(); }));
   EXPECT_TRUE(

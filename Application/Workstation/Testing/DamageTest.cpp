@@ -71,6 +71,27 @@ TEST_F(Damage, OfTheCtIsToldAndNothingIsDrilled)
   EXPECT_TRUE(window().model().value().dissection.strokes().empty());
 }
 
+TEST_F(Damage, OfAnMrWhoseFileIsGoneIsToldBeforeItIsShown)
+{
+  scene::Case value = ballCase("ball");
+  scene::ImagePart mr = value.ct;
+  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(mr.geometry, std::int16_t{40});
+  voxels->at(1, 2, 3) = 90;
+  mr.name = "T2";
+  mr.object.clear();
+  mr.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(voxels));
+  mr.range = mr.volume.get()->range();
+  value.mr.push_back(mr);
+  library().save(value);
+  fs::remove(folder() / "library/objects" / library().open("ball").mr[0].object);
+  openWindow();
+  ASSERT_TRUE(waitFor([this] { return banner().isVisible(); }));
+  EXPECT_TRUE(banner().text().contains("MR 'T2' of case 'ball'")) << banner().text().toStdString();
+  EXPECT_TRUE(banner().text().contains("is missing")) << banner().text().toStdString();
+  drill(300); // the CT is whole
+}
+
 TEST_F(Damage, OfAStructureIsToldAndTheOthersAreDrilled)
 {
   saveBall("ball");

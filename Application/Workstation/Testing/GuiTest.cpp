@@ -191,7 +191,7 @@ QModelIndex GuiTest::structureCell(const std::string& part, int column)
 QImage GuiTest::picture()
 {
   QTest::qWait(400); // fine rendering starts 150 ms after the last motion
-  waitFor([this] { return !m_window->model().hasCase() || view().display().isFine(); }, 2000);
+  waitFor([this] { return !m_window->model().hasCase() || view().display().isFine(); }, 20000);
   const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
   if (!pictures.isEmpty()) // for visual inspection
   {
@@ -232,7 +232,7 @@ void GuiTest::drill(int milliseconds, int pixels)
   const QPoint middle = view().rect().center();
   QTest::mouseMove(&view(), middle);
   QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
-  EXPECT_TRUE(waitFor([this] { return m_window->model().touching(); })); // made in another thread
+  EXPECT_TRUE(cuts());
   QPoint at = middle;
   constexpr int parts = 10;
   for (int n = 1; n <= parts; ++n)
@@ -244,6 +244,24 @@ void GuiTest::drill(int milliseconds, int pixels)
   }
   QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, at);
   EXPECT_TRUE(strokeEnds());
+}
+
+// What is removed while it waits: a brick that the mask has anew.
+bool GuiTest::cuts()
+{
+  const auto mask = [this]() -> const volume::CutMask&
+  { return m_window->model().value().dissection.mask(); };
+  std::vector<volume::CutMask::BrickVersion> before;
+  for (std::size_t n = 0; n < mask().brickCount(); ++n)
+    before.push_back(mask().brick(n));
+  return waitFor(
+      [&]
+      {
+        bool changed = false;
+        for (std::size_t n = 0; n < before.size() && !changed; ++n)
+          changed = mask().brick(n) != before[n];
+        return changed && m_window->model().drilling();
+      });
 }
 
 void GuiTest::leave()

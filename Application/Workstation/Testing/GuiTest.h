@@ -59,8 +59,10 @@ protected:
 
   void drop(const QMimeData& data);
   void dropPath(const std::filesystem::path& path);
-  /// Drills from the view's middle for `milliseconds`, moving right by `pixels`.
+  /// Drills from the view's middle until something is removed and then for `milliseconds`, moving
+  /// right by `pixels`: on a busy machine all of that time may pass before the burr cuts.
   void drill(int milliseconds, int pixels = 0);
+  bool cuts();       ///< waits until the drill, which is on, has removed something
   void leave();      ///< the pointer, wherever it is, counts as outside of the view
   bool strokeEnds(); ///< after the drill was released: removed in a separate thread, and saved
   bool settled();    ///< nothing is being read or written

@@ -37,7 +37,7 @@ protected:
 
   bool shaftComesTo(const std::function<bool(const Eigen::Vector3d&)>& place)
   {
-    return waitFor([&] { return view().display().tool() && place(shaft()); }, 10000);
+    return waitFor([&] { return view().display().tool() && place(shaft()); });
   }
 };
 

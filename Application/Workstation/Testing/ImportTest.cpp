@@ -472,9 +472,8 @@ TEST_F(Import, LabelsThatLieOutsideTheCtAreToldInALine)
   drop(true);
   ASSERT_TRUE(waitFor([this] { return window().model().value().labels.size() == 2; }));
   EXPECT_TRUE(settled());
-  QTest::qWait(100);
   auto* banner = window().findChild<Banner*>("notesBanner");
-  EXPECT_TRUE(banner->isVisible());
+  EXPECT_TRUE(waitFor([banner] { return banner->isVisible(); }));
   EXPECT_TRUE(banner->text().contains("'vein' lies wholly outside the CT"))
       << banner->text().toStdString();
 }
@@ -1508,9 +1507,11 @@ TEST_F(Import, ASoundSeriesIsNotTakenUnaskedBesideOneThatNeedsRepair)
   petrous::testing::writeSharedSample(folder() / "sample", options);
   fs::create_directories(folder() / "visit");
   fs::rename(folder() / "sample" / "ct", folder() / "visit" / "thin");
-  const auto thick = std::make_shared<const volume::Volume<std::int16_t>>(
+  const auto voxels = std::make_shared<volume::Volume<std::int16_t>>(
       core::GridGeometry({32, 32, 12}, Eigen::Vector3d(2, 2, 5), Eigen::Vector3d::Zero()),
       std::int16_t{40});
+  voxels->at(1, 2, 3) = 400;
+  const std::shared_ptr<const volume::Volume<std::int16_t>> thick = voxels;
   imaging::SeriesDescription series;
   series.studyUid = "1.2.3";
   series.seriesUid = "1.2.3.4";

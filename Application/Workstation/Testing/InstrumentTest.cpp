@@ -34,13 +34,85 @@ protected:
     file << "f 1 3 2\nf 1 4 3\nf 1 5 4\nf 1 2 5\nf 2 3 4\nf 2 4 5\n";
     return QString::fromStdString((folder() / name).string());
   }
-  static void choose(QFileDialog& dialog, const QString& file)
+  /// What is asked on the way to an instrument.
+  struct Asked
   {
-    dialog.findChild<QLineEdit*>("fileNameEdit")->setText(file);
-    static_cast<QDialog&>(dialog).accept();
+    bool file = false;
+    QString axis;    ///< as it is proposed; empty: not asked for
+    int axes = 0;    ///< to choose from
+    QString refusal; ///< of a message
+  };
+  enum class Axis
+  {
+    Accepted,
+    Rejected
+  };
+  /// Answers the dialogs until an axis is asked for or, with a file, a message refuses it. Without
+  /// a file none is chosen, though a message's offer to choose one is taken.
+  std::shared_ptr<const Asked> answerDialogs(const QString& file, Axis axis = Axis::Rejected)
+  {
+    auto asked = std::make_shared<Asked>();
+    onDialog(
+        [asked, file, axis](QDialog& dialog)
+        {
+          if (auto* open = qobject_cast<QFileDialog*>(&dialog))
+          {
+            if (!asked->file && !file.isEmpty())
+            {
+              open->findChild<QLineEdit*>("fileNameEdit")->setText(file);
+              dialog.accept();
+            }
+            else if (file.isEmpty())
+              dialog.reject();
+            asked->file = true;
+            return file.isEmpty();
+          }
+          if (auto* ask = qobject_cast<QInputDialog*>(&dialog))
+          {
+            asked->axis = ask->textValue();
+            asked->axes = ask->comboBoxItems().size();
+            axis == Axis::Accepted ? ask->accept() : ask->reject();
+            return true;
+          }
+          auto* box = qobject_cast<QMessageBox*>(&dialog);
+          if (!box || !asked->refusal.isEmpty())
+            return false;
+          asked->refusal = box->text();
+          if (!file.isEmpty())
+          {
+            box->reject();
+            return true;
+          }
+          for (QAbstractButton* button : box->buttons())
+            if (box->buttonRole(button) == QMessageBox::AcceptRole)
+              button->click();
+          return false;
+        });
+    return asked;
   }
   DrillController& drillController() { return *window().findChild<DrillController*>(); }
   const std::optional<rendering::ToolPose>& tool() { return view().display().tool(); }
+  void save()
+  {
+    const auto before = window().model().value().revision;
+    action("Save")->trigger();
+    ASSERT_TRUE(
+        waitFor([&] { return window().model().value().revision > before && !window().busy(); }));
+  }
+  // What a message box says that comes of it, and is accepted.
+  QString messageAfter(const std::function<void()>& cause)
+  {
+    QString text;
+    onMessage(
+        [&text](QMessageBox& box)
+        {
+          text = box.text();
+          box.accept();
+        });
+    cause();
+    EXPECT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
+    return text;
+  }
   bool isHeld()
   {
     QTest::mouseMove(&view(), view().rect().center() + QPoint(3, 0));
@@ -93,13 +165,18 @@ TEST_F(InstrumentWindow, IsWarnedOfAStructureFromItsNearestPoint)
   ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
   ASSERT_TRUE(isHeld());
   QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
-  EXPECT_TRUE(waitFor([this] { return view().display().warning().startsWith("nerve "); }))
-      << view().display().warning().toStdString();
-  QTest::qWait(500); // until it is at rest
-  const QStringList words = view().display().warning().split(' ');
-  ASSERT_GT(words.size(), 2);
   // Its tip is nearest, which points at the ball from outside.
-  EXPECT_NEAR(words[1].toDouble(), (tool()->center - kBallCenter).norm() - 4.0, 0.4);
+  EXPECT_TRUE(waitFor(
+      [this]
+      {
+        if (!tool())
+          return false;
+        const QStringList words = view().display().warning().split(' ');
+        const double distance = (tool()->center - kBallCenter).norm() - 4.0;
+        return words[0] == "nerve" && words.size() > 2 &&
+               std::abs(words[1].toDouble() - distance) < 0.4;
+      }))
+      << view().display().warning().toStdString();
   QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
   action("Instrument")->trigger();
   EXPECT_TRUE(waitFor([this] { return view().display().warning().isEmpty(); }));
@@ -122,17 +199,71 @@ TEST_F(InstrumentWindow, IsRememberedAndReadWhenItIsTakenUpAgain)
 
   std::filesystem::remove(folder() / "lying.obj");
   openWindow("ball");
-  QString text;
-  onMessage(
-      [&text](QMessageBox& box)
-      {
-        text = box.text();
-        box.accept();
-      });
-  action("Instrument")->trigger();
-  ASSERT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
+  const QString text = messageAfter([this] { action("Instrument")->trigger(); });
   EXPECT_TRUE(text.contains("lying.obj")) << text.toStdString();
   EXPECT_FALSE(action("Instrument")->isChecked());
+}
+
+TEST_F(InstrumentWindow, IsKeptWithTheCaseAndTakenUpThereThoughItsFileIsGone)
+{
+  saveBall("ball");
+  saveBall("other");
+  openWindow("ball");
+  drillController().readInstrument(writePick("lying.obj", true), "x+");
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  save();
+  closeWindow();
+  const auto kept = library().open("ball").view.instrument;
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->axis, "x+");
+  EXPECT_EQ(kept->name, "lying.obj");
+  EXPECT_EQ(kept->mesh.get()->triangles.size(), 6U);
+  EXPECT_EQ(kept->mesh.get()->bounds()[1].x(), 60.0F) << "as its file has it";
+
+  // The user's own is another one by now.
+  std::filesystem::remove(folder() / "lying.obj");
+  openWindow("other");
+  drillController().readInstrument(writePick("own.obj"), "z+");
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  closeWindow();
+  EXPECT_FALSE(library().open("other").view.instrument) << "it was not saved";
+
+  openWindow("ball");
+  EXPECT_FALSE(action("Instrument")->isChecked()) << "no tool is in the hand";
+  action("Instrument")->trigger();
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  EXPECT_TRUE(action("Instrument")->toolTip().startsWith("lying.obj"));
+  ASSERT_TRUE(isHeld());
+  EXPECT_NEAR(tool()->instrument->bounds()[1].z(), 60.0F, 1e-4F) << "turned as before";
+  save();
+  EXPECT_TRUE(*library().open("ball").view.instrument == *kept) << "the same object";
+  closeWindow();
+
+  // A case without one has the user's own again.
+  openWindow("other");
+  action("Instrument")->trigger();
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  EXPECT_TRUE(action("Instrument")->toolTip().startsWith("own.obj"));
+}
+
+TEST_F(InstrumentWindow, ThatACaseHasLostIsSaidAndStaysInIt)
+{
+  scene::Case value = ballCase("ball");
+  value.view.instrument.emplace();
+  auto mesh = std::make_shared<core::TriangleMesh>();
+  mesh->vertices = {{0, 0, 0}, {20, 0, 0}, {0, 20, 0}, {0, 0, 20}};
+  mesh->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  value.view.instrument->mesh = std::shared_ptr<const core::TriangleMesh>(mesh);
+  library().save(value);
+  const std::string object = value.view.instrument->object;
+  std::filesystem::remove(library().folder() / "objects" / object);
+  openWindow("ball");
+  ASSERT_FALSE(messageAfter([this] { action("Instrument")->trigger(); }).isEmpty());
+  EXPECT_FALSE(action("Instrument")->isChecked());
+  save();
+  closeWindow();
+  ASSERT_TRUE(library().open("ball").view.instrument);
+  EXPECT_EQ(library().open("ball").view.instrument->object, object);
 }
 
 // What is still being read does not take the tool out of the hand.
@@ -224,15 +355,8 @@ TEST_F(InstrumentWindow, IsRefusedInWordsWhenItIsNotClosed)
   saveBall("ball");
   openWindow();
   std::ofstream(folder() / "open.obj") << "v 0 0 0\nv 1 1 60\nv -1 1 60\nf 1 2 3\n";
-  QString text;
-  onMessage(
-      [&text](QMessageBox& box)
-      {
-        text = box.text();
-        box.accept();
-      });
-  drillController().readInstrument(QString::fromStdString((folder() / "open.obj").string()), "z+");
-  ASSERT_TRUE(waitFor([&text] { return !text.isEmpty(); }));
+  const QString file = QString::fromStdString((folder() / "open.obj").string());
+  const QString text = messageAfter([&] { drillController().readInstrument(file, "z+"); });
   EXPECT_TRUE(text.contains("not closed")) << text.toStdString();
   EXPECT_FALSE(action("Instrument")->isChecked());
 }
@@ -242,32 +366,21 @@ TEST_F(InstrumentWindow, IsChosenWithItsAxis)
   saveBall("ball");
   openWindow();
   const QString file = writePick("lying.obj", true);
-  bool isFile = false;
-  bool isAxis = false;
-  onDialog(
-      [&](QDialog& dialog)
-      {
-        if (auto* open = qobject_cast<QFileDialog*>(&dialog); open && !isFile)
-        {
-          isFile = true;
-          choose(*open, file);
-        }
-        if (auto* ask = qobject_cast<QInputDialog*>(&dialog))
-        {
-          isAxis = true;
-          // It lies along x, and its tip is at the origin.
-          EXPECT_EQ(ask->textValue(),
-                    QString::fromUtf8("x+: 60.0 × 2.0 mm, the tip at x = 0.0 mm"));
-          EXPECT_EQ(ask->comboBoxItems().size(), 6);
-          ask->accept();
-        }
-        return isAxis;
-      });
+  const auto asked = answerDialogs(file, Axis::Accepted);
   action("Instrument from a file…")->trigger();
   ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
-  EXPECT_TRUE(isFile && isAxis);
+  EXPECT_TRUE(asked->file);
+  // It lies along x, and its tip is at the origin.
+  EXPECT_EQ(asked->axis, QString::fromUtf8("x+: 60.0 × 2.0 mm, the tip at x = 0.0 mm"));
+  EXPECT_EQ(asked->axes, 6);
   ASSERT_TRUE(isHeld());
   EXPECT_NEAR(tool()->instrument->bounds()[1].z(), 60.0F, 1e-4F);
+  save();
+  const auto kept = library().open("ball").view.instrument;
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->axis, "x+");
+  EXPECT_EQ(kept->name, "lying.obj");
+  EXPECT_EQ(kept->mesh.get()->triangles.size(), 6U);
 
   // The same file again: as it was chosen. Another one: as is likely.
   const QString upright = writePick("upright.obj");
@@ -277,26 +390,10 @@ TEST_F(InstrumentWindow, IsChosenWithItsAxis)
       { return tool() && tool()->instrument && tool()->instrument->bounds()[1].z() < 3.0F; }));
   const auto proposedFor = [this](const QString& chosen)
   {
-    QString proposed;
-    bool isChosen = false;
-    onDialog(
-        [&](QDialog& dialog)
-        {
-          if (auto* open = qobject_cast<QFileDialog*>(&dialog); open && !isChosen)
-          {
-            isChosen = true;
-            choose(*open, chosen);
-          }
-          auto* ask = qobject_cast<QInputDialog*>(&dialog);
-          if (!ask)
-            return false;
-          proposed = ask->textValue().left(2);
-          ask->reject();
-          return true;
-        });
+    const auto proposed = answerDialogs(chosen);
     action("Instrument from a file…")->trigger();
-    EXPECT_TRUE(waitFor([&proposed] { return !proposed.isEmpty(); }));
-    return proposed;
+    EXPECT_TRUE(waitFor([&proposed] { return !proposed->axis.isEmpty(); }));
+    return proposed->axis.left(2);
   };
   EXPECT_EQ(proposedFor(file), "z+");
   EXPECT_EQ(proposedFor(upright), "z+");
@@ -310,35 +407,12 @@ TEST_F(InstrumentWindow, IsRefusedBeforeAnythingIsAskedAboutIt)
   openWindow();
   std::ofstream(folder() / "open.obj") << "v 0 0 0\nv 1 1 60\nv -1 1 60\nf 1 2 3\n";
   const QString file = QString::fromStdString((folder() / "open.obj").string());
-  bool isFile = false;
-  bool isAsked = false;
-  QString refusal;
-  onDialog(
-      [&](QDialog& dialog)
-      {
-        if (auto* open = qobject_cast<QFileDialog*>(&dialog); open && !isFile)
-        {
-          isFile = true;
-          choose(*open, file);
-        }
-        if (auto* ask = qobject_cast<QInputDialog*>(&dialog))
-        {
-          isAsked = true;
-          ask->reject();
-          return true;
-        }
-        if (auto* box = qobject_cast<QMessageBox*>(&dialog))
-        {
-          refusal = box->text();
-          box->reject();
-          return true;
-        }
-        return false;
-      });
+  const auto asked = answerDialogs(file, Axis::Rejected);
   action("Instrument from a file…")->trigger();
-  ASSERT_TRUE(waitFor([&] { return isAsked || !refusal.isEmpty(); }));
-  EXPECT_FALSE(isAsked);
-  EXPECT_TRUE(refusal.contains("not closed")) << refusal.toStdString();
+  ASSERT_TRUE(waitFor([&] { return !asked->axis.isEmpty() || !asked->refusal.isEmpty(); }));
+  EXPECT_TRUE(asked->file);
+  EXPECT_TRUE(asked->axis.isEmpty()) << "it is asked about";
+  EXPECT_TRUE(asked->refusal.contains("not closed")) << asked->refusal.toStdString();
 }
 
 // Nobody typed its name: a file can be chosen from the message.
@@ -352,27 +426,10 @@ TEST_F(InstrumentWindow, OffersToChooseItsFileAgainWhereThatIsGone)
   closeWindow();
   std::filesystem::rename(folder() / "pick.obj", folder() / "renamed.obj");
   openWindow("ball");
-  QString text;
-  bool isOffered = false;
-  onDialog(
-      [&](QDialog& dialog)
-      {
-        if (auto* box = qobject_cast<QMessageBox*>(&dialog); box && text.isEmpty())
-        {
-          text = box->text();
-          for (QAbstractButton* button : box->buttons())
-            if (box->buttonRole(button) == QMessageBox::AcceptRole)
-              button->click();
-          return false;
-        }
-        auto* open = qobject_cast<QFileDialog*>(&dialog);
-        isOffered = open != nullptr;
-        if (isOffered)
-          static_cast<QDialog*>(open)->reject();
-        return isOffered;
-      });
+  const auto asked = answerDialogs({});
   action("Instrument")->trigger();
-  ASSERT_TRUE(waitFor([&] { return isOffered; }));
+  ASSERT_TRUE(waitFor([&] { return asked->file; }));
+  const QString& text = asked->refusal;
   EXPECT_TRUE(text.contains("not there any more") && text.contains("pick.obj"))
       << text.toStdString();
   EXPECT_FALSE(text.contains("check the name")) << "nobody typed one";

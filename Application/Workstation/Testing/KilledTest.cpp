@@ -110,7 +110,7 @@ TEST_F(Killed, AWindowLosesOnlyWhatItsJournalDoesNotHoldYet)
   ASSERT_EQ(strokes.size(), 2u);
   EXPECT_FALSE(strokes[0]->info.recovered);
   EXPECT_TRUE(strokes[1]->info.recovered);
-  EXPECT_GT(strokes[1]->info.removed, strokes[0]->info.removed);
+  EXPECT_GT(strokes[1]->info.removed, 0.0);
   // It is shown, can be undone, and is reported once.
   EXPECT_EQ(window().model().value().applied(), 2u);
   const QImage drilled = picture();

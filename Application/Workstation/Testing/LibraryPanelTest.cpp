@@ -656,7 +656,7 @@ TEST_F(LibraryWindow, TheFirstPageHasTheRecentCases)
 
   // All of it is reached by Tab, in both directions, and is on the page.
   QSet<QWidget*> reached;
-  for (int n = 0; n < 40; ++n)
+  for (int n = 0; n < 80; ++n)
   {
     reached += QApplication::focusWidget();
     QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);

@@ -24,6 +24,7 @@
 #include <QPushButton>
 #include <QScreen>
 #include <QScrollBar>
+#include <QStatusBar>
 #include <QStyleOption>
 #include <QTabBar>
 #include <QTextEdit>
@@ -486,13 +487,13 @@ TEST_F(Manners, NoVolumeOutlivesItsCaseAndMemoryComesBack)
     QTest::qWait(20); // it is drawn
     action("Close the case")->trigger();
     ASSERT_TRUE(waitFor([this] { return !window().model().hasCase() && !window().busy(); }));
-    EXPECT_TRUE(waitFor([&] { return ct.expired(); }, 3000)) << ct.use_count();
-    EXPECT_TRUE(waitFor([&] { return labels.expired(); }, 3000)) << labels.use_count();
+    EXPECT_TRUE(waitFor([&] { return ct.expired(); })) << ct.use_count();
+    EXPECT_TRUE(waitFor([&] { return labels.expired(); })) << labels.use_count();
     if (HasFailure())
       return;
   }
   double after = used();
-  waitFor([&] { return (after = used()) < 1.05 * before; }, 3000); // work in the background ends
+  waitFor([&] { return (after = used()) < 1.05 * before; }, 10000); // work in the background ends
   std::printf("memory in use: %.1f MB before, %.1f MB after %d cases\n", 1e-6 * before,
               1e-6 * after, kTimes);
   EXPECT_LT(after, 1.05 * before);
@@ -687,6 +688,31 @@ TEST_F(Manners, NoPanelIsLargerThanTheSmallestScreen)
   }
 }
 
+// What is said while drilling, and the report's advice, beside the name of a recording.
+TEST_F(Manners, AMessageGetsTheRoomOfThePermanentTexts)
+{
+  openWindow();
+  window().resize(1280, 680);
+  QStatusBar* bar = window().statusBar();
+  auto* recording = window().findChild<QLabel*>("recording");
+  ASSERT_TRUE(recording);
+  recording->setText("Recording left-ear-2026-11-27-rehearsal-of-the-second-approach.prec");
+  recording->show();
+  ASSERT_TRUE(waitFor([&] { return recording->width() > 100; }));
+  const QString message = "The burr has lifted: what lies under the pointer is another surface, "
+                          "far deeper or higher. Let go and press again to drill there.";
+  const QString longer = message + QString(message.size() * 2 / 5, 'n');
+  bar->showMessage(longer);
+  const int needed = bar->fontMetrics().horizontalAdvance(longer);
+  EXPECT_TRUE(waitFor([&] { return recording->width() == 0 || needed < bar->width() / 2; }));
+  EXPECT_EQ(bar->toolTip(), longer);
+  EXPECT_EQ(bar->accessibleDescription(), longer);
+  bar->showMessage("Saved");
+  EXPECT_TRUE(waitFor([&] { return recording->width() > 100; }));
+  bar->clearMessage();
+  EXPECT_TRUE(bar->toolTip().isEmpty());
+}
+
 TEST_F(Manners, NoTextIsCutOffOnTheSmallestScreenInGerman)
 {
   if (!hasLanguage("de"))
@@ -770,4 +796,34 @@ TEST_F(Manners, TabGoesThroughAllOfAPanel)
       ADD_FAILURE() << described(*one).toStdString() << " is not reached";
     dock->hide();
   }
+}
+
+// Around the whole window by Tab: each stop looks different with the focus and without it.
+TEST_F(Manners, EachStopOfTabShowsThatItHasTheFocus)
+{
+  saveBall("ball");
+  openWindow("ball");
+  EXPECT_TRUE(waitFor([this] { return window().model().ready(); }));
+  picture(); // the view at rest
+  QApplication::setActiveWindow(&window());
+  view().setFocus(Qt::OtherFocusReason);
+  std::set<QWidget*> seen;
+  std::set<QString> names;
+  for (int n = 0; n < 200 && QApplication::focusWidget(); ++n)
+  {
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);
+    QWidget* at = QApplication::focusWidget();
+    if (!at || !seen.insert(at).second)
+      break;
+    names.insert(at->objectName());
+    const QImage with = at->grab().toImage();
+    at->clearFocus();
+    EXPECT_TRUE(
+        waitFor([&] { return differentPixels(with, at->grab().toImage(), kSmoothing) > 40; }))
+        << described(*at).toStdString();
+    at->setFocus(Qt::TabFocusReason);
+  }
+  for (const char* name : {"drillButton", "pointerButton", "wheelButton", "deviceMore",
+                           "threeDView", "axialView", "coronalView", "sagittalView"})
+    EXPECT_TRUE(names.count(name)) << name << " is not reached";
 }

@@ -14,8 +14,18 @@
 #include <QSignalSpy>
 #include <QTreeWidget>
 
+#include <vtkActor2D.h>
+#include <vtkCamera.h>
+#include <vtkNew.h>
+#include <vtkPropCollection.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
+
 #include "MeasureController.h"
+#include "MeasureOverlay.h"
 #include "SliceColumn.h"
+#include "SliceMarks.h"
 #include "SliceView.h"
 #include "petrous/Core/CsvTable.h"
 
@@ -94,6 +104,63 @@ protected:
 };
 
 } // namespace
+
+// A handle of the second lies where the first one's label would be, and a line crosses it.
+TEST(MeasureOverlay, LabelsLieOnNoHandleAndOverAllLines)
+{
+  vtkNew<vtkRenderWindow> target;
+  target->SetOffScreenRendering(1);
+  target->SetSize(600, 400);
+  vtkNew<vtkRenderer> renderer;
+  target->AddRenderer(renderer);
+  vtkCamera* camera = renderer->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetPosition(0.0, 0.0, 100.0);
+  camera->SetFocalPoint(0.0, 0.0, 0.0);
+  camera->SetViewUp(0.0, 1.0, 0.0);
+  camera->SetParallelScale(20.0); // 10 px a mm
+  camera->SetClippingRange(1.0, 200.0);
+
+  MeasureOverlay overlay(*renderer);
+  DrawnMeasure first;
+  first.points = {{-1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+  first.handles = {0, 1};
+  first.label = "distance 1: 4.97 mm";
+  first.color = Qt::cyan;
+  DrawnMeasure second = first;
+  second.points = {{4.0, 1.8, 0.0}, {14.0, -3.0, 0.0}};
+  second.label = "distance 2: 15.26 mm";
+  overlay.set({first, second});
+  overlay.place();
+  target->Render();
+
+  std::vector<vtkTextActor*> labels;
+  vtkPropCollection* props = renderer->GetViewProps();
+  vtkCollectionSimpleIterator at;
+  props->InitTraversal(at);
+  while (vtkProp* prop = props->GetNextProp(at))
+    if (auto* label = vtkTextActor::SafeDownCast(prop))
+      labels.push_back(label);
+    else
+      EXPECT_TRUE(labels.empty()) << "drawn over a label";
+  ASSERT_EQ(labels.size(), 2U);
+  for (vtkTextActor* label : labels)
+  {
+    const int* const low = label->GetPositionCoordinate()->GetComputedDisplayValue(renderer);
+    const double left = low[0], bottom = low[1];
+    double size[2] = {0.0, 0.0};
+    label->GetSize(renderer, size);
+    EXPECT_GT(size[0], 50.0);
+    for (const DrawnMeasure& measure : overlay.measures())
+      for (const Vector3d& handle : measure.points)
+      {
+        const double x = 300.0 + 10.0 * handle.x();
+        const double y = 200.0 + 10.0 * handle.y();
+        EXPECT_FALSE(x > left && x < left + size[0] && y > bottom && y < bottom + size[1])
+            << label->GetInput() << " on " << handle.transpose();
+      }
+  }
+}
 
 // Compared with 3D Slicer and ITK-SNAP: at most three events for a distance.
 TEST_F(MeasureWindow, ADistanceTakesThreeEvents)

@@ -6,6 +6,7 @@
 
 #include "NearbyModel.h"
 #include "StructuresModel.h"
+#include "ToolDistances.h"
 #include "ToolWarnings.h"
 
 using namespace petrous;
@@ -165,7 +166,11 @@ TEST_F(Nearby, NamesWhatIsStillBeingMeasured)
     model.setLook("nerve", look);
   };
   change(0.0);
-  ToolWarnings warnings(model);
+  ToolDistances distances(model);
+  bool isPanelOpen = true; // so that structures are measured of which nobody is warned
+  distances.isWideWanted = [&isPanelOpen] { return isPanelOpen; };
+  ToolWarnings warnings;
+  QObject::connect(&distances, &ToolDistances::measured, &warnings, &ToolWarnings::show);
   QString text;
   bool isAlarmed = false;
   QObject::connect(&warnings, &ToolWarnings::warned, [&](const QString& lines) { text = lines; });
@@ -173,8 +178,9 @@ TEST_F(Nearby, NamesWhatIsStillBeingMeasured)
   const auto ask = [&]
   {
     QTest::qWait(100); // it answers a few times a second
-    warnings.toolMoved(presenters::MeasuredTool(1.0), {kBallCenter + Eigen::Vector3d(0.0, 0.0, 9.0),
-                                                       Eigen::Quaterniond::Identity()});
+    distances.toolMoved(
+        presenters::MeasuredTool(1.0),
+        {kBallCenter + Eigen::Vector3d(0.0, 0.0, 9.0), Eigen::Quaterniond::Identity()});
   };
   ASSERT_TRUE(waitFor(
       [&]
@@ -182,6 +188,7 @@ TEST_F(Nearby, NamesWhatIsStillBeingMeasured)
         ask();
         return model.measuresNearby() && text.isEmpty();
       }));
+  isPanelOpen = false;
   change(20.0);
   ask();
   EXPECT_EQ(text, "no warnings of nerve yet: still being measured");
@@ -195,4 +202,46 @@ TEST_F(Nearby, NamesWhatIsStillBeingMeasured)
       << text.toStdString();
   EXPECT_FALSE(text.contains("measured")) << text.toStdString();
   EXPECT_TRUE(isAlarmed);
+}
+
+// The tool moves many times a frame; all who show its distances are told of one measurement.
+TEST_F(Nearby, IsMeasuredOnceForAllWhoShowIt)
+{
+  saveBall("ball");
+  openWindow();
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  ToolDistances distances(model);
+  bool isPanelOpen = true;
+  distances.isWideWanted = [&isPanelOpen] { return isPanelOpen; };
+  std::vector<presenters::ToolSurroundings> heard;
+  QObject::connect(&distances, &ToolDistances::measured,
+                   [&heard](const presenters::ToolSurroundings& near) { heard.push_back(near); });
+  const auto ask = [&](double away)
+  {
+    distances.toolGone(); // the next one is measured at once
+    distances.toolMoved(
+        presenters::MeasuredTool(1.0),
+        {kBallCenter + Eigen::Vector3d(0.0, 0.0, away), Eigen::Quaterniond::Identity()});
+    return heard.back();
+  };
+  ASSERT_TRUE(waitFor([&] { return ask(9.0).isMeasured; }));
+  const std::size_t before = heard.size();
+  const presenters::ToolSurroundings wide = ask(9.0);
+  EXPECT_EQ(heard.size(), before + 1);
+  ASSERT_EQ(wide.structures.size(), 1U);
+  EXPECT_NEAR(wide.structures[0].distance, 9.0 - 4.0 - 1.0, 0.3); // the nerve's radius is 4 mm
+  isPanelOpen = false;
+  EXPECT_TRUE(ask(9.0).structures.empty()) << "too far for a warning";
+  EXPECT_FALSE(ask(9.0).isWide);
+  ASSERT_EQ(ask(4.5).structures.size(), 1U);
+  EXPECT_EQ(ask(4.5).structures[0].state, presenters::NearbyStructure::State::Touched);
+
+  // Nobody measures what is neither shown nor warned of.
+  auto look = *model.lookOf("nerve");
+  look.shown = false;
+  look.warning = 0.0;
+  model.setLook("nerve", look);
+  model.forgetNearby();
+  EXPECT_TRUE(ask(4.5).isMeasured);
+  EXPECT_FALSE(model.measuresNearby());
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <future>
 
+#include <QAbstractItemView>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
@@ -22,6 +23,7 @@
 #include "LandmarkModel.h"
 #include "MetricCurve.h"
 #include "MrOverlay.h"
+#include "RegistrationTargetBox.h"
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "petrous/Phantom/Phantom.h"
@@ -278,6 +280,55 @@ TEST_F(RegistrationWindow, SaysThatNoEarIsKnown)
   EXPECT_TRUE(note.isHidden());
 }
 
+TEST_F(RegistrationWindow, PlacesOfTheErrorAreToldApart)
+{
+  scene::Case value = ballCase("two");
+  auto& structures = value.labels[0].structures;
+  const std::string canal = "superior_semicircular_canal_of_the_temporal_bone_";
+  scene::StructurePart one = structures.front();
+  structures.clear();
+  for (const auto& [name, volume] : {std::pair(std::string("cochlea"), 74.0),
+                                     {"cochlea 2", 80.0},
+                                     {canal + "a", 15.0},
+                                     {canal + "b", 15.0}})
+  {
+    one.name = name;
+    one.volume = volume;
+    structures.push_back(one);
+    ++one.index;
+  }
+  presenters::WorkstationModel model(library());
+  model.adopt(std::move(value));
+  presenters::RegistrationSession session(model);
+  session.caseChanged();
+  RegistrationTargetBox box(session);
+  box.refresh();
+  box.refresh(); // again the same ones
+  auto& places = *box.findChild<QComboBox*>("registrationPlace");
+  ASSERT_EQ(places.count(), 6);
+  EXPECT_EQ(places.itemText(2), QString::fromUtf8("cochlea (74.00 mm³)"));
+  EXPECT_EQ(places.itemText(3), QString::fromUtf8("cochlea 2 (80.00 mm³)"));
+  EXPECT_EQ(places.itemText(4), QString::fromStdString(canal + "a").replace('_', ' '));
+  EXPECT_TRUE(places.itemData(4, Qt::ToolTipRole).toString().contains("mm³"));
+
+  box.resize(280, box.sizeHint().height());
+  box.show();
+  const auto seen = [&places](int row)
+  {
+    places.setCurrentIndex(row);
+    return places.grab().toImage();
+  };
+  const QString whole = places.itemText(5);
+  ASSERT_GT(places.fontMetrics().horizontalAdvance(whole), places.width());
+  const QImage fourth = seen(4);
+  EXPECT_NE(seen(5), fourth) << "elided before what differs";
+  EXPECT_EQ(session.aim().structure, canal + "b");
+  EXPECT_TRUE(places.toolTip().contains(whole)) << places.toolTip().toStdString();
+  places.showPopup();
+  EXPECT_GT(places.view()->width(), places.fontMetrics().horizontalAdvance(whole));
+  places.hidePopup();
+}
+
 TEST_F(RegistrationWindow, RegistersWithProgressAndStatesTheError)
 {
   showPanel();
@@ -434,7 +485,7 @@ TEST_F(RegistrationWindow, TheSlicesShowTheRegionThatCountsWhileThePanelIsOpen)
   EXPECT_NEAR(changed.center().x(), middle.x(), 3.0);
   EXPECT_NEAR(changed.center().y(), middle.y(), 3.0);
   showPanel(); // hides it
-  EXPECT_TRUE(waitFor([&] { return same(axial(), whole); }, 5000));
+  EXPECT_TRUE(waitFor([&] { return same(axial(), whole); }));
 }
 
 TEST_F(RegistrationWindow, TheHandMovesTheMrByKeyAndButtonAndCanBeUndone)
@@ -573,6 +624,16 @@ TEST_F(RegistrationWindow, AResultWaitsForTheDrill)
   EXPECT_FALSE(moved);
   EXPECT_LT(error(), 0.5);
   EXPECT_TRUE(find<QPushButton>("register").isEnabled());
+}
+
+TEST_F(RegistrationWindow, ClosingItsCaseEndsARunAndSaysSo)
+{
+  showPanel();
+  click("register");
+  action("Close the case")->trigger();
+  EXPECT_TRUE(waitFor([this] { return !window().model().hasCase(); }));
+  EXPECT_EQ(window().statusBar()->currentMessage(),
+            "The registration ended with its case; the MR lies as before");
 }
 
 TEST_F(RegistrationWindow, AnMrGoesToTheCtThroughOneThatIsThere)

@@ -288,7 +288,7 @@ TEST_F(PictureView, TheWindowMayBeResizedWhileTheDrillIsOn)
   const QPoint middle = view().rect().center();
   QTest::mouseMove(&view(), middle);
   QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
-  EXPECT_TRUE(waitFor([this] { return window().model().drilling(); }));
+  EXPECT_TRUE(cuts());
   for (const QSize& size : {QSize(900, 600), QSize(1300, 800), QSize(1000, 640)})
   {
     window().resize(size);

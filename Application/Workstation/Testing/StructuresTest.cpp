@@ -7,6 +7,7 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
+#include <QHeaderView>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
@@ -16,10 +17,12 @@
 #include <QSlider>
 #include <QSpinBox>
 #include <QToolButton>
+#include <QTranslator>
 #include <QTreeView>
 
 #include "ColorChooser.h"
 #include "GuiTest.h"
+#include "Language.h"
 #include "StructuresModel.h"
 #include "StructuresPanel.h"
 #include "petrous/Appearance/StructureProperties.h"
@@ -141,6 +144,63 @@ TEST_F(Structures, AStructureIsRecolouredWithTwoClicks)
   EXPECT_EQ(action("Redo")->text(), "&Redo colour of nerve");
 }
 
+// The selection, blue, does not tint what tells structures apart.
+TEST_F(Structures, AColourIsDrawnAsItIsInASelectedRow)
+{
+  openWith({});
+  appearance::StructureAppearance yellow = look("nerve");
+  yellow.color = {247.0F / 255.0F, 222.0F / 255.0F, 115.0F / 255.0F};
+  model().setLooks({{"nerve", yellow}}, {});
+  const auto swatch = [this]
+  {
+    const QRect rect = structureList().visualRect(structureCell("nerve"));
+    const QImage drawn = structureList().viewport()->grab(rect).toImage();
+    return drawn.pixelColor(drawn.width() * kSwatch / rect.width(), drawn.height() / 2);
+  };
+  EXPECT_EQ(swatch().name(), "#f7de73");
+  structureList().setCurrentIndex(structureCell("nerve"));
+  ASSERT_TRUE(structureList().selectionModel()->isSelected(structureCell("nerve")));
+  EXPECT_EQ(swatch().name(), "#f7de73");
+}
+
+// Of a part with a transfer function, which is tinted too; the pointer rests on others first.
+TEST_F(Structures, AColourOfATransferFunctionIsOneStepHoweverManyAreTried)
+{
+  openWith({});
+  using appearance::ControlPoint;
+  const auto pointAt = [](double value, float red, float green, float blue)
+  {
+    ControlPoint point;
+    point.value = value;
+    point.color = {red, green, blue};
+    point.opacity = 0.3F;
+    return point;
+  };
+  appearance::StructureAppearance tinted = look("nerve");
+  tinted.color = {0.97F, 0.87F, 0.45F};
+  tinted.transfer = appearance::TransferFunction(
+      {pointAt(100.0, 0.31F, 0.29F, 0.17F), pointAt(900.0, 0.7F, 0.63F, 0.33F)});
+  model().setLooks({{"nerve", tinted}}, "preparation");
+  const QColor wanted = QColor::fromHsv(90, 110, 255);
+  clickCell("nerve", 0, kSwatch);
+  auto* chooser = find<ColorChooser>("colorChooser");
+  ASSERT_TRUE(chooser);
+  emit chooser->previewed(Qt::black);
+  emit chooser->previewed(wanted);
+  QToolButton* cell = colorCell(wanted);
+  ASSERT_TRUE(cell);
+  click(cell, cell->rect().center());
+  appearance::StructureAppearance expected = tinted;
+  appearance::setColor(expected,
+                       {static_cast<float>(wanted.redF()), static_cast<float>(wanted.greenF()),
+                        static_cast<float>(wanted.blueF())});
+  EXPECT_TRUE(look("nerve") == expected) << "the black in between is not seen";
+  EXPECT_EQ(action("Undo")->text(), "&Undo colour of nerve");
+  action("Undo")->trigger();
+  EXPECT_TRUE(look("nerve") == tinted);
+  EXPECT_EQ(action("Undo")->text(), "&Undo preparation");
+}
+
 TEST_F(Structures, OneOfSixtyIsShownAloneWithTwoClicksAndAllAgainWithOne)
 {
   openMany(60);
@@ -190,6 +250,25 @@ TEST_F(Structures, BoneIsARowThatIsHiddenAndRecolouredLikeOthers)
   EXPECT_EQ(action("Undo")->text(), "&Undo colour of bone");
 }
 
+TEST_F(Structures, BoneIsNotOfferedThePresetsOfLumens)
+{
+  openWith({});
+  const auto* presets = find<QComboBox>("structurePreset");
+  const auto isOffered = [presets](const QString& preset)
+  {
+    const int row = presets->findData(preset);
+    return row >= 0 && (presets->model()->index(row, 0).flags() & Qt::ItemIsEnabled);
+  };
+  structureList().setCurrentIndex(structureCell("ct"));
+  EXPECT_TRUE(isOffered("bone-translucent"));
+  EXPECT_FALSE(isOffered("ear-canal") || isOffered("air-cells"));
+  structureList().selectionModel()->select(structureCell("nerve"),
+                                           QItemSelectionModel::Select | QItemSelectionModel::Rows);
+  EXPECT_TRUE(isOffered("ear-canal")) << "the nerve can have it";
+  structureList().setCurrentIndex(structureCell(scene::kSoftTissue));
+  EXPECT_FALSE(isOffered("ear-canal"));
+}
+
 TEST_F(Structures, SoftTissueIsARowBelowBoneThatIsDrawnOnly)
 {
   openWith({});
@@ -229,6 +308,108 @@ TEST_F(Structures, SoftTissueIsARowBelowBoneThatIsDrawnOnly)
   find<QToolButton>("showThese")->click();
   EXPECT_TRUE(look("ct").shown);
   EXPECT_FALSE(look(scene::kSoftTissue).shown) << "it would veil the others";
+}
+
+// Its mark of drilling keeps the drill off its wall, and so has an effect.
+TEST_F(Structures, ALumenHasNoMarkOfTouchAndSaysWhy)
+{
+  openWith({{"canal", "ear-canal"}, {"antrum", "air-cells"}, {"carotid", "artery"}});
+  auto& list = structureList();
+  const int touch = StructuresModel::columnOf("touchable");
+  const int drill = StructuresModel::columnOf("drillable");
+  const auto tip = [](const QModelIndex& cell) { return cell.data(Qt::ToolTipRole).toString(); };
+  const QModelIndex kind = structureCell("canal").parent();
+  for (const QModelIndex& row : {structureCell("canal"), kind})
+  {
+    const QModelIndex cell = row.siblingAtColumn(touch);
+    EXPECT_FALSE(cell.data(Qt::CheckStateRole).isValid());
+    EXPECT_FALSE(cell.flags() & Qt::ItemIsUserCheckable);
+    EXPECT_TRUE(tip(cell).contains("a space without tissue")) << tip(cell).toStdString();
+    EXPECT_FALSE(list.model()->setData(cell, Qt::Unchecked, Qt::CheckStateRole));
+    EXPECT_TRUE(row.siblingAtColumn(drill).flags() & Qt::ItemIsUserCheckable);
+  }
+  EXPECT_TRUE(look("canal").touchable) << "the mark stays, for a preset of tissue";
+  EXPECT_TRUE(structureCell("carotid", touch).data(Qt::CheckStateRole).isValid());
+
+  auto* mark = find<QCheckBox>("structure_touchable");
+  auto* stiffness = find<QDoubleSpinBox>("structure_stiffness_n_per_mm");
+  list.setCurrentIndex(structureCell("carotid"));
+  EXPECT_TRUE(mark->isEnabled() && stiffness->isEnabled());
+  EXPECT_FALSE(mark->toolTip().contains("a space without tissue"));
+  list.setCurrentIndex(structureCell("canal"));
+  EXPECT_FALSE(mark->isEnabled() || stiffness->isEnabled());
+  EXPECT_EQ(mark->checkState(), Qt::Unchecked);
+  for (const QWidget* widget : {static_cast<QWidget*>(mark), static_cast<QWidget*>(stiffness)})
+    EXPECT_TRUE(widget->toolTip().contains("a space without tissue"))
+        << widget->toolTip().toStdString();
+  EXPECT_TRUE(find<QCheckBox>("structure_drillable")->isEnabled());
+
+  // Of several, those that can be felt are changed.
+  list.selectionModel()->select(structureCell("carotid"),
+                                QItemSelectionModel::Select | QItemSelectionModel::Rows);
+  ASSERT_TRUE(mark->isEnabled());
+  mark->click();
+  EXPECT_FALSE(look("carotid").touchable);
+  EXPECT_TRUE(look("canal").touchable);
+
+  list.setCurrentIndex(structureCell("canal"));
+  auto* preset = find<QComboBox>("structurePreset");
+  emit preset->activated(preset->findData("nerve"));
+  EXPECT_TRUE(mark->isEnabled());
+  EXPECT_EQ(structureCell("canal", touch).data(Qt::CheckStateRole).toInt(), Qt::Checked);
+}
+
+// At the width that the panel has at first: names are elided before a check box scrolls away.
+TEST_F(Structures, WhatIsSetStaysInSightWithAToolInTheHand)
+{
+  scene::Case value = ballCase("ball");
+  auto& nerve = value.labels[0].structures[0];
+  nerve.name = "superior semicircular canal of the left ear and its ampulla";
+  nerve.volume = 2664.8;
+  nerve.look.warning = 12.5;
+  library().save(value);
+  for (const char* language : {"en", "long", "de"})
+  {
+    SCOPED_TRACE(language);
+    LongTexts longer; // each is removed when it goes
+    QTranslator german;
+    const bool isGerman = std::string(language) == "de";
+    if (isGerman && !hasLanguage("de"))
+      continue;
+    ASSERT_TRUE(!isGerman || german.load(":/translations/petrous_de.qm"));
+    if (std::string(language) != "en")
+      QApplication::installTranslator(isGerman ? &german : &longer);
+    openWindow("ball");
+    auto& list = structureList();
+    const QHeaderView& header = *list.header();
+    QTest::keyClick(&view(), Qt::Key_D);
+    ASSERT_TRUE(waitFor(
+        [&]
+        {
+          QTest::mouseMove(&view(), view().rect().center() + QPoint(3, 0));
+          QTest::mouseMove(&view(), view().rect().center());
+          return !list.isColumnHidden(StructuresModel::Burr);
+        }));
+    for (const int column :
+         {static_cast<int>(StructuresModel::Name), static_cast<int>(StructuresModel::Burr),
+          StructuresModel::columnOf("shown"), StructuresModel::columnOf("touchable"),
+          StructuresModel::columnOf("drillable"), StructuresModel::columnOf("warn_mm")})
+    {
+      const auto data = [&](int role)
+      { return list.model()->headerData(column, Qt::Horizontal, role); };
+      const QString name = data(Qt::AccessibleTextRole).toString();
+      EXPECT_FALSE(name.isEmpty()) << column;
+      EXPECT_FALSE(data(Qt::ToolTipRole).toString().isEmpty()) << name.toStdString();
+      const QString title = data(Qt::DisplayRole).toString();
+      EXPECT_NE(title.isEmpty(), data(Qt::DecorationRole).isNull()) << name.toStdString();
+      EXPECT_GT(header.sectionSize(column), header.fontMetrics().horizontalAdvance(title))
+          << name.toStdString();
+      const int left = header.sectionViewportPosition(column);
+      EXPECT_GE(left, 0) << name.toStdString();
+      EXPECT_LE(left + header.sectionSize(column), list.viewport()->width()) << name.toStdString();
+    }
+    closeWindow();
+  }
 }
 
 TEST_F(Structures, SoftTissueThatCannotBeDrawnSaysSo)
@@ -518,11 +699,12 @@ TEST_F(Structures, NoDistanceOfAnotherPlaceStaysWhereNoneIsKnown)
       static_cast<StructuresModel*>(panel.findChild<QTreeView*>("structures")->model());
   const auto distance = [rows]
   { return rows->rowOf("nerve").siblingAtColumn(StructuresModel::Burr).data().toString(); };
-  const auto ask = [&panel](double away)
+  const auto ask = [this, &panel](double away)
   {
-    QTest::qWait(200); // it answers a few times a second
-    panel.toolMoved(presenters::MeasuredTool(1.0), {kBallCenter + Eigen::Vector3d(0.0, 0.0, away),
-                                                    Eigen::Quaterniond::Identity()});
+    panel.toolMeasured(model().surroundings(
+        presenters::MeasuredTool(1.0),
+        {kBallCenter + Eigen::Vector3d(0.0, 0.0, away), Eigen::Quaterniond::Identity()},
+        panel.showsNear()));
   };
   ASSERT_TRUE(waitFor(
       [&]

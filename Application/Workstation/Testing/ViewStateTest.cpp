@@ -225,6 +225,37 @@ TEST_F(ViewStates, EachChangeOfTheLightIsAStepOfTheOneUndo)
   EXPECT_FALSE(widget<QAbstractButton>("shadows").isChecked());
 }
 
+// In a narrow view it lies below the letter at the top and the case's name.
+TEST_F(ViewStates, ANoteCoversNeitherLettersNorTheCaseAndItsSide)
+{
+  saveBall("ball");
+  openWindow("ball");
+  const auto* note = view().findChild<QLabel*>("guessed");
+  QList<QLabel*> others = view().findChildren<QLabel*>("direction");
+  others += view().findChildren<QLabel*>("caseStamp");
+  ASSERT_EQ(others.size(), 5);
+  const int besides = 10; // px
+  for (const int wide : {20, view().width() / 2, view().width()})
+  {
+    QString line = "Cut";
+    while (note->fontMetrics().horizontalAdvance(line) < wide)
+      line += " away";
+    view().setNotes({line, line});
+    EXPECT_FALSE(note->isHidden());
+    if (wide == 20)
+    {
+      EXPECT_EQ(note->geometry().topLeft(), QPoint(besides, besides)) << "there is room";
+    }
+    for (const QLabel* other : others)
+      if (!other->isHidden())
+      {
+        EXPECT_FALSE(note->geometry().intersects(other->geometry()))
+            << wide << ": " << other->text().toStdString();
+      }
+  }
+  view().setNotes({});
+}
+
 TEST_F(ViewStates, CutsAwayBeforeTheCrosshairUntilAToolIsTakenUp)
 {
   saveBall("ball");

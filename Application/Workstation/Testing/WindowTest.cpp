@@ -196,7 +196,7 @@ TEST_F(Window, EachPanelOfTheTableHasADockAKeyAndAnEntryInTheMenu)
 
 TEST_F(Window, ALongNameIsElidedInItsMiddleAndItsColumnCanBeWidened)
 {
-  const std::string name = "superior_semicircular_canal_of_the_left_ear";
+  const std::string name = "superior_semicircular_canal_of_the_left_ear_and_its_ampulla";
   scene::Case value = ballCase("ball");
   value.labels[0].structures[0].name = name;
   library().save(value);

@@ -27,6 +27,8 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QTabBar>
+#include <QToolBar>
+#include <QToolButton>
 #include <QUrl>
 #include <QVBoxLayout>
 
@@ -54,6 +56,7 @@
 #include "Manual.h"
 #include "MeasureController.h"
 #include "MeasurePanel.h"
+#include "MessageRoom.h"
 #include "PanelLayout.h"
 #include "PictureController.h"
 #include "ProbeLabel.h"
@@ -72,6 +75,7 @@
 #include "ThicknessController.h"
 #include "ThreeDView.h"
 #include "ThumbnailDrawer.h"
+#include "ToolDistances.h"
 #include "ToolWarnings.h"
 #include "VideoController.h"
 #include "ViewArea.h"
@@ -219,6 +223,8 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
   m_branches->camera = [this] { return m_viewState->camera(); };
   m_branches->showCamera = [this](const core::CameraPose& camera)
   { m_viewState->showCamera(camera); };
+  m_viewState->instrument = [this] { return m_drill->caseInstrument(); };
+  m_viewState->showInstrument = [this](const auto& kept) { m_drill->setCaseInstrument(kept); };
   m_share->releaseTool = [this] { m_drill->releaseTool(); };
   m_share->collectView = [this] { m_viewState->collect(); };
   m_video->goToState = [this](const std::string& branch, std::size_t stroke)
@@ -332,12 +338,19 @@ void MainWindow::layOut()
   statusBar()->addPermanentWidget(m_picture->speed());
   statusBar()->addPermanentWidget(m_place);
   statusBar()->addPermanentWidget(m_sum);
+  // m_touch stays: why there is no force.
+  new MessageRoom(*statusBar(), {m_picture->speed(), m_place, m_sum, m_recording});
 }
 
 // Keys belong to the picture unless a number is being typed, and the wheel changes no value that
 // was not clicked.
 void MainWindow::guardBoxes()
 {
+  // Of its actions a tool bar makes buttons that Tab passes over.
+  for (auto* bar : findChildren<QToolBar*>())
+    for (QAction* action : bar->actions())
+      if (auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action)))
+        button->setFocusPolicy(Qt::TabFocus);
   for (auto* dock : findChildren<QDockWidget*>()) // those of the slices are turned by the wheel
     for (auto* slider : dock->findChildren<QSlider*>())
     {
@@ -521,14 +534,23 @@ void MainWindow::connectModel()
           { m_place->showValues(patient, m_slices->valuesAt(patient)); });
   connect(m_drill, &DrillController::pointed, m_place, &ProbeLabel::showPlace);
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
+  auto* distances = new ToolDistances(m_model, this);
+  distances->isWideWanted = [this]
+  {
+    return std::any_of(m_panels.begin(), m_panels.end(),
+                       [](const auto& one) { return one.second->showsNear(); });
+  };
   for (const auto& [entry, panel] : m_panels)
   {
     connect(m_drill, &DrillController::toolMoved, panel, &Panel::toolMoved);
     connect(m_drill, &DrillController::toolGone, panel, &Panel::toolGone);
+    connect(distances, &ToolDistances::measured, panel, &Panel::toolMeasured);
   }
+  connect(m_drill, &DrillController::toolMoved, distances, &ToolDistances::toolMoved);
+  connect(m_drill, &DrillController::toolGone, distances, &ToolDistances::toolGone);
   connect(m_drill, &DrillController::toolMoved, m_sliceControl, &SliceController::toolMoved);
-  auto* warnings = new ToolWarnings(m_model, this);
-  connect(m_drill, &DrillController::toolMoved, warnings, &ToolWarnings::toolMoved);
+  auto* warnings = new ToolWarnings(this);
+  connect(distances, &ToolDistances::measured, warnings, &ToolWarnings::show);
   connect(m_drill, &DrillController::toolGone, warnings, &ToolWarnings::toolGone);
   connect(warnings, &ToolWarnings::warned, &m_view->display(), &SceneDisplay::setWarning);
   connect(warnings, &ToolWarnings::alarmed, &m_drill->sound(), &DrillSound::setWarning);
@@ -1310,6 +1332,7 @@ void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& st
   const QString text = strokeText(stroke.get());
   if (!stroke)
     return statusBar()->showMessage(text, kMessage);
+  m_segment->strokeEnded();
   if (m_model.hasCase() && m_model.value().dissection.history().ahead() == 0)
     statusBar()->showMessage(text); // else an undo has ended it, and says so
   m_saver->save();

@@ -14,6 +14,7 @@ struct Pose;
 namespace petrous::presenters
 {
 class MeasuredTool;
+struct ToolSurroundings;
 class WorkstationModel;
 } // namespace petrous::presenters
 
@@ -47,6 +48,9 @@ public:
   /// A burr or an instrument in use, at X_PT; each frame.
   virtual void toolMoved(const presenters::MeasuredTool& /*tool*/, const haptics::Pose& /*pose*/) {}
   virtual void toolGone() {} ///< it was put away
+  /// Whether it shows distances of the tool, and toolMeasured is wanted with all that is near.
+  virtual bool showsNear() const { return false; }
+  virtual void toolMeasured(const presenters::ToolSurroundings& /*near*/) {}
 };
 
 /// What panels are made from.

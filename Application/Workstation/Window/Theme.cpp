@@ -6,7 +6,9 @@
 
 #include <QApplication>
 #include <QFont>
+#include <QPainter>
 #include <QPalette>
+#include <QPixmapCache>
 #include <QRegularExpression>
 #include <QStyleFactory>
 #include <QVariant>
@@ -83,7 +85,7 @@ QToolBar::separator { background: @rule; width: 1px; margin: 4px 6px; }
 QToolButton { padding: 5px 10px; border-radius: 4px; border: 1px solid transparent; }
 QToolButton:hover { background: @hover; }
 QToolButton:pressed { background: @pressed; }
-QToolButton:focus { border-color: @accent; }
+QToolButton:focus { border-color: @focus; }
 QToolButton:disabled { color: @off; }
 QFileDialog QToolButton { padding: 3px; }
 QTabBar QToolButton { padding: 0; background: @panel; }
@@ -93,10 +95,12 @@ QToolButton#pointerButton:checked { background: @checked; border-color: @checked
 QToolButton#wheelButton { border: 1px solid @frame; }
 QToolButton#wheelButton:checked { background: @checked; border-color: @checkedEdge; color: #ffffff; }
 QToolButton#drillButton:checked { background: @drill; border-color: @edgeOfDrill; color: #ffffff; }
+QToolButton#drillButton:focus, QToolButton#pointerButton:focus, QToolButton#wheelButton:focus {
+  border-color: @focus; }
 QToolButton#segmentTool, QToolButton#measureTool {
   border: 1px solid @toolEdge; background: @tool; padding: 6px 4px; }
 QToolButton#segmentTool:hover, QToolButton#measureTool:hover { background: @hover; }
-QToolButton#segmentTool:focus, QToolButton#measureTool:focus { border-color: @accent; }
+QToolButton#segmentTool:focus, QToolButton#measureTool:focus { border-color: @focus; }
 QToolButton#segmentTool:checked, QToolButton#measureTool:checked {
   background: @checked; border-color: @checkedEdge; color: #ffffff; }
 QAbstractSpinBox[refused="true"] { color: @drill; }
@@ -135,6 +139,7 @@ QLabel#guessed { color: #ff8c2b; background: rgba(16, 19, 23, 150); border-radiu
                  padding: 1px 6px; }
 QLabel#direction { color: #c9d2dc; font-size: %1px; font-weight: 700;
                    background: rgba(16, 19, 23, 150); border-radius: 4px; padding: 1px 6px; }
+QWidget#focusFrame { background: #62b0ec; }
 QLabel#caseStamp { color: #c9d2dc; background: rgba(16, 19, 23, 150); border-radius: 4px;
                    padding: 1px 6px; }
 QFrame[banner="notice"] { background: @notice; border-bottom: 1px solid @edgeOfNotice; }
@@ -214,6 +219,40 @@ void applyTheme(QApplication& application, const Theme& theme)
 QColor warningColor()
 {
   return QApplication::palette().color(QPalette::LinkVisited);
+}
+
+QPixmap pixmapOf(const QString& key, int size, const std::function<void(QPainter&)>& draw)
+{
+  const qreal scale = qApp->devicePixelRatio();
+  const QString kept =
+      QString("petrous-%1-%2-%3").arg(key).arg(size).arg(std::lround(100.0 * scale));
+  QPixmap pixmap;
+  if (QPixmapCache::find(kept, &pixmap))
+    return pixmap;
+  pixmap = QPixmap(QSize(size, size) * scale);
+  pixmap.setDevicePixelRatio(scale);
+  pixmap.fill(Qt::transparent);
+  QPainter painter(&pixmap);
+  painter.setRenderHint(QPainter::Antialiasing);
+  draw(painter);
+  painter.end();
+  QPixmapCache::insert(kept, pixmap);
+  return pixmap;
+}
+
+QIcon swatch(const QColor& color, int size)
+{
+  const QPixmap pixmap =
+      pixmapOf("swatch-" + color.name(), size,
+               [&color, size](QPainter& painter)
+               {
+                 painter.setPen(QColor(0, 0, 0, 160));
+                 painter.setBrush(color);
+                 painter.drawRoundedRect(QRectF(0.5, 0.5, size - 1.0, size - 1.0), 3.0, 3.0);
+               });
+  QIcon icon(pixmap);
+  icon.addPixmap(pixmap, QIcon::Selected); // not tinted
+  return icon;
 }
 
 QColor harmColor()

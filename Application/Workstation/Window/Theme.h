@@ -1,11 +1,16 @@
 #pragma once
 
+#include <functional>
+
 #include <QColor>
+#include <QIcon>
+#include <QPixmap>
 #include <QString>
 
 #include "petrous/Presenters/SliceGeometry.h"
 
 class QApplication;
+class QPainter;
 
 namespace petrous::workstation
 {
@@ -39,6 +44,13 @@ QColor warningColor();
 /// The same as a style sheet of a widget, which follows the theme.
 constexpr const char* kWarningStyle = "color: palette(link-visited);";
 QColor harmColor();
+
+/// A square of `size` px on a transparent ground, in the screen's scale. Views ask for icons
+/// whenever they draw a row: it is drawn once for each key, which names all that it depends on.
+QPixmap pixmapOf(const QString& key, int size, const std::function<void(QPainter&)>& draw);
+
+/// The colour of what stands beside it, in a selected row, too.
+QIcon swatch(const QColor& color, int size);
 
 /// The colour of a slice plane in every view.
 QColor planeColor(presenters::SliceOrientation orientation);

@@ -37,6 +37,11 @@ QString shownName(const std::string& part)
   return words(presenters::shownName(part));
 }
 
+QString approachName(const std::string& name)
+{
+  return name == dissection::History::kMain ? QObject::tr("main") : words(name);
+}
+
 QString patternsOf(unsigned contents)
 {
   QStringList patterns;
@@ -65,7 +70,7 @@ QString removedText(const scene::Case& value, bool drilling)
           .arg(value.removedVolume(), 0, 'f', 1);
   const dissection::History& history = value.dissection.history();
   const QString where = history.branches().size() > 1
-                            ? QObject::tr("%1: %2").arg(words(history.branch().name), text)
+                            ? QObject::tr("%1: %2").arg(approachName(history.branch().name), text)
                             : text;
   return drilling ? QObject::tr("%1, drilling").arg(where) : where;
 }
@@ -107,7 +112,8 @@ const std::vector<Hint>& hints()
       {": series [0-9.]+: ", ": "},
       {"\\b(gantry-tilt|missing-slice|uneven-spacing|duplicate-slice|side-by-side|odd-orientation|"
        "odd-size|mixed-rescale|modality-lut|mixed-patients|mixed-studies|mixed-acquisitions|"
-       "no-geometry|localizer-mixed-in|missing-end|multi-frame|not-an-image|unreadable): ",
+       "no-geometry|localizer-mixed-in|missing-end|missing-between|multi-frame|not-an-image|"
+       "unreadable): ",
        ""},
       {" \\(needs --repair\\)", " (needs repair)"},
       {" Give a series that 'petrous scan' finds ok\\.", ""},

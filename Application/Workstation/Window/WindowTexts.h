@@ -19,6 +19,9 @@ QString volumeText(double cubicMillimetres);
 /// A part's name as it is shown everywhere: presenters::shownName.
 QString shownName(const std::string& part);
 
+/// An approach's name as it is shown: the first one's in the user's language, until it is renamed.
+QString approachName(const std::string& name);
+
 /// "7.5 s", "1 min 15 s".
 QString durationText(double seconds);
 

@@ -218,6 +218,18 @@ TEST(StructureAppearance, AnotherColourKeepsTheShadesOfItsTransferFunction)
   EXPECT_THROW(setColor(look, {0.0F, 1.5F, 0.0F}), petrous::core::InvalidParameter);
 }
 
+TEST(StructureAppearance, TheColourThatItHasChangesNothing)
+{
+  StructureAppearance look;
+  look.color = {0.97F, 0.87F, 0.45F};
+  look.transfer = TransferFunction(
+      {{0.0, {0.31F, 0.29F, 0.17F}, 0.1F, 0.2F}, {100.0, {0.7F, 0.63F, 0.33F}, 0.3F, 0.4F}});
+  setColor(look, {0.2F, 0.9F, 0.6F});
+  const StructureAppearance once = look;
+  setColor(look, {0.2F, 0.9F, 0.6F});
+  EXPECT_TRUE(look.color == once.color && look.transfer == once.transfer);
+}
+
 TEST(StructureAppearance, APresetChangesTheLookAndNotWhatTheHandMayDo)
 {
   StructureAppearance look;

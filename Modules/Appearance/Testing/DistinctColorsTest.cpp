@@ -1,12 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
 #include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Appearance/StructurePresets.h"
 
-using petrous::appearance::distinctColor;
+using petrous::appearance::DistinctColors;
 using Color = std::array<float, 3>;
 using Triple = std::array<double, 3>;
 
@@ -156,8 +157,9 @@ double minDifference2000(const std::vector<Color>& colors, const std::vector<Col
 std::vector<Color> palette(std::size_t count)
 {
   std::vector<Color> colors;
+  DistinctColors distinct;
   while (colors.size() < count)
-    colors.push_back(distinctColor(colors));
+    colors.push_back(distinct.next());
   return colors;
 }
 
@@ -242,6 +244,22 @@ TEST(DistinctColors, KeepsClearOfWhatIsTaken)
 {
   const auto colors = palette(12);
   // The result depends only on the colours taken.
-  EXPECT_EQ(distinctColor({colors.begin(), colors.begin() + 5}), colors[5]);
+  EXPECT_EQ(DistinctColors({colors.begin(), colors.begin() + 5}).next(), colors[5]);
+  DistinctColors told;
+  for (int n = 0; n < 5; ++n)
+    told.take(colors[static_cast<std::size_t>(n)]);
+  EXPECT_EQ(told.next(), colors[5]);
   EXPECT_EQ(palette(12), colors);
+}
+
+// More than the palette and the grid have: given twice, and none before all were.
+TEST(DistinctColors, GoesOnWhereAllAreTaken)
+{
+  const auto colors = palette(1500);
+  const std::set<Color> different(colors.begin(), colors.end());
+  EXPECT_GT(different.size(), 300u);
+  EXPECT_LT(different.size(), 800u);
+  EXPECT_EQ(std::set<Color>(colors.begin(),
+                            colors.begin() + static_cast<std::ptrdiff_t>(different.size())),
+            different);
 }

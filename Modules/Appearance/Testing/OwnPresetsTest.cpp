@@ -180,6 +180,17 @@ TEST_F(OwnPresetsTest, AreFoundBeforeTheWordsOfTheCatalogueAndListedWithIt)
   {
     EXPECT_NE(std::string(error.what()).find("nerve"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("vessel"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("ear-canal"), std::string::npos) << error.what();
+  }
+  try
+  {
+    presets.preset("xyzzy", [](const StructureAppearance& preset) { return preset.solid; });
+    ADD_FAILURE();
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("vessel"), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find("ear-canal"), std::string::npos) << error.what();
   }
 }
 

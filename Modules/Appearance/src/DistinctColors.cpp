@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "petrous/Appearance/StructurePresets.h"
 
@@ -15,8 +16,11 @@ namespace
 using Triple = std::array<double, 3>;
 using Matrix = std::array<Triple, 3>;
 using Color = std::array<float, 3>;
+using Seen = DistinctColors::Seen;
 
-constexpr std::size_t kSights = 4; // normal, protan, deutan, tritan
+constexpr std::size_t kSights = std::tuple_size_v<Seen>; // normal, protan, deutan, tritan
+constexpr double kNoticed = 2.0;   // a palette of which this much is left is used up
+constexpr int kSteps = 8;          // of the grid that follows it
 constexpr double kDichromat = 1.4; // weight of differences that dichromats see
 
 // Linear sRGB as perceived; severity 1 in the supplement of Machado et al.
@@ -62,8 +66,6 @@ double linear(double srgb)
 {
   return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }
-
-using Seen = std::array<Triple, kSights>; // in CIE L*a*b*
 
 Seen seen(const Color& color)
 {
@@ -149,53 +151,62 @@ bool isOffered(const Seen& color)
   return lab[0] > 35.0 && lab[0] < 93.0 && std::hypot(lab[1], lab[2]) > 15.0;
 }
 
-// The colour farthest from the others, of those that are offered.
-struct Farthest
+float part(int n, int of)
 {
-  const std::vector<Seen>& others;
-  Color color{};
-  double nearest = -1.0; ///< CIEDE2000, weighted, to the nearest of the others
-
-  void offer(const Color& candidate)
-  {
-    const Seen sights = seen(candidate);
-    if (!isOffered(sights))
-      return;
-    double least = std::numeric_limits<double>::infinity();
-    for (const Seen& other : others)
-    {
-      least = std::min(least, distance(sights, other));
-      if (least <= nearest)
-        return;
-    }
-    nearest = least;
-    color = candidate;
-  }
-};
+  return static_cast<float>(n) / static_cast<float>(of);
+}
 
 } // namespace
 
-std::array<float, 3> distinctColor(const std::vector<std::array<float, 3>>& taken)
+DistinctColors::DistinctColors(const std::vector<Color>& taken)
 {
   const StructurePresets presets = StructurePresets::builtIn();
-  std::vector<Seen> others{seen({0.0F, 0.0F, 0.0F}), seen({0.5F, 0.5F, 0.5F})};
+  m_taken = {seen({0.0F, 0.0F, 0.0F}), seen({0.5F, 0.5F, 0.5F})};
   for (const char* name : {"bone", "nerve", "artery", "vein"})
-    others.push_back(seen(presets.preset(name).color));
+    m_taken.push_back(seen(presets.preset(name).color));
   for (const Color& color : taken)
-    others.push_back(seen(color));
-
-  Farthest best{others};
-  const auto part = [](int n, int of) { return static_cast<float>(n) / static_cast<float>(of); };
+    m_taken.push_back(seen(color));
   for (const auto& color : kPalette)
-    best.offer({part(color[0], 16), part(color[1], 16), part(color[2], 16)});
-  constexpr double kNoticed = 2.0; // a palette of which this much is left is used up
-  constexpr int kSteps = 8;
-  if (best.nearest < kNoticed)
+    offer({part(color[0], 16), part(color[1], 16), part(color[2], 16)});
+}
+
+void DistinctColors::offer(const Color& color)
+{
+  const Seen sights = seen(color);
+  if (!isOffered(sights))
+    return;
+  m_offered.push_back({color, sights, std::numeric_limits<double>::infinity()});
+  for (const Seen& taken : m_taken)
+    m_offered.back().nearest = std::min(m_offered.back().nearest, distance(sights, taken));
+}
+
+void DistinctColors::take(const Color& color)
+{
+  m_taken.push_back(seen(color));
+  for (Offered& each : m_offered)
+    if (each.nearest > 0.0)
+      each.nearest = std::min(each.nearest, distance(each.sights, m_taken.back()));
+}
+
+Color DistinctColors::next()
+{
+  const auto farthest = [this]
+  {
+    return std::max_element(m_offered.begin(), m_offered.end(),
+                            [](const Offered& a, const Offered& b)
+                            { return a.nearest < b.nearest; });
+  };
+  if (!m_hasGrid && farthest()->nearest < kNoticed)
+  {
+    m_hasGrid = true;
     for (int r = 0; r <= kSteps; ++r)
       for (int g = 0; g <= kSteps; ++g)
         for (int b = 0; b <= kSteps; ++b)
-          best.offer({part(r, kSteps), part(g, kSteps), part(b, kSteps)});
-  return best.color;
+          offer({part(r, kSteps), part(g, kSteps), part(b, kSteps)});
+  }
+  const Color color = farthest()->color;
+  take(color);
+  return color;
 }
 
 } // namespace petrous::appearance

@@ -81,23 +81,29 @@ std::vector<StructureAppearance> OwnPresets::all() const
   return presets;
 }
 
-StructureAppearance OwnPresets::preset(const std::string& name) const
+StructureAppearance
+OwnPresets::preset(const std::string& name,
+                   const std::function<bool(const StructureAppearance&)>& isListed) const
 {
   const std::vector<StructureAppearance> own = all();
   for (const StructureAppearance& preset : own)
     if (preset.preset == name)
       return preset;
+  const StructurePresets builtIn = StructurePresets::builtIn();
   try
   {
-    return StructurePresets::builtIn().preset(name);
+    return builtIn.preset(name);
   }
-  catch (const core::InvalidParameter& error)
+  catch (const core::InvalidParameter&) // lists its own alone
   {
-    std::string text = error.what();
-    for (const StructureAppearance& preset : own)
-      text += ", " + preset.preset;
-    throw core::InvalidParameter(text);
   }
+  std::vector<StructureAppearance> there = builtIn.all();
+  there.insert(there.end(), own.begin(), own.end());
+  std::string names;
+  for (const StructureAppearance& preset : there)
+    if (!isListed || isListed(preset))
+      names += (names.empty() ? "" : ", ") + preset.preset;
+  throw core::InvalidParameter("there is no preset '" + name + "'; there are " + names);
 }
 
 StructureAppearance OwnPresets::save(const StructureAppearance& look, const std::string& name,

@@ -64,7 +64,7 @@ void setColor(StructureAppearance& look, const std::array<float, 3>& color)
 {
   if (std::any_of(color.begin(), color.end(), [](float x) { return !(x >= 0.0F && x <= 1.0F); }))
     throw core::InvalidParameter("colour: red, green and blue must lie in 0 to 1");
-  if (look.transfer)
+  if (look.transfer && color != look.color) // else rounding alone would change its points
   {
     const auto brightness = [](const std::array<float, 3>& c)
     { return 0.299F * c[0] + 0.587F * c[1] + 0.114F * c[2]; };

@@ -970,7 +970,7 @@ TEST(DicomScan, SaysThatEndsMayBeMissing)
 
 TEST(DicomScan, SaysThatEverySecondSliceMayBeMissing)
 {
-  const auto notes = [](int step, const std::string& thickness)
+  const auto said = [](int step, const std::string& thickness)
   {
     const TemporaryFolder folder;
     writeSeries(folder.path(), 20,
@@ -982,16 +982,71 @@ TEST(DicomScan, SaysThatEverySecondSliceMayBeMissing)
                 });
     const SeriesGeometry geometry = scanDicom(folder.path(), {}).series.front().geometry;
     EXPECT_EQ(geometry.verdict, Verdict::Ok);
-    return geometry.notes;
+    std::string between;
+    for (const Finding& finding : geometry.findings)
+    {
+      if (finding.kind == FindingKind::MissingBetween)
+        between += finding.text;
+      EXPECT_TRUE(between.empty() || finding.text.find("has no gap") == std::string::npos)
+          << finding.text;
+    }
+    return between;
   };
   for (const int step : {2, -2, 3})
   {
-    ASSERT_EQ(notes(step, "0.5").size(), 1U);
-    EXPECT_NE(notes(step, "0.5")[0].find("in steps of " + std::to_string(std::abs(step))),
-              std::string::npos);
+    const std::string text = said(step, "0.4");
+    EXPECT_NE(text.find("in steps of " + std::to_string(std::abs(step))), std::string::npos)
+        << text;
+    EXPECT_NE(text.find("0.40 mm thick, but stand 1.00 mm apart"), std::string::npos) << text;
+    EXPECT_NE(text.find("0.60 mm from each to the next were not measured"), std::string::npos)
+        << text;
   }
-  EXPECT_TRUE(notes(1, "0.5").empty()) << "a scan with gaps";
-  EXPECT_TRUE(notes(2, "1.0").empty()) << "numbered with those of another reconstruction";
+  EXPECT_EQ(said(1, "0.4"), "") << "a scan with gaps";
+  EXPECT_EQ(said(2, "1.0"), "") << "numbered with those of another reconstruction";
+}
+
+// Every second slice of most of the stack is lost: its gaps are the common ones.
+TEST(DicomScan, CallsNoStackWholeThatLacksEverySecondSlice)
+{
+  const auto scan = [](bool isNumbered, bool isNumberedOn)
+  {
+    const TemporaryFolder folder;
+    int number = 1079;
+    for (int k = 0; k < 166; ++k)
+    {
+      if (k > 20 && k < 146 && k % 2 == 1)
+        continue;
+      ++number;
+      TestSlice slice;
+      slice.z = 1.0 * k;
+      if (isNumbered)
+        putNumber(slice, isNumberedOn ? number : 1080 + k);
+      slice.write(folder.path() / ("s" + std::to_string(k) + ".dcm"));
+    }
+    const ScanResult result = scanDicom(folder.path(), {});
+    EXPECT_EQ(result.series.size(), 1U);
+    return result.series.empty() ? SeriesGeometry() : result.series.front().geometry;
+  };
+  const auto textOf = [](const SeriesGeometry& geometry)
+  {
+    std::string text;
+    for (const Finding& finding : geometry.findings)
+      text += finding.text;
+    return text;
+  };
+  const SeriesGeometry lost = scan(true, false);
+  EXPECT_EQ(lost.verdict, Verdict::Refused);
+  EXPECT_TRUE(has(lost, FindingKind::MissingSlice));
+  EXPECT_NE(textOf(lost).find("63 slices are missing"), std::string::npos) << textOf(lost);
+  EXPECT_EQ(textOf(lost).find("has no gap"), std::string::npos) << textOf(lost);
+  const SeriesGeometry unknown = scan(false, false);
+  EXPECT_EQ(unknown.verdict, Verdict::Refused);
+  EXPECT_NE(textOf(unknown).find("63.0 mm of 165.0 mm"), std::string::npos) << textOf(unknown);
+  EXPECT_NE(textOf(unknown).find("cannot be told"), std::string::npos) << textOf(unknown);
+  const SeriesGeometry coarse = scan(true, true);
+  EXPECT_EQ(coarse.verdict, Verdict::Repairable) << textOf(coarse);
+  EXPECT_TRUE(has(coarse, FindingKind::UnevenSpacing));
+  EXPECT_EQ(textOf(coarse).find("has no gap"), std::string::npos) << textOf(coarse);
 }
 
 // As many slices as make a stack are no scouts, however few beside another.

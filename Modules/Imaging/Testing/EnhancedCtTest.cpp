@@ -448,5 +448,24 @@ TEST(EnhancedCt, AFrameThatIsMissingIsNamed)
       << series.geometry.findings[0].text;
 }
 
+// Whether the frames between are lost, the positions in the stack tell, not those in the file.
+TEST(EnhancedCt, EverySecondFrameThatIsMissingIsNoSpacing)
+{
+  for (const bool isShuffled : {false, true})
+  {
+    MultiFrame file;
+    for (const int k : isShuffled ? shuffled(61) : inOrder(61))
+      if (k < 10 || k % 2 == 0)
+        file.order.push_back(k);
+    const TemporaryFolder folder;
+    const SeriesGeometry geometry = scanned(file, folder.path()).geometry;
+    EXPECT_EQ(geometry.verdict, Verdict::Refused);
+    ASSERT_EQ(geometry.findings.size(), 1U);
+    EXPECT_EQ(geometry.findings[0].kind, FindingKind::MissingSlice);
+    EXPECT_EQ(geometry.findings[0].text.find("25 slices are missing"), 0U)
+        << geometry.findings[0].text;
+  }
+}
+
 } // namespace
 } // namespace petrous::imaging

@@ -398,6 +398,115 @@ TEST(SeriesGeometry, TellsALossFromAPitchByTheInstanceNumbers)
   EXPECT_EQ(assess(lost).verdict, Verdict::Refused);
 }
 
+/// Of `count` slices at 1 mm, numbered from 1, those for which `isThere`.
+Headers without(int count, const std::function<bool(int)>& isThere)
+{
+  Headers rest;
+  for (const SliceHeader& slice : stack(count, 1.0))
+    if (isThere(slice.instanceNumber - 1))
+      rest.push_back(slice);
+  return rest;
+}
+
+void numberOn(Headers& slices, int step)
+{
+  for (std::size_t k = 0; k < slices.size(); ++k)
+    slices[k].instanceNumber = step * (static_cast<int>(k) + 1);
+}
+
+// The gaps that loss leaves are more than the others.
+TEST(SeriesGeometry, TakesNoLossForTheSpacingHoweverCommon)
+{
+  struct Loss
+  {
+    const char* what;
+    int count, missing;
+    std::function<bool(int)> isThere;
+  };
+  const Loss losses[] = {
+      {"middle", 166, 63, [](int k) { return k < 20 || k > 146 || k % 2 == 0; }},
+      {"nearly all", 99, 46, [](int k) { return k < 7 || k % 2 == 0; }},
+      {"two of three", 100, 60, [](int k) { return k < 10 || k % 3 == 0; }},
+      {"first third", 90, 15, [](int k) { return k > 30 || k % 2 == 0; }},
+      {"last third", 91, 15, [](int k) { return k < 60 || k % 2 == 0; }},
+      {"no two fine gaps in a row", 91, 30, [](int k) { return k % 3 != 2; }},
+      {"one fine gap of three", 101, 40,
+       [](int k) { return k % 5 == 0 || k % 5 == 1 || k % 5 == 3; }},
+  };
+  for (const Loss& loss : losses)
+    for (const int step : {1, 10, -1})
+    {
+      Headers slices = without(loss.count, loss.isThere);
+      ASSERT_EQ(static_cast<int>(slices.size()), loss.count - loss.missing) << loss.what;
+      for (SliceHeader& slice : slices)
+        slice.instanceNumber = 2000 + step * slice.instanceNumber;
+      const SeriesGeometry series = assess(slices);
+      EXPECT_EQ(series.verdict, Verdict::Refused) << loss.what;
+      const Finding finding = only(series);
+      EXPECT_EQ(finding.kind, FindingKind::MissingSlice) << loss.what << ": " << finding.text;
+      EXPECT_NEAR(finding.errorMm, loss.missing, 1e-6) << loss.what;
+      EXPECT_EQ(finding.text.find(std::to_string(loss.missing) + " slices are missing"), 0U)
+          << loss.what << ": " << finding.text;
+    }
+}
+
+TEST(SeriesGeometry, SaysWhereALossCannotBeTold)
+{
+  Headers slices = without(166, [](int k) { return k < 20 || k > 146 || k % 2 == 0; });
+  for (SliceHeader& slice : slices)
+    slice.instanceNumber = 0;
+  const SeriesGeometry none = assess(slices);
+  EXPECT_EQ(none.verdict, Verdict::Refused);
+  EXPECT_NE(only(none).text.find("In 63 places, 63.0 mm of 165.0 mm, a slice would have to be "
+                                 "guessed; at most 10 slices are interpolated. Whether slices were "
+                                 "lost there or taken farther apart cannot be told"),
+            std::string::npos)
+      << only(none).text;
+  std::mt19937 random(3); // numbers that run nowhere
+  for (SliceHeader& slice : slices)
+    slice.instanceNumber = static_cast<int>(random() % 10000);
+  EXPECT_EQ(assess(slices).verdict, Verdict::Refused);
+  // Numbered on, the scanner took them so, as most of the stack or as a part.
+  for (const int step : {1, 5, -1})
+  {
+    numberOn(slices, step);
+    EXPECT_EQ(assess(slices).verdict, Verdict::Repairable) << step;
+    EXPECT_EQ(only(assess(slices)).kind, FindingKind::UnevenSpacing);
+    EXPECT_EQ(only(assess(slices)).text.find("cannot be told"), std::string::npos);
+  }
+  // Frames are numbered as they lie in the file; their places in the stack tell.
+  for (std::size_t k = 0; k < slices.size(); ++k)
+  {
+    slices[k].instanceNumber = static_cast<int>(k) + 1;
+    slices[k].pixels.frameCount = static_cast<int>(slices.size());
+  }
+  EXPECT_EQ(assess(slices).verdict, Verdict::Refused);
+  EXPECT_EQ(only(assess(slices)).kind, FindingKind::UnevenSpacing);
+  for (SliceHeader& slice : slices)
+    slice.stackPosition = static_cast<int>(std::lround((*slice.position)[2] - 99.0));
+  EXPECT_EQ(assess(slices).verdict, Verdict::Refused);
+  EXPECT_EQ(only(assess(slices)).kind, FindingKind::MissingSlice);
+  for (SliceHeader& slice : slices)
+    slice.stackPosition = slice.instanceNumber;
+  EXPECT_EQ(assess(slices).verdict, Verdict::Repairable);
+}
+
+// 2, 2, 1 mm: 1.67 mm in whole millimetres.
+TEST(SeriesGeometry, TakesNoRoundingForALoss)
+{
+  for (const double step : {0.1, 0.01})
+    for (const double ratio : {1.67, 1.75, 2.5})
+    {
+      Headers slices = stack(60, ratio * step);
+      for (SliceHeader& slice : slices)
+      {
+        slice.position = (*slice.position / step).array().round().matrix() * step;
+        slice.positionStep = step;
+      }
+      EXPECT_EQ(assess(slices).verdict, Verdict::Ok) << ratio << " x " << step;
+    }
+}
+
 TEST(SeriesGeometry, WhatIsKnownOfThePixelsIsThatOfTheWorstSlice)
 {
   for (const auto text : {BurnedInText::None, BurnedInText::Suspected, BurnedInText::Stated})
@@ -670,6 +779,24 @@ TEST(SeriesGeometry, HasNoGridWithoutUsableNumbers)
   EXPECT_EQ(damage([](SliceHeader& s) { s.rows = 0; }), none);
 }
 
+TEST(SeriesGeometry, NamesTheFirstFilesThatHaveNoPlace)
+{
+  Headers slices = stack(20);
+  for (const std::size_t k : {3U, 7U, 8U, 9U, 12U})
+  {
+    slices[k].file = "/doe/slice" + std::to_string(k);
+    slices[k].position.reset();
+  }
+  const std::string text = assess(slices).findings.front().text;
+  EXPECT_NE(text.find("in 5 of 20 slices (slice3, slice7, slice8 and 2 more), so"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("doe"), std::string::npos) << text;
+  slices = stack(20);
+  slices[19].frameOfReferenceUid = "1.2.3";
+  EXPECT_NE(only(assess(slices)).text.find("(slice19)"), std::string::npos);
+}
+
 TEST(SeriesGeometry, RefusesOneSliceAlone)
 {
   const SeriesGeometry series = assess(stack(1));
@@ -721,7 +848,7 @@ TEST(SeriesGeometry, GivesEveryFindingKindItsOwnName)
       "side-by-side",       "odd-orientation",    "odd-size",       "mixed-rescale",
       "no-geometry",        "localizer-mixed-in", "multi-frame",    "not-an-image",
       "unreadable",         "modality-lut",       "mixed-patients", "mixed-studies",
-      "mixed-acquisitions", "missing-end"};
+      "mixed-acquisitions", "missing-end",        "missing-between"};
   EXPECT_EQ(names, expected);
 }
 

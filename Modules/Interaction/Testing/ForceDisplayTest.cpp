@@ -3,6 +3,7 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <vtkRenderer.h>
 
 #include "Pixels.h"
 #include "Tissue.h"
@@ -59,6 +60,8 @@ public:
   {
     return drawRecord(recordOf(force, tool));
   }
+
+  vtkRenderer& renderer() { return *m_picture.renderer(); }
 
   ForceDisplay display;
   Picture empty;
@@ -266,6 +269,28 @@ TEST(ForceDisplay, WritesTheForceInTenthsOfANewton)
   EXPECT_NE(words(8.00), eight);
   scene.display.setBarShown(false);
   EXPECT_TRUE(words(0.80).empty());
+}
+
+// On bone the number, nearly white, has a dark plate.
+TEST(ForceDisplay, ReadsOnAWhiteGround)
+{
+  Scene scene;
+  scene.display.setArrowShown(false);
+  scene.display.setBarShown(true);
+  scene.renderer().SetBackground(1.0, 1.0, 1.0);
+  scene.renderer().GradientBackgroundOff();
+  const Picture picture = scene.draw({0.0, 0.8, 0.0});
+  ASSERT_GT(at(picture, kWidth / 2, 20)[0], 240);
+  int dark = 0, light = 0;
+  for (int y = 16 + 120 + 2; y < 16 + 120 + 24; ++y)
+    for (int x = 16; x < 60; ++x)
+    {
+      const int red = at(picture, x, y)[0];
+      dark += red < 150;
+      light += red > 190 && red < 240;
+    }
+  EXPECT_GT(dark, 100);
+  EXPECT_GT(light, 5);
 }
 
 TEST(ForceDisplay, RefusesBadLooks)

@@ -173,6 +173,8 @@ constexpr double kPointsPerInch = 72.0;
 
 constexpr double kEmptyColor[3] = {0.22, 0.24, 0.27};
 constexpr double kMarkColor[3] = {0.85, 0.87, 0.90};
+constexpr double kPlateColor[3] = {0.06, 0.07, 0.09}; // of the number, which may lie on bone
+constexpr double kPlateOpacity = 0.55;
 
 } // namespace
 
@@ -195,6 +197,8 @@ ForceBar::ForceBar()
   m_actors[Mark]->GetProperty()->SetColor(kMarkColor);
   m_text->GetTextProperty()->SetColor(kMarkColor);
   m_text->GetTextProperty()->SetFontFamilyToArial();
+  m_text->GetTextProperty()->SetBackgroundColor(kPlateColor);
+  m_text->GetTextProperty()->SetBackgroundOpacity(kPlateOpacity);
   m_text->PickableOff();
   show(0.0, 1.0, 1.0, {0.0, 0.0, 0.0});
 }

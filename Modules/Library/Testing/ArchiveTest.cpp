@@ -454,6 +454,64 @@ TEST_F(Archives, CanBeCancelled)
   EXPECT_EQ(other.verify().objects, 0U);
 }
 
+TEST_F(Archives, BringTheInstrumentWithoutTheNameOfItsFile)
+{
+  scene::Case value = m_library.open("ear");
+  auto pick = std::make_shared<core::TriangleMesh>();
+  pick->vertices = {{0, 0, 0}, {60, 1.25F, 0}, {60, -1, 1}, {60, 0, -1}};
+  pick->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  value.view.instrument.emplace();
+  value.view.instrument->name = "Quincy pick.stl";
+  value.view.instrument->axis = "x+";
+  value.view.instrument->mesh = std::shared_ptr<const core::TriangleMesh>(pick);
+  m_library.save(value);
+  const std::string object = value.view.instrument->object;
+  EXPECT_EQ(m_library.open("ear").view.instrument->name, "Quincy pick.stl");
+  m_library.collectGarbage();
+  EXPECT_TRUE(fs::exists(m_library.folder() / "objects" / object)) << "the case needs it";
+  for (const bool planOnly : {false, true})
+  {
+    SCOPED_TRACE(planOnly);
+    ArchiveOptions options;
+    options.planOnly = planOnly;
+    options.keepIdentity = true; // of the patient, not of a file
+    archiveCase(m_library, "ear", m_file, options);
+    const TestZip zip = unpacked();
+    for (const TestZip::Entry& entry : zip.entries)
+    {
+      EXPECT_EQ(entry.bytes.find("Quincy"), std::string::npos) << entry.name;
+      EXPECT_EQ(entry.name.find("Quincy"), std::string::npos) << entry.name;
+    }
+    const TemporaryFolder folder;
+    Library other(folder.path() / "library");
+    RestoreOptions to;
+    if (planOnly) // on the very same image
+    {
+      scene::Case same = test::smallCase("same");
+      other.save(same);
+      to.ct = "same";
+      to.name = "plan";
+    }
+    restoreCase(other, m_file, to);
+    const auto restored = other.open(planOnly ? "plan" : "ear").view.instrument;
+    ASSERT_TRUE(restored);
+    EXPECT_EQ(restored->name, "");
+    EXPECT_EQ(restored->axis, "x+");
+    EXPECT_EQ(restored->object, object);
+    const auto mesh = restored->mesh.get();
+    EXPECT_TRUE(mesh->vertices == pick->vertices);
+    EXPECT_TRUE(mesh->triangles == pick->triangles);
+    EXPECT_TRUE(other.verify().damaged.empty());
+  }
+  fs::remove(m_library.folder() / "objects" / object);
+  EXPECT_EQ(m_library.verify().damaged.size(), 1U);
+  EXPECT_EQ(m_library.lost(m_library.open("ear")).size(), 1U);
+  value = m_library.open("ear");
+  value.view.instrument.reset();
+  m_library.save(value);
+  EXPECT_TRUE(m_library.verify().damaged.empty()) << "nobody needs it";
+}
+
 TEST_F(Archives, OfAPlanBringNoVoxels)
 {
   const ArchiveSummary written = archiveCase(m_library, "ear", m_file, {true});

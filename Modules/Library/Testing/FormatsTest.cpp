@@ -130,6 +130,13 @@ void expectCase(const scene::Case& value, int format, bool isArchived = false)
   {
     EXPECT_EQ((value.measurements[0].points[1] - value.measurements[0].points[0]).norm(), 5.0);
   }
+  ASSERT_EQ(value.view.instrument.has_value(), format >= 9);
+  if (format >= 9)
+  {
+    EXPECT_EQ(value.view.instrument->name, "pick.stl");
+    EXPECT_EQ(value.view.instrument->axis, "z+");
+    EXPECT_EQ(value.view.instrument->mesh.get()->vertices.at(3), Eigen::Vector3f(-1, -1, 60));
+  }
   EXPECT_EQ(value.ct.frameOfReference.empty(), format < 3 || (isArchived && format > 3));
 }
 
@@ -202,8 +209,8 @@ TEST_F(Formats, ACaseOfANewerFormatIsRefusedInWordsAndStays)
   {
     EXPECT_EQ(error.reason, scene::ManifestError::Reason::NewerFormat);
     EXPECT_NE(std::string(error.what())
-                  .find("format-9.json: written by format 9; this program "
-                        "reads up to 8"),
+                  .find("format-10.json: written by format 10; this program "
+                        "reads up to 9"),
               std::string::npos)
         << error.what();
   }
@@ -338,6 +345,6 @@ TEST_F(Formats, AnArchiveOfANewerFormatIsRefusedInWords)
   };
   EXPECT_NE(refusedAs("archive-2.petrous").find("written by a newer version of this program"),
             std::string::npos);
-  EXPECT_NE(refusedAs("archive-1-case-9.petrous").find("written by format 9"), std::string::npos);
+  EXPECT_NE(refusedAs("archive-1-case-10.petrous").find("written by format 10"), std::string::npos);
   EXPECT_TRUE(m_library.list().empty());
 }

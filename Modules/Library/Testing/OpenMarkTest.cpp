@@ -232,3 +232,31 @@ TEST(OpenMark, WhoSavesRenamesOrDeletesIsToldOnceHeAsks)
   library.remove("left");
   expectTold("left", "cannot be saved unless the case is brought back");
 }
+
+// An object that the library needs no longer can be put back by who has the case open.
+TEST(OpenMark, NothingIsCleanedUpWhileACaseIsOpenElsewhere)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  const scene::Case value = test::savedCase(library);
+  library.remove("ear");
+  OtherProcess window(folder.path(), value.id);
+  try
+  {
+    library.collectGarbage();
+    FAIL();
+  }
+  catch (const LibraryError& error)
+  {
+    EXPECT_EQ(error.reason, LibraryError::Reason::Conflict);
+    EXPECT_NE(std::string(error.what()).find("process " + std::to_string(window.process())),
+              std::string::npos)
+        << error.what();
+  }
+  library.undelete("ear");
+  EXPECT_TRUE(library.lost(library.open("ear")).empty());
+  library.remove("ear");
+  window.kill();
+  const OpenMark own(folder.path(), value.id);
+  EXPECT_EQ(library.collectGarbage().cases, 1U);
+}

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "petrous/Core/CameraPose.h"
+#include "petrous/Core/Error.h"
 
 #include "PictureScenes.h"
 
@@ -71,4 +72,35 @@ TEST(InstrumentDistance, OfAnOpenSurfaceIsNowhereNegative)
   const auto field = InstrumentDistance::of(open);
   ASSERT_FALSE(field.distances.empty());
   EXPECT_GE(*std::min_element(field.distances.begin(), field.distances.end()), 0.0F);
+}
+
+TEST(InstrumentDistance, IsTheSameInTheBackground)
+{
+  const auto box = boxMesh({-1.0, -2.0, 0.0}, {1.0, 2.0, 30.0});
+  const InstrumentMeasurement measurement(box);
+  EXPECT_EQ(measurement.instrument(), box);
+  const InstrumentDistance& measured = measurement.result();
+  EXPECT_TRUE(measurement.isDone());
+  const auto wanted = InstrumentDistance::of(*box);
+  EXPECT_EQ(measured.dims, wanted.dims);
+  EXPECT_EQ(measured.lower, wanted.lower);
+  EXPECT_EQ(measured.edge, wanted.edge);
+  EXPECT_EQ(measured.distances, wanted.distances);
+}
+
+TEST(InstrumentDistance, IsCancelled)
+{
+  const auto box = boxMesh({-1.0, -2.0, 0.0}, {1.0, 2.0, 30.0});
+  const auto token = std::make_shared<core::CancelToken>();
+  token->cancel();
+  EXPECT_THROW(InstrumentDistance::of(*box, core::Progress(nullptr, token)), core::CancelledError);
+}
+
+TEST(InstrumentDistance, TellsEachTimeWhatFailedInTheBackground)
+{
+  auto broken = std::make_shared<core::TriangleMesh>(*boxMesh({-1.0, -1.0, 0.0}, {1.0, 1.0, 9.0}));
+  broken->triangles.front()[0] = static_cast<std::uint32_t>(broken->vertices.size());
+  const InstrumentMeasurement measurement(broken);
+  EXPECT_THROW(measurement.result(), core::InvalidParameter);
+  EXPECT_THROW(measurement.result(), core::InvalidParameter);
 }

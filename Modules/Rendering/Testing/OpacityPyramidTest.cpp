@@ -317,8 +317,7 @@ TEST(OpacityPyramid, WhereMeshesChangedItEqualsARebuild)
   const core::IndexBox before = built.meshes.front().shares->box;
   built.contents.meshes = {meshOf(boxMesh({-8.0, -10.0, -2.0}, {-4.0, -6.0, 3.0}))};
   built.takeMeshes();
-  built.pyramid.meshesChanged(built.scene_(), built.grid,
-                              before.united(built.meshes.front().shares->box));
+  built.pyramid.meshesChanged(built.scene_(), before.united(built.meshes.front().shares->box));
   const Built fresh(built.contents);
   const Built without(cutBall(0.35F));
   for (std::size_t level = 0; level < fresh.pyramid.levels().size(); ++level)
@@ -326,6 +325,45 @@ TEST(OpacityPyramid, WhereMeshesChangedItEqualsARebuild)
     EXPECT_TRUE(fresh.pyramid.levels()[level].texels == built.pyramid.levels()[level].texels);
     EXPECT_FALSE(without.pyramid.levels()[level].texels == built.pyramid.levels()[level].texels);
   }
+}
+
+// Also of overlapping meshes in a cut, and after the next cut and the last of them.
+TEST(OpacityPyramid, WhereOnlyOpacitiesOfMeshesChangedTissueIsNotMeasuredAgain)
+{
+  SceneContents contents = cutBall(0.35F);
+  contents.meshes = {meshOf(ballMesh({1.0, -9.0, 2.0}, 3.0, 96), 0.7F, true),
+                     meshOf(ballMesh({0.0, -8.0, 0.0}, 4.0, 96), 0.9F)};
+  Built built(contents);
+  const core::IndexBox box = built.meshes[0].shares->box.united(built.meshes[1].shares->box);
+  const auto expectFresh = [&built](const SceneContents& wanted)
+  {
+    const Built fresh(wanted);
+    EXPECT_EQ(fresh.pyramid.levels().size(), built.pyramid.levels().size());
+    for (std::size_t level = 0; level < fresh.pyramid.levels().size(); ++level)
+      EXPECT_TRUE(fresh.pyramid.levels()[level].texels == built.pyramid.levels()[level].texels);
+    EXPECT_EQ(fresh.pyramid.bytes(), built.pyramid.bytes());
+  };
+  // Tissue that were measured now would be air.
+  built.contents.boneShown = false;
+  for (const float opacity : {0.2F, 1.0F, 0.5F})
+  {
+    contents.meshes[1].look.opacity = opacity;
+    built.contents.meshes = contents.meshes;
+    built.takeMeshes();
+    built.pyramid.meshesChanged(built.scene_(), box);
+    expectFresh(contents);
+  }
+  built.contents.boneShown = true;
+  contents.mask = cut(contents.ct->geometry(), [](const Vector& p) { return p.x(); });
+  built.contents.mask = contents.mask;
+  built.grid.maskChanged(contents.mask.get(), contents.ct->geometry().fullBox());
+  built.pyramid.maskChanged(built.scene_(), built.grid, contents.ct->geometry().fullBox());
+  expectFresh(contents);
+  contents.meshes.clear();
+  built.contents.meshes.clear();
+  built.takeMeshes();
+  built.pyramid.meshesChanged(built.scene_(), box);
+  expectFresh(contents);
 }
 
 TEST(OpacityPyramid, HasTexelsOfAboutHalfAMillimetreOfAnyVoxels)

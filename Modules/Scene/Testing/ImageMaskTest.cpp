@@ -53,6 +53,18 @@ void label(scene::Case& value, const std::string& name, const Vector3d& from, co
   value.labels.push_back(std::move(part));
 }
 
+// All of which can be masked.
+std::vector<std::string> facesOf(const scene::Case& value)
+{
+  std::vector<std::string> texts;
+  for (const scene::ImageWithFace& image : scene::imagesWithFace(value))
+  {
+    EXPECT_EQ(image.fault, "");
+    texts.push_back(image.text);
+  }
+  return texts;
+}
+
 // Voxels within `distance` of the box that differ.
 std::size_t changedWithin(const volume::IntensityVolume& a, const volume::IntensityVolume& b,
                           const core::PatientBox& box, double distance)
@@ -82,7 +94,7 @@ TEST(ImageMask, MasksCtAndMrAndLeavesAllElse)
   mr.volume =
       std::make_shared<const volume::IntensityVolume>(scanned(SyntheticHead(), mr.geometry, true));
   value.mr.push_back(mr);
-  EXPECT_EQ(scene::imagesWithFace(value), (std::vector<std::string>{"the CT", "MR 'T2'"}));
+  EXPECT_EQ(facesOf(value), (std::vector<std::string>{"the CT", "MR 'T2'"}));
   const Image home = value.ct.volume.get();
   scene::Case masked = value;
   scene::ImageMask mask;
@@ -122,7 +134,7 @@ TEST(ImageMask, BelievesNoNoteAndNoRecordOfAMask)
   value.ct.notes.push_back("the face is masked to a plane 50 mm behind the tip of the nose, with "
                            "the auricles");
   value.ct.provenance.isFaceMasked = value.ct.provenance.areEarsMasked = true;
-  EXPECT_EQ(scene::imagesWithFace(value), (std::vector<std::string>{"the CT"}));
+  EXPECT_EQ(facesOf(value), (std::vector<std::string>{"the CT"}));
   scene::ImageMask mask;
   mask.face = true;
   const auto report = scene::maskImages(value, mask);

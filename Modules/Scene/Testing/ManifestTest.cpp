@@ -36,6 +36,7 @@ scene::Case fullCase()
   value.revision = 41;
   value.iso = 287.123456789012345;
   value.denseBone = 21034.7;
+  value.softTissueValues = {4211.3, 14560.7};
   value.boneLook.opacity = 0.3F;
   value.boneLook.shown = false;
   value.ct.name = "ct";
@@ -214,6 +215,9 @@ TEST(Manifest, KeepsLooksToTheLastBit)
   EXPECT_EQ(back.meshes[0].look.stiffness, 0.0);
   EXPECT_EQ(look.warning, 1.25);
   EXPECT_EQ(back.denseBone, 21034.7);
+  ASSERT_TRUE(back.softTissueValues);
+  EXPECT_EQ(back.softTissueValues->foot, 4211.3);
+  EXPECT_EQ(back.softTissueValues->peak, 14560.7);
   EXPECT_EQ(back.boneLook.transfer, value.boneLook.transfer);
   EXPECT_TRUE(back.boneLook.relative);
   EXPECT_EQ(back.boneLook.opacity, 0.3F);
@@ -379,7 +383,7 @@ TEST(Manifest, HasSoftTissueOnlyWhereItIsOtherThanAtFirst)
 TEST(Manifest, OpensOneWithoutTransferFunctionsAsItLookedBefore)
 {
   auto j = nlohmann::json::parse(scene::toManifest(fullCase()));
-  for (const char* key : {"bone", "dense_bone_hu"})
+  for (const char* key : {"bone", "dense_bone_hu", "soft_tissue_values"})
     j.erase(key);
   auto& look = j["labels"][0]["structures"][0]["look"];
   look = {{"preset", "nerve"},
@@ -392,6 +396,7 @@ TEST(Manifest, OpensOneWithoutTransferFunctionsAsItLookedBefore)
   EXPECT_EQ(back.boneLook.preset, "bone");
   EXPECT_EQ(back.boneLook.opacity, 1.0F);
   EXPECT_EQ(back.denseBone, 1800.0);
+  EXPECT_FALSE(back.softTissueValues);
   const auto& nerve = back.labels[0].structures[0].look;
   EXPECT_FALSE(nerve.transfer.has_value());
   EXPECT_EQ(nerve.shininess, 18.0F);
@@ -469,7 +474,7 @@ TEST(Manifest, RefusesANewerFormatInWords)
   std::string text = scene::toManifest(fullCase());
   const auto at = text.find("\"petrous_case\": 3");
   ASSERT_NE(at, std::string::npos);
-  text.replace(at, 17, "\"petrous_case\": 9");
+  text.replace(at, 17, "\"petrous_case\": 10");
   try
   {
     scene::fromManifest(text, "m.json");
@@ -478,7 +483,7 @@ TEST(Manifest, RefusesANewerFormatInWords)
   catch (const scene::ManifestError& error)
   {
     EXPECT_EQ(error.reason, scene::ManifestError::Reason::NewerFormat);
-    EXPECT_NE(std::string(error.what()).find("format 9"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("format 10"), std::string::npos);
   }
 }
 
@@ -771,7 +776,7 @@ TEST(Manifest, GivesTheDescriptionAlone)
   EXPECT_EQ(scene::descriptionFromManifest(j.dump(), "m"), value.description);
   j["description"]["side"] = "up";
   EXPECT_THROW(scene::descriptionFromManifest(j.dump(), "m"), scene::ManifestError);
-  j["petrous_case"] = 9;
+  j["petrous_case"] = 10;
   EXPECT_THROW(scene::descriptionFromManifest(j.dump(), "m"), scene::ManifestError);
   EXPECT_THROW(scene::descriptionFromManifest(text.substr(0, text.size() / 2), "m"),
                scene::ManifestError);
@@ -880,6 +885,32 @@ TEST(Manifest, IsOfFormat6OnlyWhereItMustBe)
   EXPECT_EQ(raised([&](auto& v) { v.view.clipping.planes = whole.view.clipping.planes; }), 6);
   EXPECT_EQ(raised([&](auto& v) { v.view.tool = whole.view.tool; }), 6);
   EXPECT_EQ(raised([&](auto& v) { v.attachments = whole.attachments; }), 6);
+}
+
+TEST(Manifest, KeepsAnInstrumentAndIsOfFormat9OnlyWithOne)
+{
+  scene::Case value = viewedCase();
+  value.view.instrument.emplace();
+  auto& instrument = *value.view.instrument;
+  instrument.object = std::string(64, 'd') + ".obj";
+  instrument.axis = "y-";
+  instrument.name = "pick.stl";
+  const std::string text = scene::toManifest(value);
+  EXPECT_NE(text.find("\"petrous_case\": 9"), std::string::npos);
+  const scene::Case back = scene::fromManifest(text, "m.json");
+  EXPECT_EQ(scene::toManifest(back), text);
+  EXPECT_TRUE(*back.view.instrument == instrument);
+  instrument.axis = "y+";
+  EXPECT_FALSE(*back.view.instrument == instrument);
+  value.view.instrument.reset();
+  EXPECT_NE(scene::toManifest(value).find("\"petrous_case\": 6"), std::string::npos);
+
+  for (const auto& [key, wrong] : {std::pair("axis", "w+"), {"axis", "z"}, {"name", "a\nb"}})
+  {
+    auto j = nlohmann::json::parse(text);
+    j["view"]["instrument"][key] = wrong;
+    EXPECT_THROW(scene::fromManifest(j.dump(), "m.json"), scene::ManifestError) << wrong;
+  }
 }
 
 TEST(Manifest, IsOfFormat7OnlyWithSavedViewsTurnedPlanesOrASlab)
@@ -1127,6 +1158,32 @@ TEST(Manifest, OpensStoredCasesOfEarlierPrograms)
     EXPECT_EQ(value.description.date, "2028-02-29");
     EXPECT_EQ(value.description.tags.size(), 2u);
   }
+}
+
+TEST(Manifest, KeepsTheSpeedThatAPedalGaveOnlyWhereOneDid)
+{
+  scene::Case value = fullCase();
+  dissection::Stroke byPedal;
+  byPedal.info.burr.rpm = 60000.0;
+  byPedal.info.speed = dissection::SpindleSpeed{23456.789, 41000.5};
+  dissection::Stroke other = byPedal;
+  other.info.speed.reset();
+  value.dissection = dissection::Dissection({std::make_shared<const dissection::Stroke>(byPedal),
+                                             std::make_shared<const dissection::Stroke>(other)},
+                                            dissection::History::line(2, 2));
+  const std::string text = scene::toManifest(value);
+  const auto written = nlohmann::json::parse(text);
+  EXPECT_EQ(written["dissection"]["strokes"][0]["rpm"], 60000.0) << "as set";
+  EXPECT_FALSE(written["dissection"]["strokes"][1].contains("rpm_mean"));
+  const auto back = scene::fromManifest(text, "m.json");
+  const auto& speed = back.dissection.strokes()[0]->info.speed;
+  ASSERT_TRUE(speed);
+  EXPECT_EQ(speed->mean, 23456.789);
+  EXPECT_EQ(speed->max, 41000.5);
+  EXPECT_FALSE(back.dissection.strokes()[1]->info.speed);
+  const dissection::Stroke journalled = scene::strokeFromText(scene::toText(byPedal));
+  ASSERT_TRUE(journalled.info.speed);
+  EXPECT_EQ(journalled.info.speed->max, 41000.5);
 }
 
 TEST(Manifest, NamesABurrOfTheUsersOwnBesideItsKind)

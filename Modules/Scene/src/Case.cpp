@@ -285,8 +285,8 @@ void checkFileName(const std::string& name, const std::string& what)
   if (std::any_of(name.begin(), name.end(), bad) || ragged(name.front()) || ragged(name.back()) ||
       name.front() == '-')
     throw core::InvalidParameter(
-        what +
-        ": must be a plain name without / \\ : * ? \" < > |, a dot or space at its ends, or a "
+        what + " '" + name +
+        "': must be a plain name without / \\ : * ? \" < > |, a dot or space at its ends, or a "
         "dash in front");
 }
 

@@ -102,6 +102,11 @@ json strokeOut(const dissection::Stroke& stroke)
          {"structures", structures}};
   if (!burr.name.empty())
     j["burr_name"] = burr.name;
+  if (stroke.info.speed)
+  {
+    j["rpm_mean"] = stroke.info.speed->mean;
+    j["rpm_max"] = stroke.info.speed->max;
+  }
   if (stroke.info.camera)
     j["camera"] = cameraOut(*stroke.info.camera);
   if (stroke.info.recovered)
@@ -121,6 +126,8 @@ dissection::Stroke strokeIn(const json& j)
   dissection::setName(stroke.info.burr, j.value("burr_name", std::string()));
   stroke.info.burr.diameter = j.at("diameter_mm").get<double>();
   stroke.info.burr.rpm = j.at("rpm").get<double>();
+  if (j.contains("rpm_mean"))
+    stroke.info.speed = {j.at("rpm_mean").get<double>(), j.at("rpm_max").get<double>()};
   stroke.info.removed = j.at("removed_mm3").get<double>();
   for (const json& touched : j.at("structures"))
     stroke.info.structures.push_back(

@@ -245,6 +245,22 @@ struct Result
   volume::ImageProvenance provenance;
 };
 
+// A head whose face cannot be told.
+[[noreturn]] void refuseDoubtful(const std::string& image, const FaceFinding& finding)
+{
+  throw core::Error(core::Fault::Refused,
+                    image + ": " + finding.text +
+                        "; it cannot be masked. Leave the image out, or hand on the region of "
+                        "the ear alone (--roi)");
+}
+
+Kept keptOfFace(const Case& value, const ImagePart& image, const FaceFinding& finding)
+{
+  return keptOf(
+      value, image, [&finding](const Eigen::Vector3d& at) { return finding.region.covers(at); },
+      finding.skin);
+}
+
 Result masked(const Case& value, const ImagePart& image, const ImageMask& mask,
               const core::Progress& progress)
 {
@@ -271,10 +287,7 @@ Result masked(const Case& value, const ImagePart& image, const ImageMask& mask,
         volume::findFace(*result.image, scale, mask.ears, progress.part(0.0, 0.4));
     result.part.face = finding.kind;
     if (finding.kind == FaceFinding::Kind::Doubtful)
-      throw core::Error(core::Fault::Refused,
-                        name + ": " + finding.text +
-                            "; it cannot be masked. Leave the image out, or hand on the region of "
-                            "the ear alone (--roi)");
+      refuseDoubtful(name, finding);
     // What is said of them is never enough to let an image pass.
     if (finding.kind == FaceFinding::Kind::Masked && mask.ears && !image.provenance.areEarsMasked)
       throw core::Error(core::Fault::Refused,
@@ -282,9 +295,7 @@ Result masked(const Case& value, const ImagePart& image, const ImageMask& mask,
                                "found by it; mask both in the image as it was");
     if (finding.canBeMasked())
     {
-      const Kept kept = keptOf(
-          value, image, [&finding](const Eigen::Vector3d& at) { return finding.region.covers(at); },
-          finding.skin);
+      const Kept kept = keptOfFace(value, image, finding);
       refuseKeptSkin(name, kept, finding);
       const auto done =
           volume::maskFace(*result.image, finding.region, &kept.all, progress.part(0.4, 0.7));
@@ -370,23 +381,42 @@ ImageMaskReport maskImages(Case& value, const ImageMask& mask, const core::Progr
   return report;
 }
 
-std::vector<std::string> imagesWithFace(const Case& value, const core::Progress& progress)
+std::vector<ImageWithFace> imagesWithFace(const Case& value, const core::Progress& progress)
 {
-  std::vector<std::string> names;
+  std::vector<ImageWithFace> found;
+  const auto count = static_cast<double>(1 + value.mr.size());
+  double done = 0.0;
   const auto look = [&](const ImagePart& image)
   {
+    const core::Progress part = progress.part(done / count, (done + 1.0) / count);
+    done += 1.0;
     const auto voxels = image.volume.get();
     if (!voxels)
       return;
     const FaceFinding finding =
-        volume::findFace(*voxels, volume::skinScale(*voxels, isMr(value, image)), {}, progress);
-    if (finding.canBeMasked() || finding.kind == FaceFinding::Kind::Doubtful)
-      names.push_back(nameOf(value, image));
+        volume::findFace(*voxels, volume::skinScale(*voxels, isMr(value, image)), {}, part);
+    if (!finding.canBeMasked() && finding.kind != FaceFinding::Kind::Doubtful)
+      return;
+    const std::string name = nameOf(value, image);
+    ImageWithFace one{name, &image == &value.ct ? std::string() : image.name, {}};
+    try
+    {
+      if (!finding.canBeMasked())
+        refuseDoubtful(name, finding);
+      refuseKeptSkin(name, keptOfFace(value, image, finding), finding);
+    }
+    catch (const core::Error& error)
+    {
+      if (error.fault() != core::Fault::Refused)
+        throw;
+      one.fault = error.what();
+    }
+    found.push_back(std::move(one));
   };
   look(value.ct);
   for (const ImagePart& mr : value.mr)
     look(mr);
-  return names;
+  return found;
 }
 
 } // namespace petrous::scene

@@ -205,6 +205,7 @@ constexpr int kFormatWithoutDescription = 4;
 constexpr int kFormatWithoutAttachments = 5;
 constexpr int kFormatWithoutMeasurements = 6; // and without saved views
 constexpr int kFormatWithoutVideoNotes = 7;
+constexpr int kFormatWithoutInstrument = 8;
 constexpr const char* kPlanes[] = {"axial", "coronal", "sagittal"};
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
 constexpr const char* kPatient = "patient_salted_sha256";
@@ -677,6 +678,23 @@ ViewState::Tool toolIn(const json& j)
   return tool;
 }
 
+json instrumentOut(const ViewState::Instrument& instrument)
+{
+  json j{{"object", instrument.object}, {"axis", instrument.axis}};
+  if (!instrument.name.empty())
+    j["name"] = instrument.name;
+  return j;
+}
+
+ViewState::Instrument instrumentIn(const json& j)
+{
+  ViewState::Instrument instrument;
+  instrument.object = j.at("object").get<std::string>();
+  instrument.axis = j.at("axis").get<std::string>();
+  instrument.name = j.value("name", std::string());
+  return instrument;
+}
+
 ViewState::Light lightIn(const json& j)
 {
   ViewState::Light light;
@@ -717,6 +735,8 @@ json viewOut(const Case& value)
     j["clipping"] = clippingOut(view.clipping);
   if (view.tool)
     j["tool"] = toolOut(*view.tool);
+  if (view.instrument)
+    j["instrument"] = instrumentOut(*view.instrument);
   for (const auto& [name, saved] : view.saved)
   {
     json& one = j["saved"][name];
@@ -743,6 +763,8 @@ ViewState viewIn(const json& j)
     view.clipping = clippingIn(j.at("clipping"));
   if (j.contains("tool"))
     view.tool = toolIn(j.at("tool"));
+  if (j.contains("instrument"))
+    view.instrument = instrumentIn(j.at("instrument"));
   if (j.contains("saved"))
     for (const auto& [name, one] : j.at("saved").items())
     {
@@ -776,6 +798,12 @@ bool needsFormat8(const Case& value)
 {
   return std::any_of(value.attachments.begin(), value.attachments.end(),
                      [](const Attachment& one) { return one.video && !one.video->empty(); });
+}
+
+// Likewise before format 9; its garbage collection would remove the instrument's surface, too.
+bool needsFormat9(const Case& value)
+{
+  return value.view.instrument.has_value();
 }
 
 json stillOut(const VideoNotes::Still& still)
@@ -943,6 +971,9 @@ Case caseIn(const json& j)
   value.revision = integerIn<std::uint64_t>(j.at("revision"));
   value.iso = j.at("iso_hu").get<double>();
   value.denseBone = j.value("dense_bone_hu", value.denseBone);
+  if (j.contains("soft_tissue_values"))
+    value.softTissueValues = {j.at("soft_tissue_values").at("foot").get<double>(),
+                              j.at("soft_tissue_values").at("peak").get<double>()};
   value.ct = imageIn(j.at("ct"));
   value.ct.name = plainIn(j.at("ct").at("name")); // no part's, which are checked
   if (j.contains("bone"))
@@ -1025,7 +1056,8 @@ std::string toManifest(const Case& value)
   checkAttachments(value.attachments);
   checkMeasurements(value.measurements);
   const bool isDescribed = !value.description.empty();
-  json j{{"petrous_case", needsFormat8(value)   ? kManifestFormat
+  json j{{"petrous_case", needsFormat9(value)   ? kManifestFormat
+                          : needsFormat8(value) ? kFormatWithoutInstrument
                           : needsFormat7(value) ? kFormatWithoutVideoNotes
                           : needsFormat6(value) ? kFormatWithoutMeasurements
                           : isDescribed         ? kFormatWithoutAttachments
@@ -1055,6 +1087,9 @@ std::string toManifest(const Case& value)
     j["meshes"].push_back(meshOut(mesh));
   if (!(value.softTissue == appearance::softTissueLook()))
     j["soft_tissue"] = appearance::appearanceJson(value.softTissue);
+  if (value.softTissueValues)
+    j["soft_tissue_values"] = {{"foot", value.softTissueValues->foot},
+                               {"peak", value.softTissueValues->peak}};
   if (!value.id.empty())
     j["id"] = value.id;
   if (value.camera)

@@ -139,6 +139,14 @@ bool operator==(const ViewState::Tool& a, const ViewState::Tool& b)
          std::tie(b.burr.kind, b.burr.name, b.burr.diameter, b.burr.rpm, b.thrust, b.byWheel);
 }
 
+bool operator==(const ViewState::Instrument& a, const ViewState::Instrument& b)
+{
+  const auto mesh = a.mesh.peek();
+  const bool isSame =
+      a.object.empty() || b.object.empty() ? mesh && mesh == b.mesh.peek() : a.object == b.object;
+  return isSame && std::tie(a.name, a.axis) == std::tie(b.name, b.axis);
+}
+
 void checkViewName(const std::string& name)
 {
   require(!name.empty() && name.size() <= ViewState::kLongestName && core::isUtf8(name) &&
@@ -193,6 +201,19 @@ void checkView(const ViewState& view)
                 isWithin(view.tool->burr.rpm, 0.0, 1e6) && isWithin(view.tool->thrust, 0.0, 100.0),
             "a burr must be 0.01 to 100 mm wide and turn at 0 to 1000000 rpm, with a thrust of 0 "
             "to 100 N");
+  if (view.instrument)
+  {
+    const std::string& axis = view.instrument->axis;
+    require(axis.size() == 2 && axis[0] >= 'x' && axis[0] <= 'z' &&
+                (axis[1] == '+' || axis[1] == '-'),
+            "an instrument lies along x+, x-, y+, y-, z+ or z-");
+    const std::string& name = view.instrument->name;
+    require(name.size() <= InstrumentView::kLongestName && core::isUtf8(name) &&
+                !hasInvisible(name),
+            "the name of an instrument must be at most " +
+                std::to_string(InstrumentView::kLongestName) +
+                " bytes of UTF-8 without characters that are not seen");
+  }
 }
 
 } // namespace petrous::scene

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -435,9 +436,86 @@ TEST(TubeTrace, AGivenRadiusIsTakenAndLabelled)
   const Tube tube = traceTube(scan.image(), scan.clicks(5, 0.3), options);
   EXPECT_EQ(tube.smallestRadius, 0.6);
   EXPECT_EQ(tube.largestRadius, 0.6);
-  const volume::LabelMap labels = labelTube(tube, grid, {"nerve", 3, {}, 0});
+  const TubeLabel label = labelTube(tube, grid, {"nerve", 3, {}, 0});
+  EXPECT_EQ(label.bridging, 0u);
+  const volume::LabelMap& labels = label.map;
   const double volume = kPi * 0.36 * tube.length + 4.0 / 3.0 * kPi * 0.216;
   EXPECT_NEAR(labels.volume(labels.segments.front()), volume, 0.08 * volume);
+}
+
+// Thinner than the voxels, anywhere between them: a chain through faces that holds both ends, and
+// no voxel away from the line.
+TEST(TubeTrace, AThinTubeIsLabelledWithoutAGap)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const auto place = [&](const Vector3d& size) {
+    return (Vector3d(uniform(random), uniform(random), uniform(random)).cwiseProduct(size)).eval();
+  };
+  std::size_t bridged = 0;
+  for (const Vector3d& spacing : {Vector3d(1.0, 1.0, 1.0), Vector3d(0.3, 0.4, 1.2)})
+    for (const double radius : {0.05, 0.2, 0.4, 0.6, 1.5})
+      for (int trial = 0; trial < 6; ++trial)
+      {
+        const core::GridGeometry grid({40, 36, 30}, spacing, Vector3d(-3.0, 2.0, 5.0));
+        const Vector3d size = grid.spacing().cwiseProduct(Vector3d(39, 35, 29));
+        Tube tube;
+        const Vector3d knots[] = {place(size), place(size), place(size)};
+        for (int n = 0; n <= 200; ++n) // a parabola within the grid
+        {
+          const double t = n / 200.0;
+          tube.line.push_back(grid.origin() + (1.0 - t) * (1.0 - t) * knots[0] +
+                              2.0 * t * (1.0 - t) * knots[1] + t * t * knots[2]);
+          tube.radii.push_back(radius);
+        }
+        const TubeLabel label = labelTube(tube, grid, {"nerve", 3, {}, 0});
+        bridged += label.bridging > 0;
+        const volume::Volume<std::uint16_t>& voxels = *label.map.voxels;
+        const auto cellOf = [&](const Vector3d& p)
+        {
+          const Vector3d voxel = grid.voxelFromPatient(p);
+          return core::Index3{static_cast<int>(std::lround(voxel[0])),
+                              static_cast<int>(std::lround(voxel[1])),
+                              static_cast<int>(std::lround(voxel[2]))};
+        };
+        std::set<core::Index3> all, reached;
+        for (int k = 0; k < 30; ++k)
+          for (int j = 0; j < 36; ++j)
+            for (int i = 0; i < 40; ++i)
+              if (voxels.at(i, j, k) == 3)
+                all.insert({i, j, k});
+        ASSERT_EQ(all.size(), label.map.segments.front().voxels);
+        std::vector<core::Index3> open{cellOf(tube.line.front())};
+        while (!open.empty())
+        {
+          const core::Index3 cell = open.back();
+          open.pop_back();
+          if (all.count(cell) == 0 || !reached.insert(cell).second)
+            continue;
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            for (const int side : {-1, 1})
+            {
+              core::Index3 beside = cell;
+              beside[axis] += side;
+              open.push_back(beside);
+            }
+        }
+        ASSERT_EQ(reached.count(cellOf(tube.line.back())), 1u)
+            << radius << " mm in voxels of " << spacing.transpose() << ", trial " << trial;
+        for (const core::Index3& cell : all)
+        {
+          double nearest = 1e9;
+          const Vector3d center = grid.patientFromVoxel(Vector3d(cell[0], cell[1], cell[2]));
+          for (const Vector3d& p : tube.line)
+            nearest = std::min(nearest, (p - center).norm());
+          ASSERT_LE(nearest, radius + 0.5 * spacing.norm() + 0.3);
+        }
+        if (radius > spacing.norm())
+        {
+          EXPECT_EQ(label.bridging, 0u);
+        }
+      }
+  EXPECT_GT(bridged, 20u);
 }
 
 TEST(TubeTrace, IsTheSameWhetherAPointWasMovedOrAllWereGiven)

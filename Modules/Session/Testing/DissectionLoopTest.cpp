@@ -64,6 +64,48 @@ TEST(DissectionLoop, MakesAStrokeOfEachTimeTheDrillIsOn)
   EXPECT_FALSE(scene.work.strokeOpen());
 }
 
+TEST(DissectionLoop, KeepsHowFastTheBurrTurnedWhereAPedalSetThat)
+{
+  LoopScene scene;
+  DissectionLoop::Hooks hooks;
+  hooks.begin = []
+  {
+    dissection::StrokeInfo info;
+    info.burr.rpm = 40000.0;
+    return info;
+  };
+  DissectionLoop loop(scene.work, *scene.mask, scene.removalModel, {}, hooks);
+  double time = 5.0;
+  double x = -10.0;
+  // A stroke of 100 ticks, the last 25 of them with the second pressure.
+  const auto drill = [&](double first, double second, std::uint8_t bits, std::uint8_t lastBits)
+  {
+    x += 4.0;
+    loop.step(pressed(time += 0.001, {x, 0.0, 9.0}, 0.0, false));
+    for (int n = 0; n < 100; ++n)
+    {
+      TickRecord record = pressed(time += 0.001, {x, 0.0, 1.0 - 0.02 * n}, 1.0, true);
+      record.input.pedal = n < 75 ? first : second;
+      record.input.parameters.drill = n < 75 ? bits : lastBits;
+      loop.step(record);
+    }
+    loop.step(pressed(time += 0.001, {x, 0.0, 9.0}, 0.0, false));
+    return scene.work.strokes().back()->info.speed;
+  };
+  constexpr std::uint8_t kPedal = ServoParameters::kPedalSpeed;
+  const auto eased = drill(0.4, 0.8, kPedal, kPedal);
+  ASSERT_TRUE(eased);
+  EXPECT_NEAR(eased->mean, 40000.0 * (0.75 * 0.4 + 0.25 * 0.8), 1e-6);
+  EXPECT_NEAR(eased->max, 32000.0, 1e-9);
+  const auto key = drill(0.2, 0.2, kPedal, kPedal | ServoParameters::kDrill);
+  ASSERT_TRUE(key);
+  EXPECT_NEAR(key->mean, 40000.0 * (0.75 * 0.2 + 0.25), 1e-6) << "a key drills at full speed";
+  EXPECT_NEAR(key->max, 40000.0, 1e-9);
+  EXPECT_FALSE(drill(0.7, 0.9, 0, 0)) << "the pedal is a switch";
+  EXPECT_FALSE(drill(0.0, 0.0, ServoParameters::kDrill, kPedal | ServoParameters::kDrill));
+  EXPECT_EQ(scene.work.strokes().size(), 4u);
+}
+
 TEST(DissectionLoop, PublishesEachCutAndSaysWhereTissueCameBack)
 {
   LoopScene scene;

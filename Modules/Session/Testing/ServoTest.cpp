@@ -210,6 +210,71 @@ TEST(Servo, APointerToolDrillsFromItsArrivalOn)
   }
 }
 
+namespace
+{
+
+// Held between contacts that alternate from tick to tick, as in a canal of the burr's own width.
+class TremblingProxy : public petrous::haptics::Proxy
+{
+public:
+  const Pose& pose() const noexcept override { return m_tick.pose; }
+  void place(const Pose& pose) noexcept override { m_at = m_tick.pose = pose; }
+  bool placeFree(const Pose&) noexcept override { return false; }
+  const petrous::haptics::ProxyTick& step(const Pose&) noexcept override
+  {
+    m_isAside = !m_isAside;
+    m_tick.pose.position = m_at.position + Vector3d(m_isAside ? 0.03 : 0.0, 0.0, 0.0);
+    m_tick.status = petrous::haptics::ProxyStatus::Contact;
+    m_tick.wrench.linear = Vector3d::UnitZ();
+    m_tick.thrust = 1.0;
+    m_tick.contactCount = 1;
+    m_tick.contacts[0].normal = Vector3d::UnitZ();
+    m_tick.contacts[0].thrust = 1.0;
+    return m_tick;
+  }
+
+private:
+  Pose m_at;
+  petrous::haptics::ProxyTick m_tick;
+  bool m_isAside = false;
+};
+
+} // namespace
+
+// The burr, 2 mm in radius, covers what is 1.9 mm beside it, and not what is 2.2 mm beside it.
+TEST(Servo, APointerToolThatTremblesInATightPlaceHasArrivedIfItCoversItsTarget)
+{
+  for (const double beside : {1.9, 2.2})
+  {
+    TremblingProxy proxy;
+    ServoSetup setup = Session::plainSetup();
+    setup.guard.speed = 1e6; // a pointer's
+    Servo servo(proxy, setup);
+    petrous::haptics::DeviceReading reading;
+    reading.health = petrous::haptics::DeviceHealth::Good;
+    reading.pose.position = kAbove;
+    ServoParameters parameters;
+    parameters.constantThrust = ServoParameters::kPointer | ServoParameters::kPressed;
+    parameters.approach[2] = -2.0;
+    bool drills = false;
+    for (int n = 1; n <= 1000; ++n)
+    {
+      reading.time = 0.001 * n;
+      if (n > 100)
+      {
+        reading.pose.position = kAbove + Vector3d(beside, 0.0, 0.0);
+        parameters.drill = ServoParameters::kDrill;
+      }
+      drills = servo.tick(TickInput::of(reading.time, reading, parameters)).drill != 0;
+      if (n <= 110)
+      {
+        EXPECT_FALSE(drills) << n;
+      }
+    }
+    EXPECT_EQ(drills, beside < 2.0);
+  }
+}
+
 TEST(Servo, ClutchKeepsTheToolWhileTheDeviceGoesAway)
 {
   Session session;

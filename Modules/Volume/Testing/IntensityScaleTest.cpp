@@ -56,6 +56,33 @@ IntensityScale scaleOf(const std::vector<double>& values, double gain = 1.0, dou
       IntensityHistogram(volume::IntensityVolume(std::shared_ptr<const volume::Volume<T>>(v))));
 }
 
+// A head with this share of air.
+std::vector<Tissue> headWith(double air)
+{
+  const double rest = 1.0 - air;
+  return {{air, -1000, -1000},      {air > 0.0 ? 0.03 : 0.0, -1000, 40},
+          {0.06 * rest, -110, -90}, {0.61 * rest, 20, 60},
+          {0.12 * rest, 60, 700},   {0.14 * rest, 400, 1300},
+          {0.05 * rest, 1300, 1900}};
+}
+
+// A cone beam's values from 0 to 56,000, of which 14 are a HU and 0 is -1000 HU; `inverse`: of
+// which air is the brightest.
+IntensityScale coneBeam(const std::vector<Tissue>& tissues, double noise, Random& random,
+                        bool inverse = false)
+{
+  std::vector<double> values = draw(tissues, noise, random);
+  if (inverse)
+    for (double& value : values)
+      value = 1000.0 - value;
+  return scaleOf<std::uint16_t>(values, 14.0, 14000.0, 0.0, 56000.0);
+}
+
+double hounsfieldOf(double value)
+{
+  return (value - 14000.0) / 14.0;
+}
+
 // Magnitude images of a head: air and cortical bone have no signal, so that their noise is Rayleigh
 // distributed; muscle or brain lies at the patient's surface, the rest is fluid, fat and lesions.
 struct MrHead
@@ -174,6 +201,68 @@ TEST(IntensityScale, PartsFluidFromBoneInMicroCt)
       EXPECT_LT(scale.iso, 190.0 - 4.0 * noise);
       EXPECT_NEAR(scale.dense, 205.0, 25.0);
     }
+}
+
+TEST(IntensityScale, FindsWhereAirEndsInAConeBeam)
+{
+  Random random(21);
+  for (const double noise : {10.0, 40.0, 70.0, 120.0})
+    for (const double air : {0.42, 0.2, 0.1, 0.05})
+    {
+      const IntensityScale scale = coneBeam(headWith(air), noise, random);
+      ASSERT_TRUE(scale.soft) << air << ' ' << noise;
+      const double foot = hounsfieldOf(scale.soft->foot);
+      EXPECT_GT(foot, std::max(-715.0, -1000.0 + 2.3 * noise)) << air << ' ' << noise;
+      EXPECT_LT(foot, -600.0) << air << ' ' << noise;
+      EXPECT_NEAR(hounsfieldOf(scale.soft->peak), 40.0, 30.0) << air << ' ' << noise;
+    }
+  // Noise of air reaches beyond -700 HU.
+  const IntensityScale noisy = coneBeam(headWith(0.42), 180.0, random);
+  ASSERT_TRUE(noisy.soft);
+  EXPECT_GT(hounsfieldOf(noisy.soft->foot), -1000.0 + 2.3 * 180.0);
+  EXPECT_LT(hounsfieldOf(noisy.soft->foot), -400.0);
+  // Metal moves dense bone, and neither air nor soft tissue.
+  auto metal = headWith(0.42);
+  metal.push_back({0.01, 2950.0, 3050.0});
+  const IntensityScale shining = coneBeam(metal, 40.0, random);
+  ASSERT_TRUE(shining.soft);
+  EXPECT_GT(hounsfieldOf(shining.dense), 2500.0);
+  EXPECT_NEAR(hounsfieldOf(shining.soft->foot), -700.0, 20.0);
+}
+
+TEST(IntensityScale, InventsNoEndOfAir)
+{
+  Random random(22);
+  const std::vector<Tissue> boneApart = {
+      {0.5, 20, 60}, {0.1, 60, 900}, {0.3, 900, 1100}, {0.1, 1300, 1900}};
+  const std::vector<Tissue> narrow = {
+      {0.42, -1000, -1000}, {0.03, -1000, 40}, {0.35, 20, 60}, {0.2, 1000, 1600}};
+  const std::vector<Tissue> muchFat = {{0.3, -110, -90}, {0.4, 20, 60}, {0.3, 60, 1800}};
+  auto metal = headWith(0.0);
+  metal.push_back({0.015, 2990.0, 3010.0});
+  for (const double noise : {10.0, 40.0, 70.0, 120.0})
+  {
+    EXPECT_FALSE(coneBeam(headWith(0.0), noise, random).soft) << "cropped, " << noise;
+    EXPECT_FALSE(coneBeam(muchFat, noise, random).soft) << "fat and muscle, " << noise;
+    EXPECT_FALSE(coneBeam(boneApart, noise, random).soft) << "muscle and bone, " << noise;
+    EXPECT_FALSE(coneBeam(metal, noise, random).soft) << "metal and no air, " << noise;
+    EXPECT_FALSE(coneBeam(headWith(0.42), noise, random, true).soft) << "inverse, " << noise;
+    EXPECT_FALSE(coneBeam(narrow, noise, random, true).soft) << "inverse, bone apart, " << noise;
+    // 8 bits from -400 HU: what is darkest is not air.
+    const double gain = 255.0 / 2600.0;
+    EXPECT_FALSE(scaleOf<std::uint16_t>(draw(kHead, noise, random), gain, 400 * gain, 0, 255).soft);
+  }
+  EXPECT_FALSE(scaleOf<std::int16_t>(draw(kHead, 40.0, random), 1, 0, -1024, 3071).soft)
+      << "Hounsfield units";
+}
+
+TEST(IntensityScale, GoesThroughAirsEndAndSoftTissue)
+{
+  // 14 units are a HU, and water is 14,000.
+  const IntensityScale scale = volume::scaleThrough({14.0 * -700.0 + 14000.0, 14560.0});
+  EXPECT_FALSE(scale.calibrated);
+  EXPECT_NEAR(scale.iso, 18200.0, 1e-6);
+  EXPECT_NEAR(scale.dense, 39200.0, 1e-6);
 }
 
 TEST(IntensityScale, StaysSaneWhereThereIsNoBone)

@@ -166,6 +166,37 @@ TEST(SurfaceDistance, IsThatToTheSurfaceOfALabel)
   }
 }
 
+// The truth of the ball, near and far, in voxels that are twice as long as wide.
+TEST(SurfaceDistance, BoundsItselfFromBelowByLessThanACell)
+{
+  const Distance ball = [](const Vector3d& p) { return p.norm() - 4.0; };
+  const Vector3d spacing(0.3, 0.3, 0.6);
+  const SurfaceDistance surface(occupancyOf(ball, turnedGrid({33, 33, 17}, spacing)));
+  std::mt19937 random(4);
+  int inside = 0;
+  double largest = 0.0;
+  for (int n = 0; n < 20000; ++n)
+  {
+    const Vector3d p = randomIn(random, n % 2 == 0 ? 4.5 : 60.0);
+    const double away = ball(p), bound = surface.bound(p, kFar);
+    if (std::abs(away) < 0.05) // by the grid it may be on the other side
+      continue;
+    if (away < 0.0)
+    {
+      ++inside;
+      ASSERT_LE(bound, 0.0) << p.transpose();
+      continue;
+    }
+    ASSERT_LE(bound, away + 0.02) << p.transpose();
+    ASSERT_GE(bound, away - spacing.norm() - 0.02) << p.transpose();
+    largest = std::max(largest, away - bound);
+    ASSERT_LE(surface.bound(p, 5.0), 5.0);
+  }
+  EXPECT_GT(inside, 500);
+  EXPECT_GT(largest, 0.3) << "no cell was looked into";
+  EXPECT_EQ(surface.bound({0.0, 30.0, 0.0}, 2.0), 2.0);
+}
+
 TEST(SurfaceDistance, SaysNoMoreThanWasAskedFor)
 {
   const Distance ball = [](const Vector3d& p) { return p.norm() - 4.0; };

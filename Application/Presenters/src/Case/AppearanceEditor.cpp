@@ -425,11 +425,17 @@ std::vector<AppearanceEditor::Preset> AppearanceEditor::presets() const
   return presets;
 }
 
+bool AppearanceEditor::canHave(const Preset& preset) const
+{
+  return selected() && canBeLookOf(m_model.value(), selected()->name, preset.look);
+}
+
 void AppearanceEditor::applyPreset(const std::string& name)
 {
   if (!selected())
     return;
-  const auto preset = appearance::OwnPresets(m_model.library().folder()).preset(name);
+  const appearance::OwnPresets presets(m_model.library().folder());
+  const auto preset = presetFor(m_model.value(), selected()->name, presets, name);
   const StructureAppearance look = withPreset(m_model.value(), selected()->name, preset);
   m_point.reset();
   set(look);
@@ -534,6 +540,12 @@ std::string AppearanceEditor::notice() const
   return mrMissing(m_model.value(), look.sourceImage);
 }
 
+std::string AppearanceEditor::estimate() const
+{
+  return selected() && selected()->name == kSoftTissue ? softTissueEstimate(m_model.value())
+                                                       : std::string();
+}
+
 AppearanceHistograms::Histogram AppearanceEditor::imageHistogram() const
 {
   return selected() ? m_histograms.image(selected()->look.solid ? selected()->look.sourceImage
@@ -626,12 +638,25 @@ StructureAppearance softTissueReading(const scene::Case& value, const std::strin
   return withFunctionOfMr(std::move(look), *histogram);
 }
 
+bool canBeLookOf(const scene::Case& value, const std::string& part,
+                 const StructureAppearance& preset)
+{
+  return preset.solid || !(scene::meansBone(value, part) || scene::meansSoftTissue(value, part));
+}
+
+StructureAppearance presetFor(const scene::Case& value, const std::string& part,
+                              const appearance::OwnPresets& presets, const std::string& name)
+{
+  return presets.preset(name, [&](const StructureAppearance& preset)
+                        { return canBeLookOf(value, part, preset); });
+}
+
 StructureAppearance withPreset(const scene::Case& value, const std::string& part,
                                const StructureAppearance& preset)
 {
   const bool isBone = scene::meansBone(value, part);
   const bool isSoftTissue = scene::meansSoftTissue(value, part);
-  if ((isBone || isSoftTissue) && !preset.solid)
+  if (!canBeLookOf(value, part, preset))
     throw core::InvalidParameter("preset '" + preset.preset +
                                  "' is that of a lumen and cannot be the look of " +
                                  (isBone ? "bone" : "soft tissue"));
@@ -656,7 +681,7 @@ StructureAppearance withPreset(const scene::Case& value, const std::string& part
   for (const scene::MeshPart& mesh : value.meshes)
     if (mesh.name != part)
       taken.push_back(mesh.look.color);
-  appearance::setColor(look, appearance::distinctColor(taken));
+  appearance::setColor(look, appearance::DistinctColors(taken).next());
   return look;
 }
 

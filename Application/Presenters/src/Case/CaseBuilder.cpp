@@ -345,7 +345,8 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
       refuseMrBesideCt(scan, path);
     std::vector<std::string> notes = series.geometry.notes;
     for (const imaging::Finding& finding : series.geometry.findings) // accepted
-      if (finding.kind != imaging::FindingKind::Unreadable)          // these name files
+      if (finding.kind != imaging::FindingKind::Unreadable &&
+          finding.kind != imaging::FindingKind::NoGeometry) // these name files
         notes.push_back(finding.text);
     // What this series lost is one of its findings.
     if (scan.lostFiles > 0 && series.lostFiles == 0)
@@ -381,6 +382,34 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
                   core::generalText(h[1]) + " x " + core::generalText(h[2]) + " mm, " +
                   std::to_string(part.notes.size()) + " notes");
   return read;
+}
+
+// An image that shows nothing is refused, and one that shows little is noted. `roi`: it is cut.
+void judgeContents(const fs::path& path, scene::ImagePart& image, bool roi)
+{
+  if (!(image.range.min < image.range.max) && !roi)
+    throw core::InvalidParameter(path.string() + ": every voxel that is no padding has the value " +
+                                 core::generalText(image.range.min, 6) +
+                                 "; an image of one single value shows nothing");
+  constexpr int kFew = 10;
+  const int slices = image.geometry.dims()[2];
+  const double covered = slices * image.geometry.spacing()[2];
+  if (slices < kFew)
+    image.notes.push_back("The image has only " + std::to_string(slices) + " slices, which cover " +
+                          core::fixedText(covered, 1) +
+                          " mm; look whether all that is needed is in it.");
+}
+
+// Also of units of its own: no detector tells so many apart.
+void noteBeyondCt(scene::ImagePart& image)
+{
+  constexpr double kLowest = -10000.0;
+  constexpr double kHighest = 100000.0;
+  if (image.range.min < kLowest || image.range.max > kHighest)
+    image.notes.push_back("Its values go from " + core::generalText(image.range.min, 6) + " to " +
+                          core::generalText(image.range.max, 6) +
+                          ", beyond those of any CT (-10000 to 100000): voxels are damaged, or the "
+                          "slope that the file states is wrong.");
 }
 
 // Cone-beam and micro-CT have units of their own, in which 300 may be air or nothing at all; an MR
@@ -428,6 +457,7 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const OtherQuantit
                           "same.");
     return;
   }
+  noteBeyondCt(image);
   const auto scale = volume::suggestScale(histogram);
   if (scale.calibrated && isOther)
   {
@@ -451,6 +481,7 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const OtherQuantit
     image.notes.push_back(other.why);
   value.iso = scale.iso;
   value.denseBone = scale.dense;
+  value.softTissueValues = scale.soft;
   if (image.modality == Modality::Unknown)
     image.notes.push_back("The file does not say whether it is a CT or an MR; it is taken for a CT "
                           "with units of its own, such as cone beam. Build the case with "
@@ -644,16 +675,12 @@ void settleDrawnOn(scene::Case& value)
   }
 }
 
-// Colours of all parts of the case, and of a part to be added.
-std::vector<std::array<float, 3>> colorsOf(const scene::Case& value,
-                                           const std::vector<scene::StructurePart>& coming = {})
+std::vector<std::array<float, 3>> colorsOf(const scene::Case& value)
 {
   std::vector<std::array<float, 3>> colors;
   for (const auto& part : value.labels)
     for (const auto& structure : part.structures)
       colors.push_back(structure.look.color);
-  for (const auto& structure : coming)
-    colors.push_back(structure.look.color);
   for (const auto& mesh : value.meshes)
     colors.push_back(mesh.look.color);
   return colors;
@@ -898,6 +925,28 @@ std::string validName(const std::string& name, const IsTaken& isTaken,
   return valid;
 }
 
+// An image that was taken for a label map: each of its values would be a structure.
+void noteManyValues(const fs::path& path, const imaging::LoadedLabels& loaded,
+                    std::size_t structures, std::vector<std::string>& notes)
+{
+  constexpr std::size_t kMost = 1000; // the largest published atlases have some hundred
+  constexpr std::size_t kMany = 120;  // TotalSegmentator has 117
+  if (structures > kMost)
+    throw core::InvalidParameter(
+        path.string() + ": has " + std::to_string(structures) +
+        " different values, each of which would be a structure, and at most " +
+        std::to_string(kMost) +
+        " are taken; an image is added as an MR, and of an atlas only what is needed");
+  std::size_t unnamed = 0;
+  for (const volume::LabelMap& map : loaded.maps)
+    for (const volume::Segment& segment : map.segments)
+      unnamed += segment.voxels > 0 && segment.name == "label " + std::to_string(segment.index);
+  if (unnamed > kMany)
+    notes.push_back(std::to_string(unnamed) +
+                    " values without a name became a structure each; if it is an image, remove "
+                    "them and add it as an MR");
+}
+
 void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
                const core::Progress& progress, std::vector<StructureReport>* report)
 {
@@ -961,8 +1010,10 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     structures += static_cast<std::size_t>(std::count_if(map.segments.begin(), map.segments.end(),
                                                          [](const volume::Segment& segment)
                                                          { return segment.voxels > 0; }));
+  noteManyValues(source.path, loaded, structures, notes);
   std::vector<std::string> taken;
   std::vector<StructureReport> reports;
+  appearance::DistinctColors colors(colorsOf(value));
   for (const imaging::UnreadStructure& unread : loaded.unread)
   {
     reports.push_back({unread.name, unread.isEmpty ? StructureReport::Status::Empty
@@ -978,6 +1029,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     scene::LabelPart part;
     for (volume::Segment& segment : map.segments)
     {
+      progress.check("reading labels");
       if (segment.voxels == 0)
       {
         if (isFolder) // also in the map, which is stored
@@ -1047,10 +1099,6 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
         if (const auto meaning = loaded.meanings.find(segment.name);
             meaning != loaded.meanings.end())
           structure.look = presets.lookFor(meaning->second);
-      const bool colored = segment.color != std::array<float, 3>{};
-      if (isUnknown(structure.look))
-        structure.look.color =
-            colored ? segment.color : appearance::distinctColor(colorsOf(value, part.structures));
       // Of several all that are taken are told at once.
       if (structures > 1 &&
           (!scene::partReadAs(value, structure.name).empty() ||
@@ -1070,6 +1118,14 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
       one.layer = layer;
       one.file = source.path;
       reports.push_back(std::move(one));
+      if (isUnknown(structure.look) && segment.color == std::array<float, 3>{})
+        structure.look.color = colors.next();
+      else
+      {
+        if (isUnknown(structure.look))
+          structure.look.color = segment.color;
+        colors.take(structure.look.color);
+      }
       if (loaded.isNamedAfterFile)
         segment.name = structure.name; // the map is stored, and a file's name may be a patient's
       part.structures.push_back(std::move(structure));
@@ -1162,7 +1218,7 @@ void addMesh(scene::Case& value, const PartSource& source, const core::Progress&
   part.mesh = std::shared_ptr<const core::TriangleMesh>(std::move(mesh));
   part.look = appearance::StructurePresets::builtIn().lookFor(part.name);
   if (isUnknown(part.look))
-    part.look.color = appearance::distinctColor(colorsOf(value));
+    part.look.color = appearance::DistinctColors(colorsOf(value)).next();
   value.meshes.push_back(std::move(part));
 }
 
@@ -1352,6 +1408,7 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
                              sources.unit, progress.part(0.0, 0.7));
   value.ct = std::move(read.part);
   value.ct.name = "ct";
+  judgeContents(sources.ct, value.ct, sources.roi.has_value());
   placeSurface(value, sources.modality, read.otherQuantity);
   addParts(value, sources.parts, progress.part(0.7, 1.0), report);
   return value;
@@ -1432,6 +1489,7 @@ void addStructures(scene::Case& value, volume::LabelMap labels)
 {
   const auto presets = appearance::StructurePresets::builtIn();
   scene::LabelPart part;
+  appearance::DistinctColors colors(colorsOf(value));
   for (const volume::Segment& segment : labels.segments)
   {
     scene::checkPartName(segment.name);
@@ -1449,7 +1507,9 @@ void addStructures(scene::Case& value, volume::LabelMap labels)
     structure.codes.algorithmName = "Petrous";
     structure.look = presets.lookFor(structure.name);
     if (isUnknown(structure.look))
-      structure.look.color = appearance::distinctColor(colorsOf(value, part.structures));
+      structure.look.color = colors.next();
+    else
+      colors.take(structure.look.color);
     part.structures.push_back(std::move(structure));
   }
   part.drawnOn = std::string();

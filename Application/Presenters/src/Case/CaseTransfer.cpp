@@ -765,12 +765,13 @@ std::vector<std::string> goneStructures(const scene::Case& value)
 
 } // namespace
 
-std::vector<std::string> facesToMask(const scene::Case& value)
+std::vector<scene::ImageWithFace> facesToMask(const scene::Case& value,
+                                              const core::Progress& progress)
 {
   const bool mayShow = showsHead(value.ct.geometry, {}) ||
                        std::any_of(value.mr.begin(), value.mr.end(),
                                    [](const auto& mr) { return showsHead(mr.geometry, {}); });
-  return mayShow ? scene::imagesWithFace(value) : std::vector<std::string>();
+  return mayShow ? scene::imagesWithFace(value, progress) : std::vector<scene::ImageWithFace>();
 }
 
 namespace
@@ -837,6 +838,8 @@ IdentityReport reportOf(scene::Case value, const SendParts& parts,
       report.leaves.push_back(
           std::string(planOnly ? "the names of meshes: " : "meshes, by their names: ") +
           shownName(joined(meshes)));
+    if (value.view.instrument)
+      report.leaves.push_back("the surface of the instrument, without the name of its file");
     if (const auto gone = goneStructures(value); !gone.empty())
       report.leaves.push_back("names of structures that are gone, in strokes that touched them: " +
                               joined(gone));

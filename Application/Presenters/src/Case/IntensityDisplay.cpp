@@ -65,7 +65,25 @@ volume::IntensityScale calibratedScale(const scene::Case& value)
 volume::IntensityScale softTissueScale(const scene::Case& value)
 {
   const volume::IntensityScale scale = calibratedScale(value);
-  return scale.calibrated ? volume::IntensityScale() : scale;
+  if (scale.calibrated)
+    return {};
+  const auto& soft = value.softTissueValues;
+  return soft && soft->foot < soft->peak ? volume::scaleThrough(*soft) : scale;
+}
+
+std::string softTissueEstimate(const scene::Case& value)
+{
+  const appearance::StructureAppearance& look = value.softTissue;
+  if (value.ct.modality == scene::Modality::Mr || !look.transfer || !look.relative ||
+      !look.sourceImage.empty() || calibratedScale(value).calibrated)
+    return {};
+  const auto& soft = softTissueScale(value).soft;
+  if (!soft)
+    return "It is not known where the values of air end: those of soft tissue follow the scale of "
+           "bone, and may be air";
+  const IntensityDisplay display = displayOf(value);
+  return "Estimated from the image's histogram: air ends at " + display.number(soft->foot) +
+         ", and most of soft tissue is at " + display.number(soft->peak);
 }
 
 const char* primaryName(const scene::Case& value)

@@ -1,5 +1,7 @@
 #include "petrous/Presenters/LeavingImages.h"
 
+#include "petrous/Core/Error.h"
+
 namespace petrous::presenters
 {
 
@@ -17,12 +19,29 @@ std::vector<std::string> maskLeavingImages(const library::Library& library, scen
 }
 
 std::function<std::vector<std::string>(scene::Case&, const core::Progress&)>
-maskForArchive(const library::Library& library, const scene::ImageMask& mask)
+maskForArchive(const library::Library& library, const scene::ImageMask& mask,
+               const std::vector<std::string>& withoutMrs)
 {
-  if (!mask.any())
+  if (!mask.any() && withoutMrs.empty())
     return {};
-  return [&library, mask](scene::Case& value, const core::Progress& progress)
-  { return maskLeavingImages(library, value, mask, progress); };
+  return [&library, mask, withoutMrs](scene::Case& value, const core::Progress& progress)
+  {
+    leaveOutMrs(value, withoutMrs);
+    auto notes = maskLeavingImages(library, value, mask, progress);
+    for (const std::string& name : withoutMrs)
+      notes.push_back("MR '" + name + "' is left out");
+    return notes;
+  };
+}
+
+void leaveOutMrs(scene::Case& value, const std::vector<std::string>& names)
+{
+  for (const std::string& name : names)
+  {
+    if (!scene::findMr(value, name))
+      throw core::InvalidParameter("there is no MR '" + name + "' to leave out");
+    scene::removePart(value, name);
+  }
 }
 
 } // namespace petrous::presenters

@@ -185,7 +185,10 @@ void WorkstationModel::setView(const scene::ViewState& view)
   if (!m_case)
     return;
   auto cameras = std::move(m_case->view.branchCameras);
+  const auto instrument = m_case->view.instrument;
   m_case->view = view;
+  if (instrument && view.instrument && *instrument == *view.instrument)
+    m_case->view.instrument = instrument; // which may be stored already
   m_case->view.branchCameras = std::move(cameras);
 }
 

@@ -63,8 +63,8 @@ std::size_t indexOf(const Parts& parts, const std::string& name)
 }
 
 // The left-out part at `index`, which is about to be removed: as the library has it.
-template <class T>
-void forgetLeftOut(std::vector<LeftOut::Part<T>>& parts, std::size_t index, core::Lazy<T>& whole)
+template <class Part, class Whole>
+void forgetLeftOut(std::vector<Part>& parts, std::size_t index, Whole& whole)
 {
   for (auto part = parts.begin(); part != parts.end();)
   {
@@ -261,17 +261,22 @@ void WorkstationModel::takeOut(const std::string& name, std::uint64_t removal)
                     removed.readers.push_back({part, look});
                 });
   }
+  std::size_t labelsAt = 0, meshAt = 0;
   for (std::size_t n = 0; n < next.labels.size(); ++n)
     if (const std::size_t at = indexOf(next.labels[n].structures, name);
         at < next.labels[n].structures.size())
     {
+      labelsAt = n;
       removed.labels = {n, next.labels[n]};
       removed.labels->part.structures = {next.labels[n].structures[at]};
       removed.structure = at;
       removed.wasAlone = next.labels[n].structures.size() == 1;
     }
   if (const std::size_t at = indexOf(next.meshes, name); at < next.meshes.size())
+  {
+    meshAt = at;
     removed.mesh = {at, next.meshes[at]};
+  }
   const std::vector<scene::Measurement> before = next.measurements;
   const bool areLabelsChanged = removed.labels.has_value();
   scene::removePart(next, name);
@@ -283,9 +288,9 @@ void WorkstationModel::takeOut(const std::string& name, std::uint64_t removal)
   for (LeftOut& parts : m_leftOut)
   {
     if (removed.labels && removed.wasAlone)
-      forgetLeftOut(parts.labels, removed.labels->index, removed.labels->part.labels);
+      forgetLeftOut(parts.labels, labelsAt, removed.labels->part.labels);
     if (removed.mesh)
-      forgetLeftOut(parts.meshes, removed.mesh->index, removed.mesh->part.mesh);
+      forgetLeftOut(parts.meshes, meshAt, removed.mesh->part.mesh);
   }
   m_case->mr = std::move(next.mr);
   m_case->labels = std::move(next.labels);

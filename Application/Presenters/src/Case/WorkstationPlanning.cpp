@@ -28,27 +28,29 @@ bool WorkstationModel::measureNearby()
   return m_nearby->ready();
 }
 
-std::optional<std::vector<NearbyStructure>> WorkstationModel::nearby(const MeasuredTool& tool,
-                                                                     const haptics::Pose& pose)
+ToolSurroundings WorkstationModel::surroundings(const MeasuredTool& tool, const haptics::Pose& pose,
+                                                bool isWide)
 {
-  if (!measureNearby())
-    return std::nullopt;
-  return m_nearby->around(*m_case, tool, pose, kNear, strokeSoFar());
-}
-
-std::optional<std::string> WorkstationModel::warnings(const MeasuredTool& tool,
-                                                      const haptics::Pose& pose)
-{
-  if (m_case && m_case->labels.empty() && m_case->meshes.empty())
-    return std::string();
-  if (!measureNearby())
-    return std::nullopt;
-  return warningsOf(m_nearby->around(*m_case, tool, pose, 0.0, strokeSoFar()));
-}
-
-std::string WorkstationModel::unmeasuredNearby() const
-{
-  return m_nearby ? toString(m_nearby->unmeasured()) : std::string();
+  ToolSurroundings result;
+  result.isWide = isWide;
+  result.isInstrument = tool.isInstrument();
+  try
+  {
+    if (!isWide && m_case && !canBeWarnedOf(*m_case))
+      result.isMeasured = true;
+    else if (measureNearby())
+    {
+      result.structures =
+          m_nearby->around(*m_case, tool, pose, isWide ? kNear : 0.0, strokeSoFar());
+      result.unmeasured = toString(m_nearby->unmeasured());
+      result.isMeasured = true;
+    }
+  }
+  catch (const std::exception& error) // out of memory, a missing file
+  {
+    result.fault = error.what();
+  }
+  return result;
 }
 
 const dissection::RemovedVolume& WorkstationModel::strokeSoFar()

@@ -182,6 +182,24 @@ void WorkstationModel::close()
   notify(events.preparationWanted);
 }
 
+namespace
+{
+
+// One that is lost is not in the way of the case.
+bool isReadable(const scene::ViewState::Instrument& instrument)
+{
+  try
+  {
+    return instrument.mesh.get() != nullptr;
+  }
+  catch (const core::Error&)
+  {
+    return false;
+  }
+}
+
+} // namespace
+
 void StoreTask::run(const core::Progress& progress)
 {
   library::Library own = library; // with a listener of its own
@@ -198,6 +216,8 @@ void StoreTask::run(const core::Progress& progress)
     std::for_each(value.mr.begin(), value.mr.end(), asNew);
     std::for_each(value.labels.begin(), value.labels.end(), asNew);
     std::for_each(value.meshes.begin(), value.meshes.end(), asNew);
+    if (auto& instrument = value.view.instrument; instrument && isReadable(*instrument))
+      asNew(*instrument);
     for (std::size_t n = 0; n < value.dissection.strokes().size(); ++n)
       value.dissection.setStored(n, "", value.dissection.strokes()[n]->packed);
     for (std::string& note : library::forgetForeignIdentity(value))
@@ -288,6 +308,10 @@ void WorkstationModel::stored(const StoreTask& done)
     takeObjects(m_case->mr, saved.mr);
     takeObjects(m_case->meshes, saved.meshes);
   }
+  if (auto& instrument = m_case->view.instrument;
+      instrument && saved.view.instrument &&
+      instrument->mesh.peek() == saved.view.instrument->mesh.peek())
+    instrument->object = saved.view.instrument->object;
   for (scene::Attachment& one : m_case->attachments)
     for (const scene::Attachment& from : saved.attachments)
       if (one.name == from.name && one.object.empty() && one.content == from.content &&

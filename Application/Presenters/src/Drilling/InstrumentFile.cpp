@@ -10,6 +10,7 @@
 #include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Scene/PlainText.h"
 #include "petrous/Volume/MeshMeasure.h"
 #include "petrous/Volume/MeshTree.h"
 
@@ -172,6 +173,29 @@ InstrumentSurface readInstrumentSurface(const fs::path& path, const core::Progre
   checkSize(path, sizeOf(loaded.mesh).maxCoeff(), loaded.isUnitStated);
   checkSurface(path, loaded.mesh);
   return {core::printable(path.filename()), std::move(loaded.mesh)};
+}
+
+InstrumentSurface instrumentSurface(std::string name, core::TriangleMesh mesh)
+{
+  checkSize(name, sizeOf(mesh).maxCoeff(), false);
+  checkSurface(name, mesh);
+  return {std::move(name), std::move(mesh)};
+}
+
+scene::ViewState::Instrument keptInstrument(const InstrumentSurface& surface,
+                                            const std::string& axis)
+{
+  scene::ViewState::Instrument kept;
+  kept.name = core::utf8Prefix(scene::withoutInvisible(surface.name),
+                               scene::ViewState::Instrument::kLongestName);
+  kept.axis = axis;
+  kept.mesh = std::make_shared<const core::TriangleMesh>(surface.mesh);
+  return kept;
+}
+
+InstrumentSurface surfaceOf(const scene::ViewState::Instrument& kept, const std::string& unnamed)
+{
+  return instrumentSurface(kept.name.empty() ? unnamed : kept.name, *kept.mesh.get());
 }
 
 LoadedInstrument makeInstrument(InstrumentSurface surface, const std::string& axis,

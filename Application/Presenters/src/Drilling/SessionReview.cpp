@@ -168,6 +168,7 @@ bool RecordedCourse::add(const session::TickRecord& record)
   {
     m_metrics.drilling += seconds;
     m_forceSeconds += seconds * m_last.force;
+    m_spindle.add(m_lastInput, seconds);
   }
   const bool isStart = tool.drilling && (isFirst || !m_last.drilling);
   m_metrics.drillStarts += isStart;
@@ -191,6 +192,7 @@ bool RecordedCourse::add(const session::TickRecord& record)
       tool.time - m_tools.back().time >= 1.0 / kRate - kTolerance)
     m_tools.push_back(tool);
   m_last = tool;
+  m_lastInput = record.input;
   return true;
 }
 
@@ -272,6 +274,7 @@ SessionReview reviewRecording(const std::filesystem::path& file, scene::Case val
   review.warning = reader.warning();
   review.metrics = course.metrics();
   review.course = course.tools();
+  review.speed = course.speed(setup.burr.rpm);
 
   Volumes removed;
   if (loop)

@@ -17,6 +17,11 @@ std::string metricsCsv(const SessionReview& review)
   rows.push_back({"burr", "", dissection::nameOf(review.burr), ""});
   add("burr_diameter", "", review.burr.diameter, 2, "mm");
   add("spindle_speed", "", review.burr.rpm, 0, "1/min");
+  if (review.speed)
+  {
+    add("mean_spindle_speed_drilling", "", review.speed->mean, 0, "1/min");
+    add("max_spindle_speed", "", review.speed->max, 0, "1/min");
+  }
   add("duration", "", metrics.duration, 3, "s");
   add("drilling", "", metrics.drilling, 3, "s");
   add("drill_starts", "", static_cast<double>(metrics.drillStarts), 0, "");

@@ -368,8 +368,9 @@ void MeasurementEditor::add(Measurement measurement)
                            : measurement.kind == Kind::Thickness && !measurement.structure.empty()
                                ? "bone over " + measurement.structure
                                : scene::nameOf(measurement.kind);
-  std::string name = shownName(core::utf8Prefix(base, Measurement::kLongestName - 10));
-  if (name == scene::nameOf(measurement.kind))
+  const std::string own = inLanguage ? inLanguage(base) : base;
+  std::string name = shownName(core::utf8Prefix(own, Measurement::kLongestName - 10));
+  if (base == scene::nameOf(measurement.kind))
     name += " 1";
   // "distance 1", "distance 2", ...
   std::vector<Measurement> next = all();

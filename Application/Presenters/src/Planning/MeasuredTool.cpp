@@ -12,6 +12,8 @@ namespace
 using Eigen::Vector3d;
 
 constexpr std::size_t kFew = 8; // points that are not divided further
+constexpr double kSmall = 0.5;  // mm; a bound is less than the distance by as much: of a smaller
+                                // ball the distance itself rules out more
 
 } // namespace
 
@@ -72,7 +74,7 @@ void MeasuredTool::divide(Part& part, std::size_t ball)
   const auto middle = begin + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(begin, middle, end,
                    [axis](const Vector3d& a, const Vector3d& b) { return a[axis] < b[axis]; });
-  Ball first{Eigen::Vector3d::Zero()}, second{Eigen::Vector3d::Zero()};
+  Ball first, second;
   first.begin = whole.begin;
   first.end = second.begin = whole.begin + count / 2;
   second.end = whole.end;
@@ -86,7 +88,7 @@ void MeasuredTool::divide(Part& part, std::size_t ball)
 // A distance changes by no more than the way between two points (1-Lipschitz): no point of a ball
 // is nearer than its centre less its radius.
 MeasuredTool::Distance MeasuredTool::distance(const haptics::Pose& pose, const Surface& surface,
-                                              double most) const
+                                              double most, const Surface& bound) const
 {
   if (!isInstrument())
   {
@@ -96,39 +98,49 @@ MeasuredTool::Distance MeasuredTool::distance(const haptics::Pose& pose, const S
   double nearest = most;
   double least = most;                              // of a place between points
   std::vector<std::pair<double, std::size_t>> open; // least possible distance, ball
+  const Surface& lookUp = bound ? bound : surface;
   for (const Part& part : m_parts)
   {
-    double best = most;
-    const auto look = [&](std::size_t ball)
+    // Points farther than that change neither the distance nor what may be nearer.
+    double best = std::min(most, std::max(nearest, least + part.spacing));
+    const double farthest = best;
+    const auto consider = [&](std::size_t ball)
     {
       const Ball& one = part.balls[ball];
-      const double bound = surface(pose * one.center, best + one.radius) - one.radius;
-      if (bound < best)
-        open.emplace_back(bound, ball);
+      const Surface& look = one.radius < kSmall ? surface : lookUp;
+      const double reached = look(pose * one.center, best + one.radius) - one.radius;
+      if (reached < best)
+        open.emplace_back(reached, ball);
     };
     open.clear();
-    look(0);
+    consider(0);
     while (!open.empty() && best > 0.0)
     {
-      const auto [bound, ball] = open.back();
+      const auto [reached, ball] = open.back();
       open.pop_back();
-      if (bound >= best)
+      if (reached >= best)
         continue;
       const Ball& one = part.balls[ball];
       if (one.halves == 0)
         for (std::size_t n = one.begin; n < one.end; ++n)
-          best = std::min(best, surface(pose * part.points[n], best));
+        {
+          if (reached + one.radius - (part.points[n] - one.center).norm() >= best)
+            continue;
+          const Vector3d point = pose * part.points[n];
+          if (one.radius < kSmall || lookUp(point, best) < best)
+            best = std::min(best, surface(point, best));
+        }
       else
       {
         const std::size_t before = open.size();
-        look(one.halves);
-        look(one.halves + 1);
+        consider(one.halves);
+        consider(one.halves + 1);
         if (open.size() == before + 2 && open[before].first < open[before + 1].first)
           std::swap(open[before], open[before + 1]); // the nearer one is next
       }
     }
     nearest = std::min(nearest, best);
-    if (best < most)
+    if (best < farthest)
       least = std::min(least, best - part.spacing);
   }
   return {nearest, nearest - std::min(nearest, least)};

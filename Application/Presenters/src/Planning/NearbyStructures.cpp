@@ -39,6 +39,12 @@ bool lumen(const appearance::StructureAppearance* look)
   return look && !look->solid;
 }
 
+// It may be in a warning, if the tool comes near enough.
+bool warnedOf(const appearance::StructureAppearance& look)
+{
+  return look.warning > 0.0 || (look.shown && look.solid);
+}
+
 // nullptr if it cannot be measured. Throws CancelledError.
 std::shared_ptr<const volume::SurfaceDistance> tried(const StructureSurfaces::Measurer& measurer,
                                                      const core::Progress& progress)
@@ -115,6 +121,16 @@ std::string warningsOf(const std::vector<NearbyStructure>& structures)
   if (worst.size() > kMaxWarnings)
     text += "\nand " + std::to_string(worst.size() - kMaxWarnings) + " more";
   return text;
+}
+
+bool canBeWarnedOf(const scene::Case& value)
+{
+  const auto isWarnedOf = [](const auto& part) { return warnedOf(part.look); };
+  return std::any_of(
+             value.labels.begin(), value.labels.end(),
+             [&](const scene::LabelPart& part)
+             { return std::any_of(part.structures.begin(), part.structures.end(), isWarnedOf); }) ||
+         std::any_of(value.meshes.begin(), value.meshes.end(), isWarnedOf);
 }
 
 std::string toString(const UnmeasuredStructures& structures)
@@ -236,7 +252,8 @@ std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
     NearbyStructure structure;
     structure.name = surfaces.name(n);
     const auto* look = lookOf(value, structure.name);
-    if (!look || !measured(value, structure.name) || !surfaces.isMeasured(n))
+    if (!look || !measured(value, structure.name) || !surfaces.isMeasured(n) ||
+        (reach <= 0.0 && !warnedOf(*look)))
       continue;
     structure.uncertainty = surfaces.uncertainty(n);
     const double unsure = structure.uncertainty.millimetres();
@@ -251,7 +268,9 @@ std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
         pose,
         [&](const Eigen::Vector3d& patient, double far)
         { return surfaces.distance(n, patient, far); },
-        most);
+        most,
+        [&](const Eigen::Vector3d& patient, double far)
+        { return surfaces.bound(n, patient, far); });
     if (!(away.millimetres < most))
       continue;
     structure.distance = std::max(0.0, away.millimetres);

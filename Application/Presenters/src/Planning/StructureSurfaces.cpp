@@ -96,6 +96,14 @@ double StructureSurfaces::distance(std::size_t structure, const Eigen::Vector3d&
   return asked.surface().at(patient, most);
 }
 
+double StructureSurfaces::bound(std::size_t structure, const Eigen::Vector3d& patient, double most)
+{
+  Structure& asked = *m_structures[structure];
+  if (asked.box.squaredExteriorDistance(patient) >= most * most)
+    return most;
+  return asked.surface().bound(patient, most);
+}
+
 std::optional<NearStructure>
 StructureSurfaces::nearest(const Eigen::Vector3d& patient, double reach,
                            const std::function<bool(const std::string& name)>& wanted)

@@ -89,4 +89,14 @@ std::string likelyOrderText(const std::vector<Eigen::Vector3d>& points)
   return text;
 }
 
+std::string bridgingText(const segmentation::TubeLabel& label)
+{
+  if (label.bridging == 0)
+    return {};
+  return "where it is thinner than the voxels it is drawn one voxel wide, so that it has no gap: " +
+         std::to_string(label.bridging) + " of its " +
+         std::to_string(label.map.segments.front().voxels) +
+         " voxels, which its volume counts whole";
+}
+
 } // namespace petrous::presenters

@@ -142,7 +142,8 @@ std::vector<std::string> placeNames(const scene::Case& value)
 {
   std::vector<std::string> names;
   for (const std::string& name : scene::partNames(value))
-    if (name != "ct" && !scene::findMr(value, name) && scene::missingPlace(value, name).empty())
+    if (name != "ct" && !scene::findMr(value, name) && scene::missingPlace(value, name).empty() &&
+        std::find(names.begin(), names.end(), name) == names.end()) // a structure's mesh is its own
       names.push_back(name);
   return names;
 }

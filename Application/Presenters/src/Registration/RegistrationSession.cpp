@@ -1,10 +1,12 @@
 #include "petrous/Presenters/RegistrationSession.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Scene/ApplyRegistration.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::presenters
 {
@@ -156,6 +158,46 @@ std::vector<std::string> RegistrationSession::ontoNames() const
 std::vector<std::string> RegistrationSession::placeNames() const
 {
   return m_model.hasCase() ? presenters::placeNames(m_model.value()) : std::vector<std::string>();
+}
+
+namespace
+{
+
+// "cochlea" of "cochlea 2" (scene::freeName).
+std::string withoutNumber(const std::string& name)
+{
+  const std::size_t last = name.find_last_not_of("0123456789");
+  const bool isNumbered = last != std::string::npos && last + 1 < name.size() && last > 0 &&
+                          (name[last] == ' ' || name[last] == '_' || name[last] == '-');
+  return isNumbered ? name.substr(0, last) : name;
+}
+
+} // namespace
+
+std::vector<PlaceChoice> RegistrationSession::placeChoices() const
+{
+  std::vector<PlaceChoice> choices;
+  std::map<std::string, int> alike;
+  for (const std::string& name : placeNames())
+  {
+    ++alike[withoutNumber(name)];
+    PlaceChoice choice{name};
+    const scene::Case& value = m_model.value();
+    const scene::StructurePart* structure = scene::findStructure(value, name);
+    choice.isMesh = !structure;
+    choice.volume = structure ? structure->volume : 0.0;
+    for (const scene::LabelPart& part : value.labels)
+      for (const scene::StructurePart& one : part.structures)
+        if (&one == structure)
+          choice.drawnOn = scene::placementOf(value, part).drawnOn;
+    for (const scene::MeshPart& mesh : value.meshes)
+      if (choice.isMesh && mesh.name == name)
+        choice.drawnOn = mesh.drawnOn;
+    choices.push_back(std::move(choice));
+  }
+  for (PlaceChoice& choice : choices)
+    choice.isAlike = alike.at(withoutNumber(choice.name)) > 1;
+  return choices;
 }
 
 std::string RegistrationSession::placeNote() const

@@ -229,12 +229,14 @@ scene::MrReadings readingsOf(const scene::Case& value, const scene::LabelPart& p
   return readings;
 }
 
-std::string warningOf(const Tube& tube)
+std::string warningOf(const Tube& tube, const segmentation::TubeLabel& label)
 {
   std::string text;
   if (const std::string order = likelyOrderText(tube.points); !order.empty())
     text = "The points seem not to be in their order along the structure: " + order +
            " would make a much shorter line.";
+  if (const std::string bridging = bridgingText(label); !bridging.empty())
+    text += (text.empty() ? "W" : " W") + bridging.substr(1) + ".";
   const double left = tube.length - tube.resolvedLength;
   if (left < 0.05 * tube.length)
     return text;
@@ -1283,15 +1285,15 @@ SegmentEditor::Computed SegmentEditor::computed() const
       volume::Segment segment;
       segment.name = "tube";
       segment.index = 1;
-      const volume::LabelMap labels =
+      const segmentation::TubeLabel label =
           segmentation::labelTube(tube, base.geometry(), segment, 1.0, progress.part(0.8, 1.0));
       preview.note =
           noteOf(tube, options.radius || options.widest == segmentation::TubeOptions().widest
                            ? std::nullopt
                            : std::optional(options.widest));
-      preview.warning = warningOf(tube);
+      preview.warning = warningOf(tube, label);
       preview.tube = std::make_shared<const Tube>(std::move(tube));
-      preview.result = united(base, segmentation::maskOf(labels, 1), Combine::Add);
+      preview.result = united(base, segmentation::maskOf(label.map, 1), Combine::Add);
       return preview;
     };
   case Tool::Islands:
@@ -1975,7 +1977,7 @@ std::array<float, 3> SegmentEditor::colorNow() const
   const auto look = appearance::StructurePresets::builtIn().lookFor(m_draft->name);
   if (look.preset != "other" || !m_model.hasCase())
     return look.color;
-  return appearance::distinctColor(structureColors(m_model.value()));
+  return appearance::DistinctColors(structureColors(m_model.value())).next();
 }
 
 DraftLayer SegmentEditor::layer() const

@@ -261,7 +261,10 @@ private:
     m_approach = approachName(m_value.dissection.history().branch().name);
   }
 
-  std::string approachName(const std::string& typed) { return m_withheld.name(typed, "approach"); }
+  std::string approachName(const std::string& typed)
+  {
+    return typed == History::kMain ? say(typed) : m_withheld.name(typed, "approach");
+  }
 
   std::string sideName() const
   {
@@ -692,8 +695,25 @@ private:
     if (line.empty())
       return;
     ReportSection& table = section("strokes", say("Strokes") + ": " + m_approach);
-    table.table.columns = {say("Stroke"), say("Burr"),    say("Set speed"),
-                           say("Time"),   say("Removed"), say("Of structures")};
+    const auto& strokes = m_value.dissection.strokes();
+    const bool isByPedal =
+        std::any_of(line.begin(), line.end(),
+                    [&strokes](std::size_t n) { return strokes[n]->info.speed.has_value(); });
+    table.table.columns = {say("Stroke"), say("Burr"), say("Set speed")};
+    if (isByPedal)
+      for (const char* column : {"Mean speed", "Highest speed"})
+        table.table.columns.push_back(say(column));
+    for (const char* column : {"Time", "Removed", "Of structures"})
+      table.table.columns.push_back(say(column));
+    const auto addRow =
+        [&](std::vector<ReportCell> row, const std::optional<dissection::SpindleSpeed>& speed)
+    {
+      const std::vector<ReportCell> cells{speed ? numberCell(speed->mean, 0, "/min") : textCell({}),
+                                          speed ? numberCell(speed->max, 0, "/min") : textCell({})};
+      if (isByPedal)
+        row.insert(row.begin() + 3, cells.begin(), cells.end());
+      table.table.rows.push_back(std::move(row));
+    };
     for (const std::size_t n : line)
     {
       if (table.table.rows.size() == kMostRows)
@@ -702,17 +722,19 @@ private:
                                        std::to_string(kMostRows), std::to_string(line.size())));
         break;
       }
-      const dissection::StrokeInfo& info = m_value.dissection.strokes()[n]->info;
-      table.table.rows.push_back(
+      const dissection::StrokeInfo& info = strokes[n]->info;
+      addRow(
           {numberCell(static_cast<double>(n + 1), 0, ""),
            textCell(number(info.burr.diameter, 1) + " mm, " + say(dissection::nameOf(info.burr))),
            numberCell(info.burr.rpm, 0, "/min"), numberCell(info.duration, 1, "s"),
-           numberCell(info.removed, 2, "mm³"), textCell(touchedText(info.structures))});
+           numberCell(info.removed, 2, "mm³"), textCell(touchedText(info.structures))},
+          info.speed);
     }
     const scene::StateSummary summary = scene::summaryOf(m_value, history.position());
-    table.table.rows.push_back({textCell(say("All together")), textCell({}), textCell({}),
-                                numberCell(summary.duration, 1, "s"),
-                                numberCell(summary.removed, 2, "mm³"), textCell({})});
+    addRow({textCell(say("All together")), textCell({}), textCell({}),
+            numberCell(summary.duration, 1, "s"), numberCell(summary.removed, 2, "mm³"),
+            textCell({})},
+           std::nullopt);
     table.table.rows.back()[0].isNumber = true;
   }
 
@@ -914,7 +936,7 @@ private:
       std::vector<std::string> texts;
       for (const std::string& note : notes)
         texts.push_back(note.empty() ? say("a note") + " (" + say("withheld") + ")"
-                                     : m_withheld.sentence(note));
+                                     : say(m_withheld.sentence(note)));
       return texts;
     };
     const auto addImage = [&](const std::string& name, const scene::ImagePart& image)

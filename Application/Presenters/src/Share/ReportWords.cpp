@@ -98,6 +98,8 @@ const std::map<std::string, std::string>& germanTexts()
       {"cutting", "schneidend"},
       {"diamond", "Diamant"},
       {"Set speed", "Eingestellte Drehzahl"},
+      {"Mean speed", "Mittlere Drehzahl"},
+      {"Highest speed", "Höchste Drehzahl"},
       {"Time", "Zeit"},
       {"All together", "Zusammen"},
       {"Measurements and marks", "Messungen und Marken"},
@@ -139,7 +141,7 @@ const std::map<std::string, std::string>& germanTexts()
       {"Error, median", "Fehler, Median"},
       {"95 %", "95 %"},
       {"largest", "größter"},
-      {"At", "An"},
+      {"At", "Ort"},
       {"Signed off", "Freigegeben"},
       {"yes, by ", "ja, von "},
       {"no", "nein"},
@@ -149,7 +151,7 @@ const std::map<std::string, std::string>& germanTexts()
       {"landmarks", "Landmarken"},
       {"by hand", "von Hand"},
       {"transform of a file", "Transformation aus einer Datei"},
-      {"made from the MR %1", "aus der MR %1 gemacht"},
+      {"made from the MR %1", "aus dem MR %1 gemacht"},
       {"which lies elsewhere since: error unknown", "die seither anders liegt: Fehler unbekannt"},
       {"frame of reference", "Bezugssystem des Geräts"},
       {", refined by mutual information", ", verfeinert durch Transinformation"},
@@ -179,6 +181,7 @@ const std::map<std::string, std::string>& germanTexts()
       {"structure", "Struktur"},
       {"measurement", "Messung"},
       {"approach", "Zugang"},
+      {"main", "Hauptzugang"},
       {"in the focal plane", "in der Fokusebene"},
       {"Left side", "Linke Seite"},
       {"Right side", "Rechte Seite"},
@@ -191,6 +194,55 @@ const std::map<std::string, std::string>& germanTexts()
   return kTexts;
 }
 
+bool isDigit(char c) noexcept
+{
+  return c >= '0' && c <= '9';
+}
+
+bool isOfWord(char c) noexcept
+{
+  return isDigit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '/' ||
+         c == '\\';
+}
+
+/// Whether the text's digits and points from `begin` to `end` are a number of their own, not part
+/// of a name, a version or a UID: "T2-0.5", "1.2.840".
+bool isDecimal(std::string_view text, std::size_t begin, std::size_t end) noexcept
+{
+  const auto at = [text](std::size_t n) { return n < text.size() ? text[n] : ' '; };
+  const std::string_view number = text.substr(begin, end - begin);
+  const bool hasSign = begin > 0 && (at(begin - 1) == '-' || at(begin - 1) == '+');
+  const std::size_t first = hasSign ? begin - 1 : begin;
+  return std::count(number.begin(), number.end(), '.') == 1 && isDigit(number.front()) &&
+         !(first > 0 && isOfWord(at(first - 1))) && !isOfWord(at(end));
+}
+
+/// A sentence with a comma in each of its decimal numbers. What stands in quotation marks is a
+/// name.
+std::string withCommas(std::string text)
+{
+  constexpr std::string_view kOpening = "\u201e", kClosing = "\u201c";
+  bool isQuoted = false;
+  for (std::size_t n = 0; n < text.size(); ++n)
+  {
+    if (text.compare(n, kOpening.size(), kOpening) == 0)
+      isQuoted = true;
+    else if (text.compare(n, kClosing.size(), kClosing) == 0)
+      isQuoted = false;
+    else if (text[n] == '\'')
+      isQuoted = !isQuoted && (n == 0 || text[n - 1] == ' ' || text[n - 1] == '(');
+    if (isQuoted || !isDigit(text[n]))
+      continue;
+    std::size_t end = std::min(text.find_first_not_of("0123456789.", n), text.size());
+    while (text[end - 1] == '.')
+      --end;
+    if (isDecimal(text, n, end))
+      text[text.find('.', n)] = ',';
+    n = end - 1;
+  }
+  return text;
+}
+
 } // namespace
 
 std::string reportText(ReportLanguage language, const std::string& english)
@@ -198,16 +250,14 @@ std::string reportText(ReportLanguage language, const std::string& english)
   if (language == ReportLanguage::English)
     return english;
   const auto found = germanTexts().find(english);
-  return found == germanTexts().end() ? germanPhrases().text(english) : found->second;
+  return found == germanTexts().end() ? withCommas(germanPhrases().text(english)) : found->second;
 }
 
 std::string reportNumber(ReportLanguage language, std::string text)
 {
-  const auto isDigit = [&text](std::size_t at)
-  { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
   if (language == ReportLanguage::German)
-    for (std::size_t at = 1; at < text.size(); ++at)
-      if (text[at] == '.' && isDigit(at - 1) && isDigit(at + 1))
+    for (std::size_t at = 1; at + 1 < text.size(); ++at)
+      if (text[at] == '.' && isDigit(text[at - 1]) && isDigit(text[at + 1]))
         text[at] = ',';
   return text;
 }

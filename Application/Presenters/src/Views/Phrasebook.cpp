@@ -16,6 +16,8 @@ namespace
 // is no phrase would be found as one.
 constexpr std::size_t kFewLetters = 12;
 constexpr std::size_t kFewestLetters = 4;
+// In a place that ends a phrase: "removal of left lateral semicircular canal".
+constexpr std::ptrdiff_t kLongestName = 8; // words
 constexpr std::size_t kLongestLine = 2000; // bytes; a longer one is no message
 // A list of more is one of names or numbers: each of its parts would be looked up with each other.
 constexpr std::ptrdiff_t kLongestList = 16;
@@ -38,6 +40,28 @@ std::string_view middleOf(std::string_view text)
   if (first == std::string_view::npos)
     return {};
   return text.substr(first, text.find_last_not_of(kEnds) + 1 - first);
+}
+
+bool isCapital(char c) noexcept
+{
+  return c >= 'A' && c <= 'Z';
+}
+
+char lowerCase(char c) noexcept
+{
+  return isCapital(c) ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+// The first letter, of two bytes too: "über" to "Über".
+std::string capitalized(std::string text)
+{
+  const auto byte = [&text](std::size_t at)
+  { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0U; };
+  if (byte(0) >= 'a' && byte(0) <= 'z')
+    text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  else if (byte(0) == 0xc3 && byte(1) >= 0xa0 && byte(1) <= 0xbe && byte(1) != 0xb7)
+    text[1] = static_cast<char>(byte(1) - 0x20);
+  return text;
 }
 
 bool startsWith(std::string_view text, std::string_view with)
@@ -73,11 +97,11 @@ bool isNumber(std::string_view value)
          std::count(value.begin(), value.end(), ' ') <= 1;
 }
 
-// Three words at most, as in "lateral semicircular canal".
-bool isShort(std::string_view value)
+// No sentence: three words at most, as in "lateral semicircular canal", or as many as are said.
+bool isShort(std::string_view value, std::ptrdiff_t words = 3)
 {
   return value.find(", ") == std::string_view::npos && value.find(": ") == std::string_view::npos &&
-         std::count(value.begin(), value.end(), ' ') <= 2;
+         std::count(value.begin(), value.end(), ' ') < words;
 }
 
 // Whether it may be a name, a path or a number, and not sentences.
@@ -197,6 +221,13 @@ std::optional<Phrasebook::Found> Phrasebook::lookUp(std::string_view part, Memor
   if (known != memory.end())
     return known->second;
   auto found = whole(middle, memory);
+  // A message begins a sentence with a capital: "Repeated fits agree; ...".
+  if ((!found || !found->isWhole) && isCapital(middle.front()))
+    if (auto inside = whole(middle, memory, true); inside && (inside->isWhole || !found))
+    {
+      inside->text = capitalized(std::move(inside->text));
+      found = std::move(inside);
+    }
   if (!found || !found->isWhole)
     if (auto parts = divided(middle, memory); parts && (parts->isWhole || !found))
       found = std::move(parts);
@@ -210,15 +241,18 @@ std::optional<Phrasebook::Found> Phrasebook::lookUp(std::string_view part, Memor
   return found;
 }
 
-std::optional<Phrasebook::Found> Phrasebook::whole(std::string_view middle, Memory& memory) const
+std::optional<Phrasebook::Found> Phrasebook::whole(std::string_view middle, Memory& memory,
+                                                   bool isCapitalized) const
 {
   std::optional<Found> best;
+  const char begin = isCapitalized ? lowerCase(middle.front()) : middle.front();
   for (std::size_t n = 0; n < m_entries.size(); ++n)
   {
     const auto [first, last] = m_ends[n];
-    if ((first != '\0' && first != middle.front()) || (last != '\0' && last != middle.back()))
+    if ((first != begin && (first != '\0' || isCapitalized)) ||
+        (last != '\0' && last != middle.back()))
       continue;
-    auto found = matched(m_entries[n], middle, memory);
+    auto found = matched(m_entries[n], middle, memory, isCapitalized);
     if (found && found->isWhole)
       return found;
     if (found && !best)
@@ -228,13 +262,18 @@ std::optional<Phrasebook::Found> Phrasebook::whole(std::string_view middle, Memo
 }
 
 std::optional<Phrasebook::Found> Phrasebook::matched(const Entry& entry, std::string_view middle,
-                                                     Memory& memory) const
+                                                     Memory& memory, bool isCapitalized) const
 {
   const Pieces& pieces = entry.english;
+  // The caller has compared the first letter.
+  const std::size_t same = isCapitalized ? 1 : 0;
+  const std::string_view words = pieces.front().words;
+  if (!startsWith(middle.substr(same), words.substr(std::min(same, words.size()))))
+    return std::nullopt;
   if (pieces.size() == 1)
-    return middle == pieces.front().words ? std::optional<Found>(Found{entry.other.front().words})
-                                          : std::nullopt;
-  if (!startsWith(middle, pieces.front().words) || !endsWith(middle, pieces.back().words))
+    return middle.size() == words.size() ? std::optional<Found>(Found{entry.other.front().words})
+                                         : std::nullopt;
+  if (!endsWith(middle, pieces.back().words))
     return std::nullopt;
   std::map<int, std::string> values;
   bool isWhole = true;
@@ -261,14 +300,18 @@ std::optional<Phrasebook::Found> Phrasebook::matched(const Entry& entry, std::st
     const bool isQuoted =
         !pieces[n].isPhrase && endsWith(pieces[n].words, "'") && startsWith(next, "'");
     std::optional<Found> other;
-    if (!value.empty() && !isQuoted && (pieces[n].isPhrase || isSeveral))
+    const bool isLookedUp = pieces[n].isPhrase || value.find(' ') != std::string_view::npos;
+    if (!value.empty() && !isQuoted && isLookedUp)
       other = lookUp(value, memory);
     if (other && other->isWhole)
       values[pieces[n].place] = other->text;
     else
     {
       const bool isFew = entry.letters < kFewLetters;
-      if (!isPlain(value) || (isFew && !isShort(value)) ||
+      // "removal of %1", and nothing after it
+      const bool isName =
+          n == 0 && isLast && end == middle.size() && entry.letters >= kFewLetters / 2;
+      if (!isPlain(value) || (isFew && !isShort(value, isName ? kLongestName : 3)) ||
           (pieces[n].isPhrase && isFew && pieces.size() > 2 && !value.empty() &&
            !isNumber(value)) ||
           (entry.letters < kFewestLetters && isSeveral) ||

@@ -444,6 +444,7 @@ void readFrames(DicomElements& elements, FileHeader& header, bool isMap)
     slice.instanceNumber = static_cast<int>(std::min<std::int64_t>(
         static_cast<std::int64_t>(file.instanceNumber) * file.frames + static_cast<int>(f),
         std::numeric_limits<int>::max()));
+    slice.stackPosition = elements.integer(0x00209057);
     slice.pixels.frame = static_cast<int>(f);
     slice.pixels.frameCount = file.frames;
     if (!slice.pixels.isEncapsulated)

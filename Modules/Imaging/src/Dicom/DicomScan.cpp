@@ -588,9 +588,15 @@ std::string missingEnds(const SeriesGeometry& geometry, const Numbering& numberi
   if (isNumbered && numbering.first > 1 && numbering.declared != numbering.count)
     text += (text.empty() ? "The slices are numbered " : ", numbered ") +
             ("from " + std::to_string(numbering.first)) + " to " + std::to_string(numbering.last);
-  return text.empty() ? text
-                      : text + "; the stack has no gap, but its ends may be missing. Look whether "
-                               "all of the skull base that is needed is there.";
+  if (text.empty())
+    return text;
+  // Where slices do not stand evenly, there may be gaps, too.
+  return text +
+         (hasFinding(geometry, {FindingKind::UnevenSpacing, FindingKind::MissingBetween})
+              ? "; slices may be missing, also at its ends. Look whether all of the skull base "
+                "that is needed is there."
+              : "; the stack has no gap, but its ends may be missing. Look whether all of the "
+                "skull base that is needed is there.");
 }
 
 /// What the numbers of a stack say of slices between those that are there: they go in equal steps
@@ -600,25 +606,24 @@ std::string numbersBetween(const SeriesGeometry& geometry)
   const std::vector<SliceHeader>& slices = geometry.slices;
   constexpr std::size_t kTelling = 4; // slices
   if (geometry.verdict == Verdict::Refused || !geometry.grid || slices.size() < kTelling ||
-      slices.front().pixels.frameCount > 1)
+      hasFinding(geometry, {FindingKind::MissingSlice}))
     return {};
-  const auto stepAt = [&slices](std::size_t k)
-  {
-    return static_cast<std::int64_t>(slices[k].instanceNumber) -
-           static_cast<std::int64_t>(slices[k - 1].instanceNumber);
-  };
-  const std::int64_t step = stepAt(1);
-  for (std::size_t k = 2; k < slices.size(); ++k)
-    if (stepAt(k) != step)
+  const std::vector<double> numbers = numbersAlong(slices);
+  if (numbers.empty())
+    return {};
+  const double step = numbers[1] - numbers[0];
+  for (std::size_t k = 2; k < numbers.size(); ++k)
+    if (numbers[k] - numbers[k - 1] != step)
       return {};
   constexpr double kThicker = 1.5; // by which slices without a gap may stand apart
   const double spacing = geometry.grid->spacing()[2];
   const auto& thickness = slices.front().thickness;
-  if (std::abs(step) < 2 || !thickness || !(*thickness > 0.0) || spacing <= kThicker * *thickness)
+  if (std::abs(step) < 2.0 || !thickness || !(*thickness > 0.0) || spacing <= kThicker * *thickness)
     return {};
-  return "The slices are numbered in steps of " + std::to_string(std::abs(step)) + " and are " +
+  return "The slices are numbered in steps of " + decimals(std::abs(step), 0) + " and are " +
          decimals(*thickness, 2) + " mm thick, but stand " + decimals(spacing, 2) +
-         " mm apart: those between them may be missing. Look whether the series has more files.";
+         " mm apart: those between them may be missing, and " + decimals(spacing - *thickness, 2) +
+         " mm from each to the next were not measured. Look whether the series has more files.";
 }
 
 /// The stretch of a stack along a normal, mm.
@@ -914,10 +919,10 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
                           "Its slices need more memory than is free, even one by one.", 0.0});
       one.geometry.verdict = Verdict::Refused;
     }
+    if (std::string between = numbersBetween(one.geometry); !between.empty())
+      findings.push_back({FindingKind::MissingBetween, std::move(between), 0.0});
     if (std::string ends = missingEnds(one.geometry, numbering); name.empty() && !ends.empty())
       findings.push_back({FindingKind::MissingEnd, std::move(ends), 0.0});
-    if (std::string between = numbersBetween(one.geometry); !between.empty())
-      one.geometry.notes.push_back(std::move(between));
     const std::size_t lost = doubts.files.size();
     if (lost > 0 && isWholeWithout(lost, one.geometry, numbering))
       one.geometry.notes.push_back(setAsideNote(lost, one.geometry, numbering));

@@ -20,10 +20,10 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr const char* kMethod = "dicom headers 9"; // increment with the fields below
-constexpr std::int64_t kCoarsest = 2'000'000'000;  // ns; FAT
-constexpr std::size_t kSampled = 8;                // files
-constexpr std::size_t kSample = 4096;              // bytes
+constexpr const char* kMethod = "dicom headers 10"; // increment with the fields below
+constexpr std::int64_t kCoarsest = 2'000'000'000;   // ns; FAT
+constexpr std::size_t kSampled = 8;                 // files
+constexpr std::size_t kSample = 4096;               // bytes
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 constexpr std::size_t kNonce = 12;
 constexpr std::size_t kTag = 16;
@@ -243,14 +243,14 @@ void pass(Archive& archive, SliceHeader& value)
 {
   auto& [file, stamp, position, row, column, pixelSpacing, rows, columns, frames, slope, intercept,
          hasRescale, rescaleType, isLossy, isLossUnknown, lossyRatio, burnedIn, declaredSpacing,
-         thickness, declaredTilt, padding, paddingLimit, taken, patientPosition, instance, count,
-         isImage, imageType, frameOfReference, patient, study, modality, kernel, tube, seriesNumber,
-         acquisition, traits, step, hasLut, pixels, damage] = value;
+         thickness, declaredTilt, padding, paddingLimit, taken, patientPosition, instance,
+         stackPosition, count, isImage, imageType, frameOfReference, patient, study, modality,
+         kernel, tube, seriesNumber, acquisition, traits, step, hasLut, pixels, damage] = value;
   passAll(archive, file, stamp, position, row, column, pixelSpacing, rows, columns, frames, slope,
           intercept, hasRescale, rescaleType, isLossy, isLossUnknown, lossyRatio, burnedIn,
           declaredSpacing, thickness, declaredTilt, padding, paddingLimit, taken, patientPosition,
-          instance, count, isImage, imageType, frameOfReference, patient, study, modality, kernel,
-          tube, seriesNumber, acquisition, traits, step, hasLut, pixels, damage);
+          instance, stackPosition, count, isImage, imageType, frameOfReference, patient, study,
+          modality, kernel, tube, seriesNumber, acquisition, traits, step, hasLut, pixels, damage);
 }
 
 template <class Archive>

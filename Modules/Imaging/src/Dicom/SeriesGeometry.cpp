@@ -106,6 +106,19 @@ Headers takeStrangers(Headers& from, const KeyOf& keyOf, const AreAlike& alike)
   return takeOut(from, [&](const SliceHeader& s) { return !largest->fits(keyOf(s), alike); });
 }
 
+constexpr std::size_t kFilesNamed = 3; // keeps findings readable if a whole disc is bad
+
+/// "a.dcm, b.dcm, c.dcm and 4 more".
+std::string namesOf(const Headers& slices)
+{
+  std::string names;
+  for (std::size_t i = 0; i < std::min(slices.size(), kFilesNamed); ++i)
+    names += (i == 0 ? "" : ", ") + slices[i].file.filename().string();
+  if (slices.size() > kFilesNamed)
+    names += " and " + std::to_string(slices.size() - kFilesNamed) + " more";
+  return names;
+}
+
 std::string countOf(std::size_t part, std::size_t whole)
 {
   return std::to_string(part) + " of " + std::to_string(whole) +
@@ -226,7 +239,7 @@ private:
     Verdict result = Verdict::Ok;
     for (const Finding& finding : m_result.findings)
       if ((finding.kind == FindingKind::LocalizerMixedIn && m_slices.size() > 1) ||
-          finding.kind == FindingKind::MissingEnd)
+          finding.kind == FindingKind::MissingEnd || finding.kind == FindingKind::MissingBetween)
         continue; // set aside, or nothing that the slices show
       else if (isRepairable(finding.kind) && m_result.grid)
         result = Verdict::Repairable;
@@ -261,13 +274,12 @@ private:
   {
     m_damaged = takeOut(m_slices, [](const SliceHeader& s) { return !s.damage.empty(); });
     const Headers& damaged = m_damaged;
-    constexpr std::size_t kNamed = 3; // keeps findings readable if a whole disc is bad
-    for (std::size_t i = 0; i < std::min(damaged.size(), kNamed); ++i)
+    for (std::size_t i = 0; i < std::min(damaged.size(), kFilesNamed); ++i)
       find(FindingKind::Unreadable,
            damaged[i].file.filename().string() + " " + damaged[i].damage + ".");
-    if (damaged.size() > kNamed)
+    if (damaged.size() > kFilesNamed)
       find(FindingKind::Unreadable,
-           std::to_string(damaged.size() - kNamed) + " more files of the series are damaged.");
+           std::to_string(damaged.size() - kFilesNamed) + " more files of the series are damaged.");
   }
 
   void setAsideNonImages()
@@ -326,15 +338,16 @@ private:
     const Headers unplaced = takeOut(m_slices, [](const SliceHeader& s) { return !isPlaced(s); });
     if (!unplaced.empty())
       find(FindingKind::NoGeometry, "No usable position, orientation and pixel spacing in " +
-                                        countOf(unplaced.size(), images) +
-                                        ", so nothing says where they lie in the patient.");
+                                        countOf(unplaced.size(), images) + " (" +
+                                        namesOf(unplaced) +
+                                        "), so nothing says where they lie in the patient.");
     const Headers elsewhere =
         takeMinority(m_slices, [](const SliceHeader& a, const SliceHeader& b)
                      { return a.frameOfReferenceUid == b.frameOfReferenceUid; });
     if (!elsewhere.empty())
-      find(FindingKind::NoGeometry, "Another frame of reference in " +
-                                        countOf(elsewhere.size(), images) +
-                                        ", so their place relative to the others is unknown.");
+      find(FindingKind::NoGeometry,
+           "Another frame of reference in " + countOf(elsewhere.size(), images) + " (" +
+               namesOf(elsewhere) + "), so their place relative to the others is unknown.");
   }
 
   void setAsideMinorities()
@@ -677,6 +690,8 @@ const char* kindName(FindingKind kind) noexcept
     return "localizer-mixed-in";
   case FindingKind::MissingEnd:
     return "missing-end";
+  case FindingKind::MissingBetween:
+    return "missing-between";
   case FindingKind::MultiFrame:
     return "multi-frame";
   case FindingKind::NotAnImage:

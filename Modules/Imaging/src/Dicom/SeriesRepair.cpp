@@ -57,21 +57,12 @@ std::string namedRanges(std::vector<volume::SliceRange> ranges)
 /// there is none the lower quartile of the gaps.
 double fineGap(const std::vector<double>& places, double mean)
 {
-  constexpr std::size_t kPitch = 3; // gaps in a row that are a pitch
-  constexpr double kEqual = 0.1;    // share by which they may differ
   constexpr double kFinestPitch = 0.05;
   constexpr double kFinest = 0.25; // of the mean; by chance a few slices lie closer together
   std::vector<double> gaps;
   for (std::size_t k = 0; k + 1 < places.size(); ++k)
     gaps.push_back(places[k + 1] - places[k]);
-  std::optional<double> pitch;
-  for (std::size_t k = 0; k + kPitch <= gaps.size(); ++k)
-  {
-    const auto [low, high] = std::minmax({gaps[k], gaps[k + 1], gaps[k + 2]});
-    const double gap = (gaps[k] + gaps[k + 1] + gaps[k + 2]) / kPitch;
-    if (high <= (1.0 + kEqual) * low && gap >= kFinestPitch * mean && (!pitch || gap < *pitch))
-      pitch = gap;
-  }
+  const auto pitch = finestPitch(gaps, kFinestPitch * mean);
   std::sort(gaps.begin(), gaps.end());
   const double usual = std::max(gaps[gaps.size() / 4], kFinest * mean);
   return pitch ? std::min(*pitch, usual) : usual;

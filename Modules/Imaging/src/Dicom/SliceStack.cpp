@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include <Eigen/Geometry>
@@ -22,6 +23,7 @@ constexpr std::size_t kPitches = 2;     // runs of them: coarse, fine, coarse
 constexpr double kWidestGap = 2.05;     // of the usual gap: what one missing slice leaves
 constexpr double kLostGap = 1.5;        // of the usual gap: a slice may have stood in it
 constexpr std::size_t kFewGuessed = 10; // one slice in so many may be guessed
+constexpr double kMostly = 0.75;        // of the slices; what they do tells of the stack
 constexpr double kSteepest = 1.0;       // tangent; no gantry or oblique stack leans by 45 degrees
 constexpr std::size_t kStretches = 4;   // of one tilt each, of a series
 constexpr std::size_t kStretch = 5;     // slices; fewer may lean by chance
@@ -121,6 +123,32 @@ std::string decimals(double value, int digits)
   return end.ec == std::errc() ? std::string(text, end.ptr) : "?";
 }
 
+std::optional<double> finestPitch(const std::vector<double>& gaps, double least)
+{
+  constexpr double kEqual = 0.1; // share by which they may differ
+  std::optional<double> pitch;
+  for (std::size_t k = 0; k + kPitchChange <= gaps.size(); ++k)
+  {
+    const auto [low, high] = std::minmax({gaps[k], gaps[k + 1], gaps[k + 2]});
+    const double gap = (gaps[k] + gaps[k + 1] + gaps[k + 2]) / kPitchChange;
+    if (high <= (1.0 + kEqual) * low && gap >= least && (!pitch || gap < *pitch))
+      pitch = gap;
+  }
+  return pitch;
+}
+
+std::vector<double> numbersAlong(const std::vector<SliceHeader>& slices)
+{
+  std::vector<double> numbers;
+  for (const SliceHeader& slice : slices)
+  {
+    if (slice.pixels.frameCount > 1 && !slice.stackPosition)
+      return {};
+    numbers.push_back(slice.pixels.frameCount > 1 ? *slice.stackPosition : slice.instanceNumber);
+  }
+  return numbers;
+}
+
 SliceStack::SliceStack(std::vector<SliceHeader>& slices)
   : m_slices(slices)
 {
@@ -153,6 +181,85 @@ double SliceStack::usualGap() const
     return 0.0;
   gaps.erase(gaps.begin(), std::upper_bound(gaps.begin(), gaps.end(), 0.05 * scale));
   return median(gaps);
+}
+
+double SliceStack::pitch() const
+{
+  constexpr double kFinest = 0.05; // of the usual gap; closer slices are so by chance
+  constexpr double kNearly = 0.9;  // of the gaps; the others may be off, or be guessed
+  constexpr double kOften = 0.1;   // of the gaps, where no three of them follow each other
+  constexpr double kDecimals = 4.0;
+  const double usual = usualGap();
+  const double apart = std::max(kSamePlace, kSameFraction * usual);
+  const std::vector<double> allSteps = numberSteps();
+  std::vector<double> gaps;
+  std::vector<double> steps; // of the numbers, across the gaps
+  for (std::size_t k = 0; k + 1 < m_place.size(); ++k)
+    if (const double gap = m_place[k + 1] - m_place[k]; gap > apart)
+    {
+      gaps.push_back(gap);
+      if (!allSteps.empty())
+        steps.push_back(allSteps[k]);
+    }
+  const auto share = [](std::size_t part, std::size_t whole)
+  { return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole); };
+
+  const auto isSpacing = [&](double h)
+  {
+    const auto isNear = [off = kPlaceShare * h](double gap, double place)
+    { return std::abs(gap - place) <= off; };
+    std::size_t whole = 0;
+    std::vector<double> acrossFine;
+    std::vector<double> acrossUsual;
+    for (std::size_t n = 0; n < gaps.size(); ++n)
+    {
+      whole += isNear(gaps[n], std::max(1.0, std::round(gaps[n] / h)) * h) ? 1 : 0;
+      if (!steps.empty() && isNear(gaps[n], h))
+        acrossFine.push_back(steps[n]);
+      else if (!steps.empty() && isNear(gaps[n], usual))
+        acrossUsual.push_back(steps[n]);
+    }
+    const bool isWhole = share(whole, gaps.size()) >= kNearly;
+    if (acrossFine.empty() || acrossUsual.empty())
+      return isWhole;
+    const double step = median(acrossFine);
+    const auto same =
+        static_cast<std::size_t>(std::count(acrossFine.begin(), acrossFine.end(), step));
+    if (step < 1.0 || share(same, acrossFine.size()) < kMostly)
+      return isWhole; // the numbers tell nothing
+    const auto on = static_cast<std::size_t>(std::count_if(
+        acrossUsual.begin(), acrossUsual.end(), [step](double one) { return one <= step; }));
+    if (share(on, acrossUsual.size()) >= kNearly)
+      return false; // the scanner took them so
+    return isWhole || share(acrossUsual.size() - on, acrossUsual.size()) >= kMostly;
+  };
+
+  std::vector<double> finer;
+  if (const auto run = finestPitch(gaps, kFinest * usual))
+    finer.push_back(*run);
+  for (const double parts : {3.0, 2.0})
+  {
+    std::vector<double> near;
+    std::copy_if(gaps.begin(), gaps.end(), std::back_inserter(near),
+                 [h = usual / parts](double gap) { return std::abs(gap - h) <= kPlaceShare * h; });
+    if (near.size() >= kPitchChange && share(near.size(), gaps.size()) >= kOften)
+      finer.push_back(median(near));
+  }
+  std::sort(finer.begin(), finer.end());
+  for (const double h : finer)
+    // What is written with few decimals has gaps of several lengths by rounding alone.
+    if (kLostGap * h < usual && h > kDecimals * m_step && isSpacing(h))
+      return h;
+  return usual;
+}
+
+std::vector<double> SliceStack::numberSteps() const
+{
+  const std::vector<double> numbers = numbersAlong(m_slices);
+  std::vector<double> steps;
+  for (std::size_t k = 0; k + 1 < numbers.size(); ++k)
+    steps.push_back(std::abs(numbers[k + 1] - numbers[k]));
+  return steps;
 }
 
 double SliceStack::tolerance(double spacing) const
@@ -315,7 +422,7 @@ std::vector<std::size_t> SliceStack::tiltChanges() const
 
 void SliceStack::judge(SeriesGeometry& result)
 {
-  m_spacing = usualGap();
+  m_spacing = pitch();
   followNumbers();
   judgeGaps(result);
   if (m_spacing <= 0.0)
@@ -328,16 +435,13 @@ void SliceStack::judge(SeriesGeometry& result)
 
 void SliceStack::followNumbers()
 {
-  constexpr double kMostly = 0.75; // of the usual gaps have the usual step of the numbers
-  std::vector<double> steps;       // from slice to slice
-  std::vector<double> usual;       // of those across a usual gap
-  for (std::size_t k = 0; k + 1 < m_place.size(); ++k)
+  const std::vector<double> steps = numberSteps();
+  std::vector<double> usual; // of those across a usual gap
+  for (std::size_t k = 0; k < steps.size(); ++k)
   {
     const double gap = m_place[k + 1] - m_place[k];
-    steps.push_back(std::abs(static_cast<double>(m_slices[k + 1].instanceNumber) -
-                             static_cast<double>(m_slices[k].instanceNumber)));
     if (gap > std::max(kSamePlace, kSameFraction * m_spacing) && gap <= kLostGap * m_spacing)
-      usual.push_back(steps.back());
+      usual.push_back(steps[k]);
   }
   if (usual.empty())
     return;
@@ -472,7 +576,10 @@ void SliceStack::judgeLosses(SeriesGeometry& result)
              decimals(static_cast<double>(guessed) * usual, 1) + " mm of " +
              decimals(m_place.back() - m_place.front(), 1) +
              " mm, a slice would have to be guessed; at most " + std::to_string(most) +
-             (most == 1 ? " slice is" : " slices are") + " interpolated.";
+             (most == 1 ? " slice is" : " slices are") + " interpolated." +
+             (m_goesOn.empty() ? " Whether slices were lost there or taken farther apart cannot be "
+                                 "told, as no numbers run along the stack."
+                               : "");
   result.isBridgeable = m_loss.empty();
   for (Finding& finding : result.findings)
     if (finding.kind == FindingKind::MissingSlice)

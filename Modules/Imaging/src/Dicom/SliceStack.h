@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,14 @@ constexpr std::size_t kFewest = 3; ///< fewer slices of another orientation or s
 
 /// Slices closer to each other than this are at one height, mm along the normal.
 double sharedPlace(double spacing);
+
+/// Of each three equal gaps in a row (within a tenth) the finest mean, of at least `least`, mm.
+std::optional<double> finestPitch(const std::vector<double>& gaps, double least);
+
+/// The numbers by which slices lost along the stack can be told: instance numbers, of frames their
+/// InStackPositionNumber. Empty: none, as frames that state none are numbered as they lie in the
+/// file.
+std::vector<double> numbersAlong(const std::vector<SliceHeader>& slices);
 
 /// Slices of one size and orientation as a stack along their common normal.
 ///
@@ -55,6 +64,10 @@ public:
   std::optional<core::GridGeometry> grid() const;
 
 private:
+  /// The spacing of the stack, mm: the usual gap, or a finer one that occurs and that tells of it
+  /// that slices are missing there, or may be. 0 if all slices coincide.
+  double pitch() const;
+  std::vector<double> numberSteps() const; ///< from slice to slice; empty: not stated
   void followNumbers();
   void judgeGaps(SeriesGeometry& result);
   void judgeLosses(SeriesGeometry& result);
@@ -79,8 +92,8 @@ private:
   Eigen::Matrix3d m_direction;
   std::vector<double> m_place;  ///< t_k, mm
   std::vector<double> m_number; ///< k, with jumps where slices are missing
-  /// Whether the instance numbers go on across gap k as they do within the stack, so that no slice
-  /// was lost in it. Empty: they tell nothing.
+  /// Whether the numbers (numbersAlong) go on across gap k as they do within the stack, so that no
+  /// slice was lost in it. Empty: they tell nothing.
   std::vector<bool> m_goesOn;
   double m_spacing = 0.0; ///< mm
   double m_step = 0.0;    ///< unit of the last decimal of the positions, mm

@@ -74,6 +74,8 @@ MR = image(MR_DIMS, MR_SPACING, lambda i, j, k: 5 * i + j * k)
 NERVE = labels(DIMS, SPACING, 3, "nerve", {(1, 2, 3), (2, 2, 3)})
 TUMOUR = labels(MR_DIMS, MR_SPACING, 1, "tumour", {(2, 2, 1)})
 MESH = put(b"v 11 -19 31\nv 12 -19 31\nv 11 -18 31\nv 11 -19 32\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", "obj")
+TOOL = put(b"v 0 0 0\nv 1 1 60\nv -1 1 60\nv -1 -1 60\nv 1 -1 60\nf 1 3 2\nf 1 4 3\nf 1 5 4\nf 1 2 5\nf 2 3 4\n"
+           b"f 2 4 5\n", "obj")
 REMOVED = [{(2, 3, 4): 65535, (3, 3, 4): 1000}, {(5, 6, 1): 30000}, {(3, 3, 4): 64535}]
 STROKES = [put(stroke_bytes(one), "stroke") for one in REMOVED]
 NOTE = put(b"%PDF-1.4\n%%EOF\n", "pdf")
@@ -151,6 +153,8 @@ def manifest(version):
                 "stills": [{"time_ns": 2000000000, "size": [1920, 1080], "opacity": 0.25, "view_angle_deg": 25,
                             "camera": CAMERA,
                             "landmarks": [{"patient_mm": [12, -18, 33], "still_px": [960.5, 540]}]}]}})
+    if version >= 9:
+        case["view"]["instrument"] = {"object": TOOL, "axis": "z+", "name": "pick.stl"}
     return case
 
 
@@ -231,7 +235,7 @@ def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent)
     for part in ("cases", "objects"):
         (folder / part).mkdir(parents=True, exist_ok=True)
-    for version in range(1, 10):
+    for version in range(1, 11):
         (folder / "cases" / ("format-%d.json" % version)).write_text(json.dumps(manifest(version), indent=1))
     for name, data in objects.items():
         (folder / "objects" / name).write_bytes(data)
@@ -244,7 +248,7 @@ def main():
         archive(folder / ("archive-1-case-%d.petrous" % version), 1, manifest(version))
     archive(folder / "archive-1-plan.petrous", 1, manifest(5), isPlan=True)
     archive(folder / "archive-2.petrous", 2, manifest(5))
-    archive(folder / "archive-1-case-9.petrous", 1, manifest(9))
+    archive(folder / "archive-1-case-10.petrous", 1, manifest(10))
 
 
 main()

@@ -60,6 +60,7 @@ bool fits(const std::string& object, const ObjectUse& use)
   case ObjectUse::Kind::Structures:
     return ending == ".seg.nrrd";
   case ObjectUse::Kind::Mesh:
+  case ObjectUse::Kind::Instrument:
     return ending == ".obj";
   case ObjectUse::Kind::Stroke:
     return ending == ".stroke";
@@ -95,6 +96,9 @@ void checkSense(const scene::Case& value, const fs::path& path)
   const auto isSensible = [](double number) { return std::abs(number) <= kLargest; };
   if (!isSensible(value.iso) || !isSensible(value.denseBone))
     throwUnsound(path, "its threshold of bone is no intensity");
+  if (const auto& soft = value.softTissueValues;
+      soft && !(isSensible(soft->foot) && isSensible(soft->peak)))
+    throwUnsound(path, "its values of soft tissue are no intensities");
   std::set<std::string> images, structures, meshes;
   const auto checkRange = [&](const scene::ImagePart& image)
   {
@@ -246,9 +250,7 @@ struct Archive
     {
       if (!fits(use.object, use))
         throwUnsound(path, use.what + " has no valid name of an object");
-      if (objects.count(use.object) == 0 &&
-          (!index.planOnly || use.kind == ObjectUse::Kind::Stroke ||
-           use.kind == ObjectUse::Kind::Attachment))
+      if (objects.count(use.object) == 0 && (!index.planOnly || isOfPlan(use)))
         throwUnsound(path, "it lacks " + use.what);
       needed.insert(use.object);
     }
@@ -537,6 +539,9 @@ void checkContents(const scene::Case& value, const ObjectStore& store, const fs:
           [&] { checkLabels(part, store.path(part.object), file, progress); });
   for (const scene::MeshPart& mesh : value.meshes)
     check("a mesh cannot be read", [&] { imaging::readMesh(store.path(mesh.object)); });
+  if (value.view.instrument)
+    check("an instrument cannot be read",
+          [&] { imaging::readMesh(store.path(value.view.instrument->object)); });
   const volume::CutMask untouched(value.ct.geometry);
   volume::CutMask applied = untouched;
   dissection::BrickDraft draft(applied);

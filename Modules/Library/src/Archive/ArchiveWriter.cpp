@@ -482,6 +482,8 @@ std::string entryOf(const ObjectUse& use, bool isCt, std::set<std::string>& used
     return "labels/" + fileName(use.name, ".seg.nrrd", used);
   case ObjectUse::Kind::Mesh:
     return "meshes/" + fileName(use.name, ".obj", used);
+  case ObjectUse::Kind::Instrument:
+    return "tools/" + use.name + ".obj";
   case ObjectUse::Kind::Attachment:
     return "attachments/" + fileName(use.name, "", used);
   case ObjectUse::Kind::Stroke:
@@ -586,6 +588,8 @@ try
   }
   else if (!description.note.empty())
     summary.notes.emplace_back("the note goes along as it was typed; see that it names nobody");
+  if (value.view.instrument) // its file may be called after the patient, or who owns it
+    value.view.instrument->name.clear();
   chooseAttachments(value, library, options, passing, summary.notes, progress.part(0.0, 0.0));
   const std::size_t before = noteCount(value);
   scene::forgetGoneNames(value);
@@ -615,8 +619,7 @@ try
   std::vector<const ObjectUse*> stored;
   for (const ObjectUse& use : uses)
   {
-    if (options.planOnly && use.kind != ObjectUse::Kind::Stroke &&
-        use.kind != ObjectUse::Kind::Attachment)
+    if (options.planOnly && !isOfPlan(use))
       continue;
     const fs::path path =
         storeOf(use.object).path(use.object, use.what + " of case '" + name + "'");
@@ -651,7 +654,8 @@ try
               [path = storeOf(use.object).path(use.object, what), what]
               { return fromObject(path, what); });
     else
-      zip.add(index.objects[n].file, use.kind == ObjectUse::Kind::Mesh,
+      zip.add(index.objects[n].file,
+              use.kind == ObjectUse::Kind::Mesh || use.kind == ObjectUse::Kind::Instrument,
               [&store = storeOf(use.object), object = use.object, what]
               { return fromMemory(store.readChecked(object, what)); });
   }

@@ -74,6 +74,10 @@ void storeParts(const Library& library, scene::Case& value, ObjectStore& store,
     if (mustStore(mesh.object, store, mesh.mesh.peek() != nullptr))
       mesh.object = store.add("obj", [&](const fs::path& path)
                               { imaging::writeMesh(path, *mesh.mesh.get()); });
+  if (auto& instrument = value.view.instrument;
+      instrument && mustStore(instrument->object, store, instrument->mesh.peek() != nullptr))
+    instrument->object = store.add("obj", [&](const fs::path& path)
+                                   { imaging::writeMesh(path, *instrument->mesh.get()); });
   const auto& strokes = value.dissection.strokes();
   for (std::size_t n = 0; n < strokes.size(); ++n)
     if (const auto packed = strokes[n]->packed;
@@ -470,9 +474,10 @@ void Library::attach(scene::Case& value) const
     part.labels = core::Lazy<volume::LabelMap>(
         [store, object = part.object, what = labelsText(value, part), derived = value.derived]
         { return structure([&] { return unpackedLabels(store, object, what, *derived); }); });
-  for (auto& mesh : value.meshes)
-    mesh.mesh = core::Lazy<core::TriangleMesh>(
-        [store, object = mesh.object, what = meshText(value, mesh)]
+  const auto meshOf = [&store](const std::string& object, const std::string& what)
+  {
+    return core::Lazy<core::TriangleMesh>(
+        [store, object, what]
         {
           return structure(
               [&]
@@ -481,6 +486,11 @@ void Library::attach(scene::Case& value) const
                     imaging::readMesh(store.checkedPath(object, what)));
               });
         });
+  };
+  for (auto& mesh : value.meshes)
+    mesh.mesh = meshOf(mesh.object, meshText(value, mesh));
+  if (auto& instrument = value.view.instrument)
+    instrument->mesh = meshOf(instrument->object, "the instrument of case '" + value.name + "'");
   const auto& strokes = value.dissection.strokes();
   for (std::size_t n = 0; n < strokes.size(); ++n)
     value.dissection.setStored(

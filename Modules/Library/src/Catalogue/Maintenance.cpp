@@ -681,6 +681,11 @@ Collected Library::collectGarbage(const core::Progress& progress)
       deletedJournalsIn(m_folder / "cases").empty() && ObjectStore(objectFolder()).list().empty())
     return result;
   const core::FileLock lock = lockForWriting(progress);
+  if (const std::vector<Opener> openers = openersOfAny(m_folder); !openers.empty())
+    throw LibraryError(Reason::Conflict,
+                       "a case of the library is open in Petrous elsewhere (" + toString(openers) +
+                           "), where what was removed can still be put back; nothing was cleaned "
+                           "up: close it there first");
   std::set<std::string> used;
   std::set<std::string> ids;
   const std::vector<std::string> names = namesIn(m_folder / "cases");

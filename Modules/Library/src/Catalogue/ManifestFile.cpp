@@ -155,6 +155,9 @@ std::vector<ObjectUse> objectsOf(const scene::Case& value)
   for (const auto& part : value.labels)
     add(part.object, ObjectUse::Kind::Structures,
         part.structures.empty() ? "" : part.structures.front().name, "structures");
+  // First, as a mesh of the case may be the same object, and a plan has no meshes.
+  if (value.view.instrument)
+    add(value.view.instrument->object, ObjectUse::Kind::Instrument, "instrument", "the instrument");
   for (const auto& mesh : value.meshes)
     add(mesh.object, ObjectUse::Kind::Mesh, mesh.name, "mesh '" + mesh.name + "'");
   const auto& strokes = value.dissection.strokes();

@@ -45,6 +45,7 @@ struct ObjectUse
     Image,
     Structures,
     Mesh,
+    Instrument,
     Stroke,
     Attachment
   };
@@ -54,8 +55,15 @@ struct ObjectUse
   std::string what; ///< for messages
 };
 
-/// The objects of a case in the order CT, MRs, structures, meshes, strokes, attachments; each
-/// once.
+/// Whether an archive of a plan has it: what was made, not what was imported.
+inline bool isOfPlan(const ObjectUse& use) noexcept
+{
+  return use.kind == ObjectUse::Kind::Instrument || use.kind == ObjectUse::Kind::Stroke ||
+         use.kind == ObjectUse::Kind::Attachment;
+}
+
+/// The objects of a case in the order CT, MRs, structures, instrument, meshes, strokes,
+/// attachments; each once.
 std::vector<ObjectUse> objectsOf(const scene::Case& value);
 
 /// The images that by the manifest lie elsewhere than by their object, of which the header alone is

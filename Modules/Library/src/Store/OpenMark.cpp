@@ -113,6 +113,20 @@ std::vector<fs::path> marksIn(const fs::path& library, const std::string& id)
   return found;
 }
 
+// Other processes that have the case of this ID open; empty: any case.
+std::vector<Opener> othersWith(const fs::path& library, const std::string& id)
+{
+  std::vector<Opener> openers;
+  const std::string computer = thisComputer();
+  // One without a process cannot be told from one's own.
+  for (const fs::path& path : marksIn(library, id))
+    if (std::optional<Opener> opener = openerAt(path);
+        opener && opener->process > 0 &&
+        (opener->process != ::getpid() || opener->computer != computer))
+      openers.push_back(std::move(*opener));
+  return openers;
+}
+
 } // namespace
 
 OpenMark::OpenMark(const fs::path& library, std::string id)
@@ -167,17 +181,12 @@ OpenMark::~OpenMark()
 
 std::vector<Opener> openersOf(const fs::path& library, const std::string& id)
 {
-  std::vector<Opener> openers;
-  if (id.empty())
-    return openers;
-  const std::string computer = thisComputer();
-  // One without a process cannot be told from one's own.
-  for (const fs::path& path : marksIn(library, id))
-    if (std::optional<Opener> opener = openerAt(path);
-        opener && opener->process > 0 &&
-        (opener->process != ::getpid() || opener->computer != computer))
-      openers.push_back(std::move(*opener));
-  return openers;
+  return id.empty() ? std::vector<Opener>() : othersWith(library, id);
+}
+
+std::vector<Opener> openersOfAny(const fs::path& library)
+{
+  return othersWith(library, "");
 }
 
 std::string toString(const std::vector<Opener>& openers)

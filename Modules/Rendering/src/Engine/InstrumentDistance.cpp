@@ -1,8 +1,10 @@
 #include "InstrumentDistance.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -13,12 +15,19 @@
 namespace petrous::rendering
 {
 
-InstrumentDistance InstrumentDistance::of(const core::TriangleMesh& instrument)
+namespace
+{
+constexpr const char* kTask = "measuring the instrument";
+}
+
+InstrumentDistance InstrumentDistance::of(const core::TriangleMesh& instrument,
+                                          const core::Progress& progress)
 {
   InstrumentDistance result;
   if (instrument.triangles.empty())
     return result;
   const volume::MeshInside inside(instrument);
+  progress.check(kTask);
   const volume::MeshTree tree(instrument);
   const auto [first, last] = instrument.bounds();
   result.lower = first.cast<double>().array() - kMargin;
@@ -45,6 +54,7 @@ InstrumentDistance InstrumentDistance::of(const core::TriangleMesh& instrument)
         std::vector<double> crossings;
         for (std::size_t row = rows.begin(); row < rows.end(); ++row)
         {
+          progress.check(kTask);
           const auto rowsOfLayer = static_cast<std::size_t>(result.dims[1]);
           const auto j = static_cast<double>(row % rowsOfLayer);
           const auto k = static_cast<double>(row / rowsOfLayer);
@@ -62,6 +72,24 @@ InstrumentDistance InstrumentDistance::of(const core::TriangleMesh& instrument)
         }
       });
   return result;
+}
+
+InstrumentMeasurement::InstrumentMeasurement(std::shared_ptr<const core::TriangleMesh> instrument)
+  : m_instrument(std::move(instrument))
+  , m_result(std::async(std::launch::async,
+                        [mesh = m_instrument, progress = core::Progress(nullptr, m_token)]
+                        { return InstrumentDistance::of(*mesh, progress); }))
+{
+}
+
+InstrumentMeasurement::~InstrumentMeasurement()
+{
+  m_token->cancel(); // the future of std::async waits
+}
+
+bool InstrumentMeasurement::isDone() const
+{
+  return m_result.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 } // namespace petrous::rendering

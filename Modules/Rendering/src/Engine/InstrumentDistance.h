@@ -1,10 +1,13 @@
 #pragma once
 
+#include <future>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "petrous/Core/GridGeometry.h"
+#include "petrous/Core/Progress.h"
 #include "petrous/Core/TriangleMesh.h"
 
 namespace petrous::rendering
@@ -25,13 +28,39 @@ struct InstrumentDistance
   core::Index3 dims{0, 0, 0};           ///< 0: nothing there
   std::vector<float> distances;         ///< mm, first axis fastest
 
-  /// Throws InvalidParameter for vertices that do not exist or are not finite.
-  static InstrumentDistance of(const core::TriangleMesh& instrument);
+  /// Throws InvalidParameter for vertices that do not exist or are not finite, CancelledError.
+  static InstrumentDistance of(const core::TriangleMesh& instrument,
+                               const core::Progress& progress = {});
 
   Eigen::Vector3d upper() const ///< the last sample
   {
     return lower + edge * Eigen::Vector3d(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0);
   }
+};
+
+/// InstrumentDistance::of in the background. The destructor cancels it, and waits for its next
+/// check.
+class InstrumentMeasurement
+{
+public:
+  explicit InstrumentMeasurement(std::shared_ptr<const core::TriangleMesh> instrument);
+  ~InstrumentMeasurement();
+  InstrumentMeasurement(const InstrumentMeasurement&) = delete;
+  InstrumentMeasurement& operator=(const InstrumentMeasurement&) = delete;
+
+  const std::shared_ptr<const core::TriangleMesh>& instrument() const noexcept
+  {
+    return m_instrument;
+  }
+  bool isDone() const;
+
+  /// Waits for it. Throws what `of` throws, each time.
+  const InstrumentDistance& result() const { return m_result.get(); }
+
+private:
+  std::shared_ptr<const core::TriangleMesh> m_instrument;
+  std::shared_ptr<core::CancelToken> m_token = std::make_shared<core::CancelToken>();
+  std::shared_future<InstrumentDistance> m_result;
 };
 
 } // namespace petrous::rendering

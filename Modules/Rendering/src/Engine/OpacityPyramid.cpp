@@ -257,7 +257,10 @@ core::IndexBox OpacityPyramid::voxelsOf(const core::IndexBox& texels) const noex
 void OpacityPyramid::update(const Scene& scene, const OccupancyGrid& grid,
                             const core::IndexBox& texels)
 {
-  Level& first = m_levels.front();
+  if (scene.meshes && !scene.meshes->empty())
+    keepTissue();
+  const core::Index3& first = m_levels.front().dims;
+  std::vector<Texel>& measured = m_tissue.empty() ? m_levels.front().texels : m_tissue;
   const core::Index3& dims = m_grid.dims();
   const auto around = [&](core::IndexBox voxels)
   {
@@ -268,12 +271,12 @@ void OpacityPyramid::update(const Scene& scene, const OccupancyGrid& grid,
     }
     return voxels;
   };
-  const auto fill = [&first](const core::IndexBox& block, const Texel& value)
+  const auto fill = [&](const core::IndexBox& block, const Texel& value)
   {
     for (int k = block.lower[2]; k < block.upper[2]; ++k)
       for (int j = block.lower[1]; j < block.upper[1]; ++j)
-        std::fill_n(first.texels.begin() +
-                        static_cast<std::ptrdiff_t>(indexIn(first.dims, block.lower[0], j, k)),
+        std::fill_n(measured.begin() +
+                        static_cast<std::ptrdiff_t>(indexIn(first, block.lower[0], j, k)),
                     block.upper[0] - block.lower[0], value);
   };
   const Texel nothing;
@@ -312,8 +315,8 @@ void OpacityPyramid::update(const Scene& scene, const OccupancyGrid& grid,
                       tissue += own.tissue;
                       stopped += own.stopped;
                     }
-                first.texels[indexIn(first.dims, x, y, z)] = {inBits(perTexel * tissue),
-                                                              inBits(perTexel * stopped)};
+                measured[indexIn(first, x, y, z)] = {inBits(perTexel * tissue),
+                                                     inBits(perTexel * stopped)};
               }
         };
         tbb::parallel_for(
@@ -329,6 +332,27 @@ void OpacityPyramid::update(const Scene& scene, const OccupancyGrid& grid,
                                 .intersected(texels));
             });
       });
+  combine(scene, texels);
+}
+
+// From now on the tissue is also kept without the meshes.
+void OpacityPyramid::keepTissue()
+{
+  if (m_tissue.empty())
+    m_tissue = m_levels.front().texels;
+}
+
+// The first level from the tissue and the meshes, and the levels above it.
+void OpacityPyramid::combine(const Scene& scene, const core::IndexBox& texels)
+{
+  Level& first = m_levels.front();
+  if (!m_tissue.empty())
+    for (int k = texels.lower[2]; k < texels.upper[2]; ++k)
+      for (int j = texels.lower[1]; j < texels.upper[1]; ++j)
+      {
+        const auto row = static_cast<std::ptrdiff_t>(indexIn(first.dims, texels.lower[0], j, k));
+        std::copy_n(m_tissue.begin() + row, texels.size()[0], first.texels.begin() + row);
+      }
   if (scene.meshes)
     for (const Mesh& mesh : *scene.meshes)
       addMesh(mesh, scene.mask, texels);
@@ -379,13 +403,15 @@ void OpacityPyramid::addMesh(const Mesh& mesh, const volume::CutMask* mask,
     return sum / (static_cast<double>(voxels.count()) * volume::CutMask::kUntouched);
   };
   Level& first = m_levels.front();
-  for (int k = box.lower[2]; k < box.upper[2]; ++k)
+  const core::Index3 size = own.size();
+  const auto addLayer = [&](int k)
+  {
     for (int j = box.lower[1]; j < box.upper[1]; ++j)
       for (int i = box.lower[0]; i < box.upper[0]; ++i)
       {
         double share =
             mesh.shares
-                ->shares[indexIn(own.size(), i - own.lower[0], j - own.lower[1], k - own.lower[2])];
+                ->shares[indexIn(size, i - own.lower[0], j - own.lower[1], k - own.lower[2])];
         if (!(share > 0.0))
           continue;
         share *= left(voxelsOf({{i, j, k}, {i + 1, j + 1, k + 1}}));
@@ -393,14 +419,24 @@ void OpacityPyramid::addMesh(const Mesh& mesh, const volume::CutMask* mask,
         texel.tissue = std::max(texel.tissue, inBits(share));
         texel.stopped = std::max(texel.stopped, inBits(share * mesh.opacity));
       }
+  };
+  tbb::parallel_for(tbb::blocked_range<int>(box.lower[2], box.upper[2]),
+                    [&](const tbb::blocked_range<int>& layers)
+                    {
+                      for (int k = layers.begin(); k < layers.end(); ++k)
+                        addLayer(k);
+                    });
 }
 
-void OpacityPyramid::meshesChanged(const Scene& scene, const OccupancyGrid& grid,
-                                   const core::IndexBox& texels)
+void OpacityPyramid::meshesChanged(const Scene& scene, const core::IndexBox& texels)
 {
   const core::IndexBox box = texels.intersected({{0, 0, 0}, m_levels.front().dims});
-  if (!box.empty())
-    update(scene, grid, box);
+  if (box.empty())
+    return;
+  keepTissue();
+  combine(scene, box);
+  if (!scene.meshes || scene.meshes->empty())
+    m_tissue = {};
 }
 
 void OpacityPyramid::reduce(std::size_t level, const core::IndexBox& texels)
@@ -433,6 +469,7 @@ void OpacityPyramid::reduce(std::size_t level, const core::IndexBox& texels)
 void OpacityPyramid::rebuild(const Scene& scene, const OccupancyGrid& grid)
 {
   m_stopping = {};
+  m_tissue = {};
   update(scene, grid, {{0, 0, 0}, m_levels.front().dims});
 }
 
@@ -454,7 +491,7 @@ core::IndexBox OpacityPyramid::maskChanged(const Scene& scene, const OccupancyGr
 
 std::size_t OpacityPyramid::bytes() const noexcept
 {
-  std::size_t bytes = 0;
+  std::size_t bytes = m_tissue.size() * sizeof(Texel);
   for (const Level& level : m_levels)
     bytes += level.texels.size() * sizeof(Texel);
   return bytes;

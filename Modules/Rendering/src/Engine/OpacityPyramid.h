@@ -82,8 +82,9 @@ public:
     return meshShares(mesh, m_grid, m_factor);
   }
 
-  /// The meshes changed in a box of texels of the first level.
-  void meshesChanged(const Scene& scene, const OccupancyGrid& grid, const core::IndexBox& texels);
+  /// The meshes changed in a box of texels of the first level, and nothing else did: tissue is not
+  /// measured again, and the result equals that of a rebuild.
+  void meshesChanged(const Scene& scene, const core::IndexBox& texels);
 
   /// The texels of a level that depend on a box of the first.
   static core::IndexBox boxAt(std::size_t level, const core::IndexBox& texels) noexcept;
@@ -104,6 +105,8 @@ public:
 
 private:
   void update(const Scene& scene, const OccupancyGrid& grid, const core::IndexBox& texels);
+  void keepTissue();
+  void combine(const Scene& scene, const core::IndexBox& texels);
   void addMesh(const Mesh& mesh, const volume::CutMask* mask, const core::IndexBox& texels);
   core::IndexBox voxelsOf(const core::IndexBox& texels) const noexcept;
   core::IndexBox stoppingIn(const core::IndexBox& texels) const;
@@ -112,6 +115,7 @@ private:
   core::GridGeometry m_grid;
   core::Index3 m_factor{1, 1, 1};
   std::vector<Level> m_levels;
+  std::vector<Texel> m_tissue; // the first level without meshes; empty: there are none in it
   core::IndexBox m_stopping;
 };
 

@@ -497,7 +497,7 @@ void RayCaster::uploadOpacities()
   }
   else if (!changed.empty())
   {
-    m_opacities->meshesChanged(lightStoppers(), *m_occupancy, changed);
+    m_opacities->meshesChanged(lightStoppers(), changed);
     dirty = dirty.united(changed);
   }
   const std::vector<OpacityPyramid::Level>& levels = m_opacities->levels();
@@ -523,26 +523,45 @@ bool RayCaster::hasInstrument(const Frame& frame) const
          tool::isShown(*frame.tool) && frame.tool->instrument == m_instrument.mesh;
 }
 
-// One that is put away stays: it is often taken up again.
+// One that is put away stays: it is often taken up again. A measurement does not.
 void RayCaster::uploadInstrument(const Frame& frame)
 {
+  m_statistics.pendingShadow = false;
+  const bool isShown = frame.tool && frame.tool->instrument && tool::isShown(*frame.tool);
   if (!m_contents.light.shadows)
   {
     m_instrument.texture.release();
     m_instrument.mesh.reset();
+  }
+  if (!m_contents.light.shadows || !isShown || frame.tool->instrument == m_instrument.mesh)
+  {
+    m_measurement.reset();
     return;
   }
-  if (!frame.tool || !frame.tool->instrument || !tool::isShown(*frame.tool) ||
-      frame.tool->instrument == m_instrument.mesh)
-    return;
   m_instrument.texture.release();
   m_instrument.mesh.reset(); // until all is there: what fails is tried and told again
-  m_instrument.place = InstrumentDistance::of(*frame.tool->instrument);
-  std::vector<float> distances = std::move(m_instrument.place.distances);
-  if (!distances.empty())
-    m_instrument.texture.create(texel::kFloat, m_instrument.place.dims, distances.data(),
-                                GL_LINEAR);
+  const bool wasPending = m_measurement && m_measurement->instrument() == frame.tool->instrument;
+  if (!wasPending)
+  {
+    m_measurement.reset(); // before the next one takes the processors
+    m_measurement = std::make_unique<InstrumentMeasurement>(frame.tool->instrument);
+  }
+  if (frame.shadowsLater && !(wasPending && m_measurement->isDone()))
+  {
+    m_statistics.pendingShadow = true;
+    return;
+  }
+  const InstrumentDistance& measured = m_measurement->result();
+  if (!measured.distances.empty())
+    m_instrument.texture.create(texel::kFloat, measured.dims, measured.distances.data(), GL_LINEAR);
+  m_instrument.place = {measured.lower, measured.edge, measured.dims, {}};
   m_instrument.mesh = frame.tool->instrument;
+  m_measurement.reset();
+  if (wasPending)
+  {
+    ++m_changes;
+    m_statistics.pendingShadow = frame.shadowsLater; // the other eye may have been drawn already
+  }
 }
 
 void RayCaster::prepareShadows(const Frame& frame)
@@ -831,6 +850,7 @@ void RayCaster::releaseData()
   m_opacityTexture.release();
   m_instrument.texture.release();
   m_instrument.mesh.reset();
+  m_measurement.reset();
   m_isPrepared = false;
 }
 

@@ -85,6 +85,9 @@ public:
     std::optional<ToolPose> tool = std::nullopt; ///< that casts shadows, in patient mm
     bool everywhere = false;                     ///< also cast rays that cannot meet tissue
     std::optional<Fovea> fovea = std::nullopt;
+    /// An instrument that is new throws its shadow once that is measured in the background
+    /// (RenderStatistics::pendingShadow), not at once.
+    bool shadowsLater = false;
   };
 
   /// Unchanged data stay on the GPU. Throws RenderingError BadContents.
@@ -106,8 +109,8 @@ public:
   void prepareShadows(const Frame& frame);
   /// Sets the uniforms of polygonShadowsShader in a program that is in use. `isTool`: it draws the
   /// tool, which throws no shadow on itself.
-  void shadePolygons(GLuint program, const Frame& frame, const Eigen::Matrix4d& patientFromView,
-                     bool isTool) const;
+  void shadePolygons(GlUniforms& uniforms, const Frame& frame,
+                     const Eigen::Matrix4d& patientFromView, bool isTool) const;
 
   /// Draws the own target over the bound frame buffer; the caller sets up blending.
   void present(int width, int height);
@@ -207,6 +210,7 @@ private:
     MeshPointer mesh;         // whose it is
     InstrumentDistance place; // without the distances
   } m_instrument;
+  std::unique_ptr<InstrumentMeasurement> m_measurement; // of one that throws no shadow yet
   RayTarget m_target;
   RayTarget m_foveaTarget;
   std::optional<Fovea> m_fovea; // of the last frame

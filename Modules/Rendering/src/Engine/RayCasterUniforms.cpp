@@ -212,10 +212,9 @@ void RayCaster::setLight(GlProgram& program, const Frame& frame) const
                                             : Eigen::Vector2d::Zero().eval());
 }
 
-void RayCaster::shadePolygons(GLuint program, const Frame& frame,
+void RayCaster::shadePolygons(GlUniforms& uniforms, const Frame& frame,
                               const Eigen::Matrix4d& patientFromView, bool isTool) const
 {
-  GlUniforms uniforms(program);
   const bool isShadowed = m_isPrepared && m_opacities && m_opacityTexture;
   uniforms.set("isShadowed", isShadowed ? 1 : 0);
   // Also without: samplers of two kinds must not share a unit.

@@ -294,6 +294,7 @@ public:
         lampCamera.value_or(petrous::rendering::poseOf(renderer->GetActiveCamera())));
     if (tool)
       frame.tool = petrous::rendering::toolIn(worldFromPatient, *tool);
+    frame.shadowsLater = restQuality.has_value();
     return frame;
   }
 
@@ -516,7 +517,7 @@ void vtkPetrousVolumeMapper::PrepareShadows(vtkRenderer* renderer, vtkVolume* vo
 }
 
 void vtkPetrousVolumeMapper::ShadePolygons(vtkRenderer* renderer, vtkVolume* volume,
-                                           unsigned program, bool isTool)
+                                           petrous::rendering::GlUniforms& program, bool isTool)
 {
   const Internals& my = *this->Internal;
   const Eigen::Matrix4d viewFromPatient =

@@ -341,7 +341,7 @@ ScenePicture::Implementation::Implementation()
 // For polygons; while it is attached.
 ProgramSetter ScenePicture::Implementation::shadowsOn(bool isTool)
 {
-  return [this, isTool](unsigned program)
+  return [this, isTool](GlUniforms& program)
   {
     if (renderer)
       mapper->ShadePolygons(renderer, volume, program, isTool);

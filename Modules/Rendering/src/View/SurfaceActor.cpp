@@ -17,7 +17,9 @@
 #include <vtkShaderProgram.h>
 #include <vtkShaderProperty.h>
 #include <vtkUniforms.h>
+#include <vtkWeakPointer.h>
 
+#include "GlProgram.h"
 #include "OpticalModel.h"
 #include "RayShader.h"
 #include "ScreenDoorShader.h"
@@ -35,6 +37,33 @@ constexpr double kHighlight = 0.25;
 constexpr const char* kShadowed =
     "Seen seen = polygonSeen(vertexVC.xyz, normalVCVSOutput);\n"
     "gl_FragData[0].rgb = seen.sky * ambientColor + seen.lamp * (diffuse + specular);\n";
+
+// A setter, and the locations of the uniforms of the program with which the actor was drawn last.
+class ProgramFollower
+{
+public:
+  explicit ProgramFollower(ProgramSetter setter)
+    : m_setter(std::move(setter))
+  {
+  }
+
+  void set(vtkShaderProgram* program)
+  {
+    if (program != m_program || program->GetHandle() != m_handle)
+    {
+      m_program = program;
+      m_handle = program->GetHandle();
+      m_uniforms = GlUniforms(static_cast<GLuint>(m_handle));
+    }
+    m_setter(m_uniforms);
+  }
+
+private:
+  ProgramSetter m_setter;
+  vtkWeakPointer<vtkShaderProgram> m_program; // OpenGL gives names of deleted programs again
+  int m_handle = 0;
+  GlUniforms m_uniforms;
+};
 } // namespace
 
 vtkSmartPointer<vtkPolyData> toPolyData(const core::TriangleMesh& mesh,
@@ -93,15 +122,12 @@ void PolygonShading::followShadows(vtkActor* actor, ProgramSetter setter)
     return;
   m_followsShadows = true;
   vtkNew<vtkCallbackCommand> command;
-  command->SetClientData(new ProgramSetter(std::move(setter)));
+  command->SetClientData(new ProgramFollower(std::move(setter)));
   command->SetClientDataDeleteCallback([](void* data)
-                                       { delete static_cast<ProgramSetter*>(data); });
+                                       { delete static_cast<ProgramFollower*>(data); });
   command->SetCallback(
       [](vtkObject*, unsigned long, void* data, void* program)
-      {
-        const auto* shader = static_cast<vtkShaderProgram*>(program);
-        (*static_cast<ProgramSetter*>(data))(static_cast<unsigned>(shader->GetHandle()));
-      });
+      { static_cast<ProgramFollower*>(data)->set(static_cast<vtkShaderProgram*>(program)); });
   actor->GetMapper()->AddObserver(vtkCommand::UpdateShaderEvent, command);
 }
 

@@ -18,6 +18,8 @@ class vtkPolyDataMapper;
 namespace petrous::rendering
 {
 
+class GlUniforms;
+
 /// Triangles with vertex normals of any orientation.
 vtkSmartPointer<vtkPolyData> toPolyData(const core::TriangleMesh& mesh,
                                         const std::vector<Eigen::Vector3f>& normals);
@@ -26,7 +28,7 @@ vtkSmartPointer<vtkPolyData> toPolyData(const core::TriangleMesh& mesh,
 std::vector<Eigen::Vector3f> vertexNormals(const core::TriangleMesh& mesh);
 
 /// Sets the uniforms of an OpenGL program that is in use.
-using ProgramSetter = std::function<void(unsigned program)>;
+using ProgramSetter = std::function<void(GlUniforms& program)>;
 
 /// What is injected into VTK's polygon shader so that an actor's lit colours are displayed as the
 /// ray caster's are: shadows, exposure, tone curve and screen-door transparency. Nothing where none

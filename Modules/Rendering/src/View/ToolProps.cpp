@@ -221,7 +221,7 @@ void ToolProps::setPose(const std::optional<ToolPose>& tool)
     actor->SetUserMatrix(pose);
 }
 
-void ToolProps::followShadows(const std::function<void(unsigned program)>& setter) const
+void ToolProps::followShadows(const std::function<void(GlUniforms& program)>& setter) const
 {
   for (std::size_t part = 0; part < m_actors.size(); ++part)
     if (m_shadings[part])

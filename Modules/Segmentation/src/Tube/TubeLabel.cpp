@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -35,11 +36,103 @@ struct Piece
   }
 };
 
+// Appends the voxels that the line from `a` to `b` crosses (voxel coordinates), each sharing a face
+// with the one before it, but for one that is listed already as the last (Amanatides and Woo,
+// Eurographics 1987).
+void appendCrossed(const Vector3d& a, const Vector3d& b, std::vector<core::Index3>& cells)
+{
+  core::Index3 cell{}, last{}, step{};
+  Vector3d next, stride;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto n = static_cast<std::size_t>(axis);
+    const double from = a[axis] + 0.5;
+    const double way = b[axis] - a[axis];
+    cell[n] = static_cast<int>(std::floor(from));
+    last[n] = static_cast<int>(std::floor(b[axis] + 0.5));
+    step[n] = last[n] < cell[n] ? -1 : 1;
+    stride[axis] = 1.0 / std::abs(way); // infinite where it does not move: no step is left there
+    next[axis] = (step[n] > 0 ? cell[n] + 1 - from : from - cell[n]) * stride[axis];
+  }
+  if (cells.empty() || cells.back() != cell)
+    cells.push_back(cell);
+  while (cell != last)
+  {
+    std::size_t nearest = 3;
+    for (std::size_t n = 0; n < 3; ++n)
+      if (cell[n] != last[n] &&
+          (nearest == 3 || next[static_cast<int>(n)] < next[static_cast<int>(nearest)]))
+        nearest = n;
+    cell[nearest] += step[nearest];
+    next[static_cast<int>(nearest)] += stride[static_cast<int>(nearest)];
+    cells.push_back(cell);
+  }
+}
+
+using Cells = std::vector<core::Index3>;
+using Cell = Cells::const_iterator;
+
+// Whether the segment's voxels connect the two cells, through faces, within a voxel of the way.
+bool areConnected(const volume::Volume<std::uint16_t>& voxels, std::uint16_t index, Cell first,
+                  Cell last)
+{
+  core::Index3 lower = *first;
+  core::Index3 upper = *first;
+  for (Cell cell = first; cell <= last; ++cell)
+    for (std::size_t n = 0; n < 3; ++n)
+    {
+      lower[n] = std::max(0, std::min(lower[n], (*cell)[n] - 1));
+      upper[n] = std::min(voxels.geometry().dims()[n] - 1, std::max(upper[n], (*cell)[n] + 1));
+    }
+  std::set<core::Index3> seen{*first};
+  std::vector<core::Index3> open{*first};
+  while (!open.empty())
+  {
+    const core::Index3 cell = open.back();
+    open.pop_back();
+    if (cell == *last)
+      return true;
+    for (std::size_t n = 0; n < 3; ++n)
+      for (const int side : {-1, 1})
+      {
+        core::Index3 beside = cell;
+        beside[n] += side;
+        if (beside[n] >= lower[n] && beside[n] <= upper[n] &&
+            voxels.at(beside[0], beside[1], beside[2]) == index && seen.insert(beside).second)
+          open.push_back(beside);
+      }
+  }
+  return false;
+}
+
+// Closes the gaps along a run of voxels within the grid, each sharing a face with the next; returns
+// how many voxels were set.
+std::uint64_t bridge(volume::Volume<std::uint16_t>& voxels, std::uint16_t index, Cell first,
+                     Cell last)
+{
+  const auto isSet = [&](const core::Index3& cell)
+  { return voxels.at(cell[0], cell[1], cell[2]) == index; };
+  std::uint64_t count = 0;
+  for (Cell gap = first; gap != last;)
+  {
+    gap = std::find_if_not(gap, last, isSet);
+    const Cell end = std::find_if(gap, last, isSet);
+    if (gap == first || end == last || !areConnected(voxels, index, gap - 1, end))
+      for (Cell cell = gap; cell != end; ++cell)
+        if (!isSet(*cell)) // the line may cross it twice
+        {
+          voxels.at((*cell)[0], (*cell)[1], (*cell)[2]) = index;
+          ++count;
+        }
+    gap = end;
+  }
+  return count;
+}
+
 } // namespace
 
-volume::LabelMap labelTube(const Tube& tube, const core::GridGeometry& geometry,
-                           const volume::Segment& segment, double scale,
-                           const core::Progress& progress)
+TubeLabel labelTube(const Tube& tube, const core::GridGeometry& geometry,
+                    const volume::Segment& segment, double scale, const core::Progress& progress)
 {
   if (tube.line.size() < 2 || tube.radii.size() != tube.line.size())
     throw core::InvalidParameter("tube: there is no line to label; trace one first");
@@ -133,12 +226,24 @@ volume::LabelMap labelTube(const Tube& tube, const core::GridGeometry& geometry,
                       });
     count += added;
   }
-  volume::LabelMap map;
-  map.voxels = std::move(voxels);
-  map.segments = {segment};
-  map.segments.front().voxels = count;
-  map.extent = extent;
-  return map;
+  TubeLabel label;
+  Cells crossed;
+  for (std::size_t i = 0; i + 1 < tube.line.size(); ++i)
+    appendCrossed(geometry.voxelFromPatient(tube.line[i]),
+                  geometry.voxelFromPatient(tube.line[i + 1]), crossed);
+  const auto isWithin = [&](const core::Index3& cell) { return geometry.fullBox().contains(cell); };
+  for (Cell first = crossed.begin(); first != crossed.end();)
+  {
+    first = std::find_if(first, crossed.cend(), isWithin);
+    const Cell last = std::find_if_not(first, crossed.cend(), isWithin);
+    label.bridging += bridge(*voxels, segment.index, first, last);
+    first = last;
+  }
+  label.map.voxels = std::move(voxels);
+  label.map.segments = {segment};
+  label.map.segments.front().voxels = count + label.bridging;
+  label.map.extent = extent;
+  return label;
 }
 
 } // namespace petrous::segmentation

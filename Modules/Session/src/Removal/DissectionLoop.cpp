@@ -35,7 +35,7 @@ bool isInterruption(const TickRecord& record)
   case ServoFault::Clock:
     return true;
   case ServoFault::None:
-    return record.drill == 0 && !record.input.clutched() && !record.input.parameters.pause;
+    return isArriving(record);
   default:
     return false;
   }
@@ -85,8 +85,17 @@ void DissectionLoop::open()
 {
   if (m_dissection.strokeOpen())
     return;
+  m_spindle = {};
   m_dissection.beginStroke(m_hooks.begin ? m_hooks.begin() : dissection::StrokeInfo());
   notify({MaskEdit::Kind::Begin});
+}
+
+void DissectionLoop::drilled(const TickRecord& record, double seconds)
+{
+  dissection::StrokeInfo& info = m_dissection.openInfo();
+  info.duration += seconds;
+  m_spindle.add(record.input, seconds);
+  info.speed = m_spindle.speed(info.burr.rpm);
 }
 
 // The state number is known after publishing.
@@ -153,7 +162,7 @@ bool DissectionLoop::step(const TickRecord* records, std::size_t count)
     const double seconds = secondsOf(record);
     if (!follow(record))
       continue;
-    m_dissection.openInfo().duration += seconds;
+    drilled(record, seconds);
     if (!(record.thrust > 0.0))
     {
       m_removalModel.release();
@@ -179,7 +188,7 @@ bool DissectionLoop::sweep(const TickRecord& record, const dissection::SweptSphe
     return false;
   open();
   m_removalModel.release();
-  m_dissection.openInfo().duration += seconds;
+  drilled(record, seconds);
   return cut(burr);
 }
 

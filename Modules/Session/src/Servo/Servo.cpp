@@ -32,6 +32,8 @@ constexpr double kNoWay = 1e-6;     // mm, no progress
 constexpr double kAtGoal = 0.005;   // mm: the proxy has a deadband
 constexpr double kArrived = 0.5;    // mm beside the pick ray: a pressed tool may begin to drill
 constexpr double kHeld = 1e-4;      // mm per tick: tissue holds the tool
+constexpr double kTremble = 0.1;    // mm: between contacts a held tool trembles
+constexpr double kTrembled = 0.1;   // s within that
 
 const ServoSetup& checked(const ServoSetup& setup)
 {
@@ -224,18 +226,27 @@ void Servo::notifyStretch(const Eigen::Vector3d& stretch, const Eigen::Vector3d&
 // A tool that tissue holds has arrived if the burr covers the pick ray.
 void Servo::awaitArrival(const Step& step, bool wanted, const Eigen::Vector3d& way) noexcept
 {
+  const Eigen::Vector3d& tool = m_proxy.pose().position;
   if (!wanted || !step.pointer)
   {
     m_arrived = false;
+    m_stillFor = 0.0;
+    m_stillAt = tool;
     return;
   }
+  m_stillFor += step.dt;
+  if ((tool - m_stillAt).norm() > kTremble)
+  {
+    m_stillFor = 0.0;
+    m_stillAt = tool;
+  }
+  const bool held = m_touches && (way.norm() < kHeld || m_stillFor > kTrembled);
   const ServoParameters& p = m_record.input.parameters;
   const Eigen::Vector3d sight = sightOf(p, step.mapped);
-  const Eigen::Vector3d offset = m_proxy.pose().position - step.mapped.position;
+  const Eigen::Vector3d offset = tool - step.mapped.position;
   const double beside = (offset - sight.dot(offset) * sight).norm();
   const double reach = Eigen::Map<const Eigen::Vector3d>(p.approach).stableNorm();
-  m_arrived =
-      m_arrived || beside <= kArrived || (m_touches && way.norm() < kHeld && beside <= reach);
+  m_arrived = m_arrived || beside <= kArrived || (held && beside <= reach);
 }
 
 // Goal of the proxy.

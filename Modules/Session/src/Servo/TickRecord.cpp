@@ -72,6 +72,11 @@ double TickInput::spindle() const noexcept
   return isSpeed(*this) ? std::min(pedal, 1.0) : 1.0;
 }
 
+bool TickInput::pedalSetsSpeed() const noexcept
+{
+  return isSpeed(*this) && pedalDown() && !fullSpeedWanted(*this);
+}
+
 bool TickInput::clutched() const noexcept
 {
   return parameters.clutch || (buttons & parameters.clutchButtons) != 0;
@@ -81,6 +86,13 @@ bool isHeldOff(const TickRecord& record) noexcept
 {
   const double force = record.wrench.wrench().linear.norm();
   return record.drill != 0 && record.held != 0 && record.thrust < 0.5 * force;
+}
+
+bool isArriving(const TickRecord& record) noexcept
+{
+  return record.drill == 0 && record.input.drillWanted() && !record.input.clutched() &&
+         !record.input.parameters.pause &&
+         static_cast<ServoFault>(record.fault) == ServoFault::None;
 }
 
 std::string holderToString(std::uint8_t held)

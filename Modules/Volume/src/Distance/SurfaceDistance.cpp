@@ -144,7 +144,10 @@ void SurfaceDistance::look(Search& search, const Cell& cell) const
         std::min(search.best, search.surface.refined(search.position, nearest.cast<float>()));
 }
 
-void SurfaceDistance::visit(Search& search, std::size_t level, std::size_t box) const
+// `look(cell, square)` for cells that may be nearer, `square` is that to their box.
+template <class Look>
+void SurfaceDistance::visit(Search& search, std::size_t level, std::size_t box,
+                            const Look& look) const
 {
   const std::size_t first = box * kBranches;
   const std::size_t count = level == 0 ? m_cells.size() : m_levels[level - 1].size();
@@ -172,9 +175,9 @@ void SurfaceDistance::visit(Search& search, std::size_t level, std::size_t box) 
   }
   for (std::size_t i = 0; i < n && near[i].first < search.best * search.best; ++i)
     if (level == 0)
-      look(search, m_cells[near[i].second]);
+      look(m_cells[near[i].second], near[i].first);
     else
-      visit(search, level - 1, near[i].second);
+      visit(search, level - 1, near[i].second, look);
 }
 
 double SurfaceDistance::at(const Eigen::Vector3d& patient, double most) const
@@ -182,10 +185,26 @@ double SurfaceDistance::at(const Eigen::Vector3d& patient, double most) const
   const Eigen::Vector3d voxel = geometry().voxelFromPatient(patient);
   Search search{OccupancySurface(*m_occupancy), voxel.cwiseProduct(geometry().spacing()), most};
   if (!m_levels.empty())
-    visit(search, m_levels.size() - 1, 0);
-  const bool inside =
-      geometry().hullContains(voxel) && search.surface.at(search.position).value > 0.0;
-  return inside ? -search.best : search.best;
+    visit(search, m_levels.size() - 1, 0,
+          [&](const Cell& cell, double /*square*/) { look(search, cell); });
+  return isInside(voxel, search.position) ? -search.best : search.best;
+}
+
+double SurfaceDistance::bound(const Eigen::Vector3d& patient, double most) const
+{
+  const Eigen::Vector3d voxel = geometry().voxelFromPatient(patient);
+  Search search{OccupancySurface(*m_occupancy), voxel.cwiseProduct(geometry().spacing()), most};
+  if (isInside(voxel, search.position))
+    return -most;
+  if (!m_levels.empty())
+    visit(search, m_levels.size() - 1, 0,
+          [&](const Cell& /*cell*/, double square) { search.best = std::sqrt(square); });
+  return search.best;
+}
+
+bool SurfaceDistance::isInside(const Eigen::Vector3d& voxel, const Eigen::Vector3d& position) const
+{
+  return geometry().hullContains(voxel) && OccupancySurface(*m_occupancy).at(position).value > 0.0;
 }
 
 } // namespace petrous::volume

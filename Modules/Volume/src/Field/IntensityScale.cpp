@@ -15,6 +15,7 @@ namespace
 
 constexpr double kAir = -1000.0; // HU
 constexpr double kSoft = 40.0;
+constexpr double kFoot = -700.0; // where the default look of soft tissue begins
 constexpr double kBone = IntensityScale{}.iso;
 constexpr double kDense = IntensityScale{}.dense;
 constexpr double kAirSlack = 100.0;
@@ -86,17 +87,27 @@ public:
   explicit Moments(const std::vector<double>& counts)
     : m_weight(counts.size() + 1, 0.0)
     , m_sum(counts.size() + 1, 0.0)
+    , m_squares(counts.size() + 1, 0.0)
   {
     for (std::size_t i = 0; i < counts.size(); ++i)
     {
       m_weight[i + 1] = m_weight[i] + counts[i];
-      m_sum[i + 1] = m_sum[i] + counts[i] * static_cast<double>(i);
+      const auto level = static_cast<double>(i);
+      m_sum[i + 1] = m_sum[i] + counts[i] * level;
+      m_squares[i + 1] = m_squares[i] + counts[i] * level * level;
     }
   }
   double mean(std::size_t first, std::size_t last) const
   {
     const double own = weight(first, last);
     return own > 0.0 ? (m_sum[last] - m_sum[first]) / own : 0.0;
+  }
+  double deviation(std::size_t first, std::size_t last) const // standard
+  {
+    const double own = weight(first, last);
+    const double squares = m_squares[last] - m_squares[first];
+    const double center = mean(first, last);
+    return own > 0.0 ? std::sqrt(std::max(squares / own - center * center, 0.0)) : 0.0;
   }
   double weight(std::size_t first, std::size_t last) const
   {
@@ -113,6 +124,7 @@ public:
 private:
   std::vector<double> m_weight;
   std::vector<double> m_sum;
+  std::vector<double> m_squares;
 };
 
 // Otsu's thresholds for two and for three classes, as first levels of the upper classes.
@@ -178,10 +190,43 @@ struct Tissues
 {
   double air = 0.0;
   double soft = 0.0;
-  double softNoise = 0.0; // standard deviation
-  double upper = 0.0;     // Otsu's threshold between soft tissue and bone
-  bool cutOff = false;    // air is below the file's value range
+  double softNoise = 0.0;       // standard deviation
+  double upper = 0.0;           // Otsu's threshold between soft tissue and bone
+  bool cutOff = false;          // air is below the file's value range
+  std::optional<double> airEnd; // of its noise; nullopt: the lower peak may be another tissue's
 };
+
+// Level at which the noise of the lower of the three classes' peaks ends; nullopt if that need not
+// be air.
+std::optional<double> airEnd(const Density& density, const Moments& moments,
+                             const std::array<std::size_t, 2>& classes, std::size_t air,
+                             std::size_t soft)
+{
+  constexpr double kEnd = 0.02;     // of the lower peak's height above the valley
+  constexpr double kNoise = 3.5;    // standard deviations
+  constexpr double kBelow = 0.01;   // of the class, at most, below its noise
+  constexpr double kNarrow = 0.5;   // of the deviation of bone, at most
+  constexpr double kWide = 0.22;    // deviation of bone, of the distance from air to soft tissue
+  constexpr double kBoneAway = 2.0; // of that distance, at most
+  const std::vector<double>& s = density.smoothed;
+  const auto [first, second] = classes;
+  const double noise = std::min(halfWidth(s, air, -1), halfWidth(s, air, 1)) / 1.1774;
+  const double apart = static_cast<double>(soft) - static_cast<double>(air);
+  const double wide = moments.deviation(second, s.size());
+  const auto noiseBegins =
+      static_cast<std::size_t>(std::max(static_cast<double>(air) - std::ceil(kNoise * noise), 0.0));
+  if (moments.weight(0, noiseBegins) > kBelow * moments.weight(0, first) ||
+      moments.deviation(0, first) > kNarrow * wide || wide < kWide * apart ||
+      moments.mean(second, s.size()) - static_cast<double>(soft) > kBoneAway * apart)
+    return std::nullopt;
+  const double valley = *std::min_element(s.begin() + static_cast<std::ptrdiff_t>(air),
+                                          s.begin() + static_cast<std::ptrdiff_t>(soft));
+  const double floor = valley + kEnd * (std::min(s[air], s[soft]) - valley);
+  std::size_t end = air;
+  while (s[end] > floor) // at the valley at the latest
+    ++end;
+  return density.value(static_cast<double>(end));
+}
 
 // Peaks of air and of soft tissue, and a tail of bone above; nullopt if one is missing.
 std::optional<Tissues> findTissues(const Density& density)
@@ -215,6 +260,7 @@ std::optional<Tissues> findTissues(const Density& density)
   tissues.softNoise = (density.value(1.0) - density.value(0.0)) *
                       std::sqrt(std::max(half * half - kSmoothing * kSmoothing, 0.0));
   tissues.upper = density.value(static_cast<double>(second) - 0.5);
+  tissues.airEnd = airEnd(density, moments, {first, second}, air, soft);
   return tissues;
 }
 
@@ -328,6 +374,8 @@ IntensityScale suggestScale(const IntensityHistogram& histogram)
     { return tissues->soft + gain * (hounsfield - kSoft); };
     const double clear = tissues->soft + 2.5 * tissues->softNoise;
     scale.iso = std::max(from(kBone), std::min(clear, tissues->upper));
+    if (tissues->airEnd)
+      scale.soft = {std::max(from(kFoot), *tissues->airEnd), tissues->soft};
     if (tissues->cutOff) // the gain may be larger, so iso lies between the two
       scale.iso = std::max(scale.iso, 0.5 * (scale.iso + tissues->upper));
     else
@@ -342,6 +390,13 @@ IntensityScale suggestScale(const IntensityHistogram& histogram)
   }
   placeDense(histogram, dense, scale);
   return scale;
+}
+
+IntensityScale scaleThrough(const SoftTissueValues& values) noexcept
+{
+  const double gain = (values.peak - values.foot) / (kSoft - kFoot);
+  const auto at = [&](double hounsfield) { return values.peak + gain * (hounsfield - kSoft); };
+  return {at(kBone), at(kDense), false, values};
 }
 
 namespace

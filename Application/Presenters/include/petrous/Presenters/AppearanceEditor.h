@@ -113,7 +113,8 @@ public:
 
   /// The built-in ones, then those of the library. Throws as OwnPresets::all.
   std::vector<Preset> presets() const;
-  /// As `petrous appearance --set`. Throws as OwnPresets::preset and withPreset.
+  bool canHave(const Preset& preset) const; ///< the selected part; false: none is selected
+  /// As `petrous appearance --set`. Throws as presetFor and withPreset.
   void applyPreset(const std::string& name);
   void savePreset(const std::string& name);   ///< the part's appearance; throws as OwnPresets::save
   void deletePreset(const std::string& name); ///< throws as OwnPresets::remove
@@ -133,6 +134,7 @@ public:
   /// Why the selected part is drawn in one colour although it has a function, or soft tissue not at
   /// all; empty: it is drawn as it is set.
   std::string notice() const;
+  std::string estimate() const; ///< softTissueEstimate, while soft tissue is selected
 
   /// Whether `fit` has what it needs.
   bool canFit() const;
@@ -173,6 +175,16 @@ private:
 appearance::StructureAppearance softTissueReading(const scene::Case& value,
                                                   const std::string& image,
                                                   AppearanceHistograms::Histogram histogram = {});
+
+/// Whether a preset can be the look of the part: bone and soft tissue are no lumens.
+bool canBeLookOf(const scene::Case& value, const std::string& part,
+                 const appearance::StructureAppearance& preset);
+
+/// The preset of this name for the part. Throws as OwnPresets::preset, listing those that can be
+/// its look.
+appearance::StructureAppearance presetFor(const scene::Case& value, const std::string& part,
+                                          const appearance::OwnPresets& presets,
+                                          const std::string& name);
 
 /// A part's look with a preset; where that leaves the colour open ("other"), with one unlike those
 /// of the other parts. Throws InvalidParameter if bone or soft tissue would become a lumen, or if

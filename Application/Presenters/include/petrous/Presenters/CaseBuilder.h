@@ -279,7 +279,7 @@ void keepIdentity(scene::StructurePart& structure, const scene::StructurePart& r
 /// of another kind of structure.
 bool keepsLook(const std::string& name, const std::string& preset);
 
-/// The colours of all structures and meshes, for one that is to differ (distinctColor).
+/// The colours of all structures and meshes, for one that is to differ (DistinctColors).
 std::vector<std::array<float, 3>> structureColors(const scene::Case& value);
 
 } // namespace petrous::presenters

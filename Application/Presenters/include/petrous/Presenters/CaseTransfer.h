@@ -57,7 +57,8 @@ std::vector<std::string> identityWarnings(const scene::Case& value, const Export
                                           const library::Library* library = nullptr);
 
 /// scene::imagesWithFace, without reading images that are smaller than a head.
-std::vector<std::string> facesToMask(const scene::Case& value);
+std::vector<scene::ImageWithFace> facesToMask(const scene::Case& value,
+                                              const core::Progress& progress = {});
 
 struct SendSummary
 {

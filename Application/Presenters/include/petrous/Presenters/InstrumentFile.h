@@ -8,6 +8,7 @@
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Core/TriangleMesh.h"
+#include "petrous/Scene/ViewState.h"
 #include "petrous/Session/TouchScene.h"
 
 namespace petrous::presenters
@@ -51,6 +52,16 @@ constexpr std::size_t kMaxInstrumentTriangles = 200000;
 /// would be right. CancelledError.
 InstrumentSurface readInstrumentSurface(const std::filesystem::path& path,
                                         const core::Progress& progress = {});
+
+/// The same of a mesh that a case keeps; throws InvalidParameter for what it refuses.
+InstrumentSurface instrumentSurface(std::string name, core::TriangleMesh mesh);
+
+/// An instrument as a case keeps it, and the other way round: its surface is read, which throws
+/// what that throws, and checked as a file's. `unnamed`: the name of one without.
+scene::ViewState::Instrument keptInstrument(const InstrumentSurface& surface,
+                                            const std::string& axis);
+InstrumentSurface surfaceOf(const scene::ViewState::Instrument& kept,
+                            const std::string& unnamed = "instrument");
 
 /// `axis` as for makeInstrument.
 InstrumentPlacement placementOf(const core::TriangleMesh& mesh, const std::string& axis);

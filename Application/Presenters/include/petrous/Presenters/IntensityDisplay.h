@@ -14,8 +14,13 @@ namespace petrous::presenters
 volume::IntensityScale calibratedScale(const scene::Case& value);
 
 /// To which presets of soft tissue are mapped: Hounsfield units where the case's scale is
-/// calibrated, whatever the threshold of bone.
+/// calibrated, whatever the threshold of bone; else by Case::softTissueValues, so that the default
+/// look begins where air ends, and where they are not known the case's scale.
 volume::IntensityScale softTissueScale(const scene::Case& value);
+
+/// Of that, what is an estimate, for the user; empty where it is not used: in Hounsfield units, of
+/// an MR, or of a transfer function with values of its own.
+std::string softTissueEstimate(const scene::Case& value);
 
 /// "CT", or "MR": what a user calls the primary image.
 const char* primaryName(const scene::Case& value);

@@ -16,8 +16,14 @@ std::vector<std::string> maskLeavingImages(const library::Library& library, scen
                                            const scene::ImageMask& mask,
                                            const core::Progress& progress = {});
 
-/// The same for library::ArchiveOptions::prepare; empty for a mask that masks nothing.
+/// The same for library::ArchiveOptions::prepare, without the MRs of these names, which throws like
+/// scene::removePart; empty for a mask that masks nothing, and no MR.
 std::function<std::vector<std::string>(scene::Case&, const core::Progress&)>
-maskForArchive(const library::Library& library, const scene::ImageMask& mask);
+maskForArchive(const library::Library& library, const scene::ImageMask& mask,
+               const std::vector<std::string>& withoutMrs = {});
+
+/// Takes MRs out of a copy of a case. Throws InvalidParameter for a name of none, and Error
+/// (Refused) for one on which structures were drawn.
+void leaveOutMrs(scene::Case& value, const std::vector<std::string>& names);
 
 } // namespace petrous::presenters

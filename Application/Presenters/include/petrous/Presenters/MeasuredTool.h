@@ -35,7 +35,11 @@ public:
 
   /// For a tool at X_PT. Beyond `most`, mm, the result is at least that. Of a tool that reaches the
   /// surface it is not told how deep.
-  Distance distance(const haptics::Pose& pose, const Surface& surface, double most) const;
+  ///
+  /// bound   at most what `surface` gives, and cheaper: tells which points of an instrument need no
+  ///         look-up; without it `surface` does. The result is the same
+  Distance distance(const haptics::Pose& pose, const Surface& surface, double most,
+                    const Surface& bound = {}) const;
 
   double sampling() const noexcept;                 ///< mm, the largest possible Distance::sampling
   double reach() const noexcept { return m_reach; } ///< mm, of what is measured from the origin
@@ -43,7 +47,7 @@ public:
 private:
   struct Ball
   {
-    Eigen::Vector3d center;
+    Eigen::Vector3d center{0.0, 0.0, 0.0}; // frame T, mm
     double radius = 0.0;
     std::size_t begin = 0, end = 0; // of the points
     std::size_t halves = 0;         // the first of two in Part::balls; 0: none
@@ -59,7 +63,7 @@ private:
 
   double m_radius = 0.0; // mm; 0: an instrument's
   double m_reach = 0.0;
-  std::vector<Part> m_parts;
+  std::vector<Part> m_parts; // the tip's points first, which have the smaller spacing
 };
 
 } // namespace petrous::presenters

@@ -50,6 +50,9 @@ public:
 
   Events events;
 
+  /// The name that a new measurement gets, "distance", in the user's language; unset: in English.
+  std::function<std::string(const std::string&)> inLanguage;
+
   /// Does a Work elsewhere in place of the one before, which is given up; an empty one: of none.
   /// Without it, at once.
   std::function<void(Work)> inBackground;

@@ -33,4 +33,7 @@ segmentation::Tube traceOnCt(const volume::IntensityVolume& image,
 /// own order is as likely.
 std::string likelyOrderText(const std::vector<Eigen::Vector3d>& points);
 
+/// That the voxels are too wide for a tube along part of it; empty if they are not.
+std::string bridgingText(const segmentation::TubeLabel& label);
+
 } // namespace petrous::presenters

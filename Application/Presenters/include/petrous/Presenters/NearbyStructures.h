@@ -63,6 +63,10 @@ struct UnmeasuredStructures
 /// measured.
 std::string toString(const UnmeasuredStructures& structures);
 
+/// Whether any of its structures is such that warningsOf could name it, as they are shown and
+/// warned of now; else nobody needs to measure for warnings.
+bool canBeWarnedOf(const scene::Case& value);
+
 /// "0.72 mm³", "under 0.01 mm³".
 std::string cubicMillimetres(double volume);
 
@@ -70,6 +74,17 @@ std::string cubicMillimetres(double volume);
 /// out: an air cell is opened, not injured.
 std::map<std::string, double> injuredVolumes(const scene::Case& value,
                                              const dissection::RemovedVolume& open = {});
+
+/// What is near the tool, as measured once for all who show it.
+struct ToolSurroundings
+{
+  std::vector<NearbyStructure> structures; ///< nearest first; empty unless isMeasured
+  bool isWide = false;       ///< all that are near are among them; else only what is warned of
+  bool isMeasured = false;   ///< false: the distance fields are being computed, or that failed
+  bool isInstrument = false; ///< the tool is
+  std::string unmeasured;    ///< UnmeasuredStructures in words: to be shown beside them
+  std::string fault;         ///< why they cannot be measured; empty: they can
+};
 
 /// Distances of a tool from the structures of a case that are visible or have a warning distance,
 /// fast enough for every frame.
@@ -93,7 +108,8 @@ public:
   ///
   /// value   the same case in its current state: appearances, strokes
   /// pose    of the tool, X_PT
-  /// reach   mm; structures farther away are omitted unless within their warning distance
+  /// reach   mm; structures farther away are omitted unless within their warning distance; 0: no
+  ///         more is measured than warningsOf needs, which is the same then as at any reach
   /// open    what the open stroke has removed so far
   std::vector<NearbyStructure> around(const scene::Case& value, const MeasuredTool& tool,
                                       const haptics::Pose& pose, double reach,

@@ -17,7 +17,8 @@ namespace petrous::presenters
 ///   "%1: the case needs %#2 MB, %#3 MB are free; nothing was restored; free some space"
 ///
 /// "%1" is a name or a path, "%#1" a number, "%~1" a phrase of its own. A phrase is
-/// recognised as a whole: its words are those of the text, all of them and in their order. Of
+/// recognised as a whole: its words are those of the text, all of them and in their order, where
+/// the text may begin with a capital, as a sentence does, and what is found then does, too. Of
 /// phrases that fit, the one with the most words of its own is taken. Where none fits, the text's
 /// parts are looked up, which lines, "; ", ". ", ": ", ", " and parentheses divide; what is not a
 /// phrase stays as it is. Immutable, and so safe on any thread.
@@ -61,8 +62,10 @@ private:
 
   static Pieces piecesOf(const std::string& phrase);
   std::optional<Found> lookUp(std::string_view part, Memory& memory) const;
-  std::optional<Found> whole(std::string_view core, Memory& memory) const;
-  std::optional<Found> matched(const Entry& entry, std::string_view core, Memory& memory) const;
+  std::optional<Found> whole(std::string_view core, Memory& memory,
+                             bool isCapitalized = false) const;
+  std::optional<Found> matched(const Entry& entry, std::string_view core, Memory& memory,
+                               bool isCapitalized) const;
   std::optional<Found> divided(std::string_view part, Memory& memory) const;
 
   std::vector<Entry> m_entries;              ///< those with the most letters first

@@ -36,6 +36,18 @@ struct RegistrationAim
   std::string onto; ///< another MR; empty: the CT
 };
 
+/// A structure or mesh at whose middle a registration's error can be stated.
+struct PlaceChoice
+{
+  std::string name;
+  bool isMesh = false;
+  std::string drawnOn = {}; ///< the MR; empty: the primary image
+  double volume = 0.0;      ///< mm^3, of a structure
+  /// Whether its name and that of another differ by a number at the end only, as of what was added
+  /// under a name that was taken.
+  bool isAlike = false;
+};
+
 /// Registers one MR of the open case to its CT in every available way. Changes take effect in the
 /// case at once, are saved with it, and are steps of WorkstationModel::undo, manual motions that
 /// come quickly after one another a single one. Without Qt; not thread-safe.
@@ -71,8 +83,9 @@ public:
   /// Settings that are not, or no longer, available are reset.
   const RegistrationAim& aim() const noexcept { return m_aim; }
   void setAim(const RegistrationAim& aim);
-  std::vector<std::string> ontoNames() const;  ///< MRs that may be RegistrationAim::onto
-  std::vector<std::string> placeNames() const; ///< what may be RegistrationAim::structure
+  std::vector<std::string> ontoNames() const;    ///< MRs that may be RegistrationAim::onto
+  std::vector<std::string> placeNames() const;   ///< what may be RegistrationAim::structure
+  std::vector<PlaceChoice> placeChoices() const; ///< these, in the same order
 
   /// Why the error is not stated at the middle ear although the aim says so, where instead, and
   /// what to do; empty otherwise.

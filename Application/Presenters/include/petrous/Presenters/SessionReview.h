@@ -9,6 +9,7 @@
 #include "petrous/Core/Progress.h"
 #include "petrous/Dissection/Stroke.h"
 #include "petrous/Scene/Case.h"
+#include "petrous/Session/SpindleMeter.h"
 #include "petrous/Session/TickRecord.h"
 
 namespace petrous::presenters
@@ -51,6 +52,8 @@ public:
 
   const std::vector<RecordedTool>& tools() const noexcept { return m_tools; }
   SessionMetrics metrics() const;
+  /// While a burr that was set to `rpm` turned, see SpindleMeter.
+  std::optional<dissection::SpindleSpeed> speed(double rpm) const { return m_spindle.speed(rpm); }
 
 private:
   std::vector<RecordedTool> m_tools;
@@ -59,6 +62,8 @@ private:
   double m_forceSeconds = 0.0;         // N s, while drilling
   Eigen::Vector3d m_step, m_drillStep; // where the path was last extended
   SessionMetrics m_metrics;
+  session::SpindleMeter m_spindle;
+  session::TickInput m_lastInput;
   bool m_placed = false;
 };
 
@@ -77,6 +82,7 @@ struct SessionReview
 
   std::string tool; ///< "cutting burr 4 mm, 6 degrees of freedom"
   dissection::Burr burr;
+  std::optional<dissection::SpindleSpeed> speed; ///< as StrokeInfo::speed
   std::vector<RecordedTool> course;
   SessionMetrics metrics;
   std::vector<Structure> structures; ///< of the case, by name

@@ -64,6 +64,9 @@ public:
   /// to ±`most`.
   double distance(std::size_t structure, const Eigen::Vector3d& patient, double most);
 
+  /// At most that, and cheaper (volume::SurfaceDistance::bound).
+  double bound(std::size_t structure, const Eigen::Vector3d& patient, double most);
+
   /// The nearest of the structures for which `wanted` is true; none beyond `reach` mm.
   std::optional<NearStructure> nearest(const Eigen::Vector3d& patient, double reach,
                                        const std::function<bool(const std::string& name)>& wanted);

@@ -329,16 +329,11 @@ public:
   /// Changes with the tissue, also by drilling.
   std::uint64_t tissueChanges() const noexcept { return m_tissueChanges; }
   static constexpr double kNear = 20.0; ///< mm; farther structures are not reported
-  /// Structures within kNear of a tool at X_PT, and injured ones, nearest first. The first
-  /// call for a case starts computing their distance fields in a separate thread; none until that
-  /// is done, and none without a case.
-  std::optional<std::vector<NearbyStructure>> nearby(const MeasuredTool& tool,
-                                                     const haptics::Pose& pose);
-  /// What of that the surgeon must see now (warningsOf); measures no more than needed: cheap enough
-  /// for every frame. Likewise none until the distance fields are computed.
-  std::optional<std::string> warnings(const MeasuredTool& tool, const haptics::Pose& pose);
-  /// What the last of both left out, in words (UnmeasuredStructures): to be shown beside them.
-  std::string unmeasuredNearby() const;
+  /// What is near a tool at X_PT, for all who show it: `isWide` all structures within kNear, and
+  /// injured ones; else no more than warnings need (warningsOf), which is cheap enough for every
+  /// frame. The first call for a case that needs them starts computing their distance fields in a
+  /// separate thread. Does not throw.
+  ToolSurroundings surroundings(const MeasuredTool& tool, const haptics::Pose& pose, bool isWide);
   /// What the open stroke has removed so far, see RemovedVolumeEstimator; empty while none is open.
   const dissection::RemovedVolume& strokeSoFar();
   bool measuresNearby() const noexcept { return m_nearby != nullptr; }

@@ -6,10 +6,11 @@
 namespace petrous::appearance
 {
 
-/// A colour for a structure whose name matches no preset: of a palette of 64 the one farthest from
-/// all `taken` colours, from bone, black, grey, and from the colours of nerves, arteries and veins;
-/// where those are used up, of a grid in steps of 1/8. Repeated calls, each with the results so
-/// far, give a palette. Deterministic.
+/// Colours for structures whose names match no preset: of a palette of 64 each time the one
+/// farthest from all that are taken, from bone, black, grey, and from the colours of nerves,
+/// arteries and veins; where those are used up, of a grid in steps of 1/8, and then colours are
+/// given twice. Deterministic; one colour costs as many comparisons as are offered, whatever is
+/// taken.
 ///
 /// The distance of two colours is the minimum over four kinds of vision: normal, and without long,
 /// middle or short wavelength cones (protan, deutan, tritan: matrices of severity 1 in Machado,
@@ -20,6 +21,29 @@ namespace petrous::appearance
 /// and 4.1 for the others, also by the model of Vienot, Brettel and Mollon (1999).
 ///
 /// Colours are sRGB, 0 to 1.
-std::array<float, 3> distinctColor(const std::vector<std::array<float, 3>>& taken);
+class DistinctColors
+{
+public:
+  using Color = std::array<float, 3>;
+  using Seen = std::array<std::array<double, 3>, 4>; ///< CIE L*a*b*, by each kind of vision
+
+  explicit DistinctColors(const std::vector<Color>& taken = {});
+
+  void take(const Color& color);
+  Color next(); ///< takes it
+
+private:
+  struct Offered
+  {
+    Color color;
+    Seen sights;
+    double nearest; // weighted CIEDE2000, to the nearest of those taken
+  };
+  void offer(const Color& color);
+
+  std::vector<Seen> m_taken;
+  std::vector<Offered> m_offered;
+  bool m_hasGrid = false;
+};
 
 } // namespace petrous::appearance

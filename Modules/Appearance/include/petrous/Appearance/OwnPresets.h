@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,11 @@ public:
   /// and the invalid entry, InputFileError.
   std::vector<StructureAppearance> all() const;
 
-  /// One of these, or else StructurePresets::preset. Throws InvalidParameter listing all presets.
-  StructureAppearance preset(const std::string& name) const;
+  /// One of these, or else StructurePresets::preset. Throws InvalidParameter listing the presets,
+  /// only those that `isListed` takes if it is given.
+  StructureAppearance
+  preset(const std::string& name,
+         const std::function<bool(const StructureAppearance&)>& isListed = {}) const;
 
   /// Saves an appearance under a name, without flags and the name of its source image; replaces the
   /// one that has it. `isPrimaryMr`: an MR is what a look without a source image reads. Returns the

@@ -39,7 +39,8 @@ void setFlags(StructureAppearance& look, const std::string& flags);
 std::string flagsOf(const StructureAppearance& look);
 
 /// Changes the colour, also of the transfer function, whose points keep their brightness relative
-/// to the appearance's colour. Throws InvalidParameter outside 0 to 1.
+/// to the appearance's colour; the colour it has already changes nothing. Throws InvalidParameter
+/// outside 0 to 1.
 void setColor(StructureAppearance& look, const std::array<float, 3>& color);
 
 /// Makes it that of what is air to haptics and drilling: neither touchable nor drillable, without

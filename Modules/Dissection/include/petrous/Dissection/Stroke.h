@@ -28,6 +28,13 @@ struct Burr
   std::string name;      ///< in the catalogue; empty: the usual one of its kind. See nameOf
 };
 
+/// How fast a burr turned, where that is not its set speed: a pedal's pressure gave it.
+struct SpindleSpeed
+{
+  double mean = 0.0; ///< revolutions per minute, over the time drilling
+  double max = 0.0;  ///< revolutions per minute
+};
+
 struct TouchedStructure
 {
   std::string name;
@@ -40,6 +47,8 @@ struct StrokeInfo
   std::string startedAt; ///< UTC, ISO 8601; empty: not known
   double duration = 0.0; ///< s, of simulated time
   Burr burr;
+  /// nullopt: no pedal set it, so that the burr turned at its set speed, or it is not known.
+  std::optional<SpindleSpeed> speed;
   double removed = 0.0; ///< mm^3 removed from {f > 0}
   std::vector<TouchedStructure> structures;
   std::optional<core::CameraPose> camera; ///< view during drilling

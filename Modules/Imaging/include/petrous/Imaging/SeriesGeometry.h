@@ -111,6 +111,7 @@ struct SliceHeader
   std::string taken;
   std::string patientPosition; ///< (0018,5100), e.g. HFS; likewise
   int instanceNumber = 0;
+  std::optional<int> stackPosition;   ///< InStackPositionNumber of a frame
   std::optional<int> declaredCount;   ///< images of the series or acquisition, as the file states
   bool isImage = true;                ///< has pixel data
   std::vector<std::string> imageType; ///< values, e.g. ORIGINAL PRIMARY AXIAL
@@ -153,7 +154,8 @@ enum class FindingKind
   MixedAcquisitions,
   NoGeometry,
   LocalizerMixedIn,
-  MissingEnd, ///< no reason for a verdict
+  MissingEnd,     ///< no reason for a verdict
+  MissingBetween, ///< likewise: every second slice of the whole stack, or more of them
   MultiFrame,
   NotAnImage,
   Unreadable
@@ -193,8 +195,8 @@ struct SeriesGeometry
   /// Refused only since more than a few slices share their places: repairable if the pixels of
   /// those at one place are equal, which the headers do not tell.
   bool isRepairableIfEqual = false;
-  /// The reasons for the verdict, localizers set aside, and ends that may be missing. Those of kind
-  /// Unreadable name files.
+  /// The reasons for the verdict, localizers set aside, and slices that may be missing. Those of
+  /// kinds Unreadable and NoGeometry name files.
   std::vector<Finding> findings;
   std::vector<std::string> notes; ///< accepted but worth knowing, e.g. jitter
 };

@@ -233,9 +233,9 @@ public:
   Inspection verify(const core::Progress& progress = {}) const;
 
   /// Removes deleted cases, objects that no manifest references, and leftovers of killed writers;
-  /// recordings that were named after such a case lose that name. Throws LibraryError (Damaged)
-  /// without removing anything if a manifest cannot be read, since its
-  /// references are unknown.
+  /// recordings that were named after such a case lose that name. Throws LibraryError without
+  /// removing anything: Damaged if a manifest cannot be read, since its references are unknown;
+  /// Conflict while another process has a case open, in which it can put back what was removed.
   Collected collectGarbage(const core::Progress& progress = {});
 
   /// Recovers unsaved drilling, removes leftovers of killed writers, and rebuilds the index.

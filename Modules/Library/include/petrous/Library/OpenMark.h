@@ -38,6 +38,9 @@ struct Opener
 /// removed. Never throws but std::bad_alloc.
 std::vector<Opener> openersOf(const std::filesystem::path& library, const std::string& id);
 
+/// Likewise, that have any case of the library open.
+std::vector<Opener> openersOfAny(const std::filesystem::path& library);
+
 /// "process 4711 on 'or-2', process 4 on 'ward'"; empty: there are none.
 std::string toString(const std::vector<Opener>& openers);
 

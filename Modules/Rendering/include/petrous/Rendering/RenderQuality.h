@@ -54,6 +54,9 @@ struct RenderStatistics
   double samplesPerPixel = 0.0;
   double editMilliseconds = 0.0; ///< upload of the last mask edits to the GPU
   std::size_t pendingEdits = 0;  ///< voxels of edits that the upload cap deferred to later frames
+  /// The instrument's shadow is being measured (ScenePicture::setProgressive) and missing, or has
+  /// come during the frame; a later one shows it.
+  bool pendingShadow = false;
   /// Times so far that all of what stops the light was measured anew; of shadows alone.
   std::size_t opacityRebuilds = 0;
 };

@@ -80,6 +80,10 @@ public:
   /// While interactive, the surroundings of a tool (tool::kField) are drawn with at least
   /// InteractionQuality::kFoveaScale of the resolution and the rest coarser, where a frame of one
   /// resolution would be coarser there.
+  ///
+  /// The distance field of an instrument's shadow, which takes up to some seconds, is made in the
+  /// background; until then the instrument throws none (RenderStatistics::pendingShadow), also in
+  /// the picture at rest.
   void setProgressive(bool progressive);
 
   /// Draws the picture at rest of the last frame for about `milliseconds`; what was drawn counts

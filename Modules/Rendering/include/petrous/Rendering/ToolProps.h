@@ -19,6 +19,7 @@ class vtkSphereSource;
 namespace petrous::rendering
 {
 
+class GlUniforms;
 class PolygonShading;
 
 /// The drill, burr, shaft and handpiece of ToolShape.h, or an instrument. A ghost is a coarse wire
@@ -40,7 +41,7 @@ public:
   /// Shadows (once they are followed), exposure and tone curve; not of a ghost.
   void setLight(const LightSettings& light);
   /// See PolygonShading (SurfaceActor.h); once, not of a ghost.
-  void followShadows(const std::function<void(unsigned program)>& setter) const;
+  void followShadows(const std::function<void(GlUniforms& program)>& setter) const;
 
 private:
   void shapeBurr(const ToolPose& tool);

@@ -12,6 +12,11 @@
 #include "petrous/Rendering/RenderQuality.h"
 #include "petrous/Rendering/SceneContents.h"
 
+namespace petrous::rendering
+{
+class GlUniforms;
+}
+
 /// Single-pass ray caster for CT, structures, cut mask and a second image
 /// (Documentation/adr/0008-what-a-ray-sees.md), for vtkVolume in any VTK program.
 ///
@@ -54,7 +59,8 @@ public:
   const petrous::rendering::RenderQuality& GetQuality() const;
 
   /// Frames show the picture at rest once Refine has drawn it with this quality, and until then are
-  /// drawn with that of SetQuality. Null: every frame is.
+  /// drawn with that of SetQuality, and a new instrument throws its shadow later. Null: every
+  /// frame is, and it throws it at once.
   void SetRestQuality(const std::optional<petrous::rendering::RenderQuality>& quality);
 
   /// Goes on with the picture of the last frame for about so long, with up to `samples` rays a
@@ -81,10 +87,11 @@ public:
 
   /// For polygons that lie in shadows, whose shaders contain polygonShadowsShader (RayShader.h):
   /// first PrepareShadows, before a frame's polygons, then ShadePolygons for each OpenGL program
-  /// while it is in use. `isTool`: it draws the tool, which throws no shadow on itself. Errors are
-  /// those of the frame.
+  /// while it is in use, with the same GlUniforms (GlProgram.h) as long as it is the same.
+  /// `isTool`: it draws the tool, which throws no shadow on itself. Errors are those of the frame.
   void PrepareShadows(vtkRenderer* renderer, vtkVolume* volume);
-  void ShadePolygons(vtkRenderer* renderer, vtkVolume* volume, unsigned program, bool isTool);
+  void ShadePolygons(vtkRenderer* renderer, vtkVolume* volume,
+                     petrous::rendering::GlUniforms& program, bool isTool);
 
   /// Counts texture fetches and samples of subsequent frames, which slows them down.
   vtkSetMacro(Counting, bool);

@@ -30,10 +30,11 @@ uniform vec3 instrumentLower, instrumentUpper; // centres of its outer texels, m
 uniform vec3 instrumentScale, instrumentOffset; // mm -> texture coordinate
 #endif
 
-// Four cones around one along the normal, each 60 degrees wide, for the hemisphere; sin^2 30 of its
-// light, weighted by the cosine, comes from the middle one.
-const float kConeTangent = 0.57735027;
-const float kMiddleShare = 0.25;
+// Three cones around the normal for the hemisphere, a third of its light each, weighted by the
+// cosine; the mean cosine of that light is theirs. A look-up is as wide as 0.7 of its distance.
+const float kConeCosine = 0.66666667;
+const float kConeSine = 0.74535599;
+const float kConeWidth = 0.7;
 // Above what the tangent plane explains, for the 8 bits of a texel and of the filter.
 const float kSlack = 0.02;
 const float kLampStride = 2.0; // texels from look-up to look-up towards the lamp
@@ -140,40 +141,35 @@ vec2 stoppersAt(vec3 v, float level, float own, float width)
   return vec2(both, (tool + (1.0 - tool) * tissue.x * tissue.y) / max(both, 1e-6));
 }
 
-// Of the light from all around, within kOcclusionReach.
+// Of the light from all around, within kOcclusionReach. From slice to slice the cones are half a
+// turn further, so that they leave no direction out.
 float skyAt(vec3 v, vec3 normal, float texel, bool wanted)
 {
   vec3 aside = cross(normal, pictureUp);
   aside = dot(aside, aside) > 1e-6 ? normalize(aside) : pictureRight;
-  vec3 ahead = cross(normal, aside);
-  vec3 middle = voxelFromMm * normal;
-  vec3 across = 0.8660254 * (voxelFromMm * aside);
-  vec3 along = 0.8660254 * (voxelFromMm * ahead);
+  vec3 middle = kConeCosine * (voxelFromMm * normal);
+  vec3 across = kConeSine * (voxelFromMm * aside);
+  vec3 along = 0.8660254 * kConeSine * (voxelFromMm * cross(normal, aside));
   float sky = 1.0;
-  float left = kMiddleShare;
-  vec4 leftAside = vec4(0.25 * (1.0 - kMiddleShare));
+  vec3 left = vec3(1.0 / 3.0);
   float far = nearestSlice;
   int turns = wanted ? slices : 0;
   for (int slice = 0; slice < turns; ++slice)
   {
-    float level = levelOf(far * kConeTangent);
+    float width = far * kConeWidth;
+    float level = levelOf(width);
+    float own = ownOf(far * kConeCosine, level, texel);
     float ratio = far / kOcclusionReach;
-    float weight = 1.0 - ratio * ratio;
-    float width = far * kConeTangent;
-    vec2 front = stoppersAt(v + far * middle, level, ownOf(far, level, texel), width);
-    float own = ownOf(0.5 * far, level, texel);
-    vec3 center = v + 0.5 * far * middle;
+    vec3 center = v + far * middle;
+    vec3 back = center - 0.5 * far * across;
     vec2 a = stoppersAt(center + far * across, level, own, width);
-    vec2 b = stoppersAt(center + far * along, level, own, width);
-    vec2 c = stoppersAt(center - far * across, level, own, width);
-    vec2 d = stoppersAt(center - far * along, level, own, width);
-    float passes = (1.0 - front.x) * (1.0 - front.x);
-    vec4 passAside = 1.0 - vec4(a.x, b.x, c.x, d.x);
-    passAside *= passAside;
-    sky -= weight * (left * (1.0 - passes) * front.y +
-                     dot(leftAside * (1.0 - passAside), vec4(a.y, b.y, c.y, d.y)));
+    vec2 b = stoppersAt(back + far * along, level, own, width);
+    vec2 c = stoppersAt(back - far * along, level, own, width);
+    vec3 passes = 1.0 - vec3(a.x, b.x, c.x);
+    passes *= passes;
+    sky -= (1.0 - ratio * ratio) * dot(left * (1.0 - passes), vec3(a.y, b.y, c.y));
     left *= passes;
-    leftAside *= passAside;
+    across = -across;
     far *= kSliceGrowth;
   }
   return clamp(sky, 0.0, 1.0);

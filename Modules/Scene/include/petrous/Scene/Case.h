@@ -90,6 +90,8 @@ struct Case
   double iso = 300.0;         ///< HU
   /// HU of dense bone, to which presets are scaled; different in an uncalibrated image.
   double denseBone = volume::IntensityScale{}.dense;
+  /// Estimated from the histogram; nullopt: in HU, an MR, not known, or of an older program.
+  std::optional<volume::SoftTissueValues> softTissueValues;
   ImagePart ct; ///< the primary image: a CT, or an MR (ImagePart::modality)
   appearance::StructureAppearance boneLook = appearance::boneLook(); ///< of the CT itself
   /// Of what is neither bone nor a structure; not shown at first.

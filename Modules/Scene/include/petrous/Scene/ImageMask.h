@@ -54,8 +54,16 @@ struct ImageMaskReport
 /// The case is then as it was.
 ImageMaskReport maskImages(Case& value, const ImageMask& mask, const core::Progress& progress = {});
 
-/// What of the case's images shows a face, a part of one or perhaps one (whatever their notes say):
-/// "the CT", "MR 'T2'". Reads their voxels. Throws CancelledError, and what reading voxels throws.
-std::vector<std::string> imagesWithFace(const Case& value, const core::Progress& progress = {});
+/// An image that shows a face, a part of one or perhaps one.
+struct ImageWithFace
+{
+  std::string text;  ///< "the CT", "MR 'T2'"
+  std::string mr;    ///< its name; empty: the primary image
+  std::string fault; ///< why maskImages refuses to mask its face; empty: it can be masked
+};
+
+/// Those of the case's images, whatever their notes say. Reads their voxels, and strokes of other
+/// approaches. Throws CancelledError, and what reading voxels throws.
+std::vector<ImageWithFace> imagesWithFace(const Case& value, const core::Progress& progress = {});
 
 } // namespace petrous::scene

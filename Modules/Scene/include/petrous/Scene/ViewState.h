@@ -10,6 +10,8 @@
 
 #include "petrous/Core/CameraPose.h"
 #include "petrous/Core/GridGeometry.h"
+#include "petrous/Core/Lazy.h"
+#include "petrous/Core/TriangleMesh.h"
 #include "petrous/Dissection/Stroke.h"
 
 namespace petrous::scene
@@ -90,6 +92,18 @@ struct ToolView
   bool byWheel = false; ///< the wheel moves the burr in depth
 };
 
+/// An instrument of the user's that was used with the case: a closed mesh that is felt and removes
+/// nothing.
+struct InstrumentView
+{
+  static constexpr std::size_t kLongestName = 100; ///< bytes
+
+  std::string name;                    ///< as its file is called; it does not leave: then empty
+  std::string object;                  ///< of its surface in the library; empty: not stored yet
+  std::string axis = "z+";             ///< of the surface, from its tip to the hand
+  core::Lazy<core::TriangleMesh> mesh; ///< mm, in the coordinates of its file
+};
+
 /// How a case was looked at when it was saved, besides its camera, and the tool that was set. What
 /// is absent is as the program that shows the case has it.
 struct ViewState
@@ -100,6 +114,7 @@ struct ViewState
   using Light = LightView;
   using Stereo = StereoView;
   using Tool = ToolView;
+  using Instrument = InstrumentView;
 
   /// What is cut away from the picture, not from the bone.
   struct Clipping
@@ -133,6 +148,7 @@ struct ViewState
   std::optional<Stereo> stereo;
   Clipping clipping;
   std::optional<Tool> tool;
+  std::optional<Instrument> instrument;
 };
 
 bool operator==(const ViewState::Slices& a, const ViewState::Slices& b);
@@ -140,6 +156,8 @@ bool operator==(const ViewState::Light& a, const ViewState::Light& b);
 bool operator==(const ViewState::Stereo& a, const ViewState::Stereo& b);
 bool operator==(const ViewState::Clipping& a, const ViewState::Clipping& b);
 bool operator==(const ViewState::Tool& a, const ViewState::Tool& b);
+/// Of the same object, or the same mesh in memory.
+bool operator==(const ViewState::Instrument& a, const ViewState::Instrument& b);
 
 /// Throws InvalidParameter unless it is valid for a saved view: 1 to kLongestName bytes of UTF-8
 /// without characters that are not seen and without spaces around it.

@@ -79,8 +79,9 @@ struct Tube
   /// mm, free of the scan's blur as far as it is known; where not resolved, interpolated from where
   /// it is.
   std::vector<double> radii;
-  std::vector<double> contrast;       ///< surroundings against lumen, in sigma of the noise, >= 0
-  /// 1: contrast and diameter (two voxels) suffice; nowhere, unless they do over half of the length.
+  std::vector<double> contrast; ///< surroundings against lumen, in sigma of the noise, >= 0
+  /// 1: contrast and diameter (two voxels) suffice; nowhere, unless they do over half of the
+  /// length.
   std::vector<std::uint8_t> resolved;
 
   std::vector<Eigen::Vector3d> points;    ///< as given
@@ -140,11 +141,20 @@ std::vector<std::size_t> likelyOrder(const std::vector<Eigen::Vector3d>& points)
 /// the first point only if that is nearer by a third, as points are given from one end.
 std::size_t insertionIndex(const Tube& tube, const Eigen::Vector3d& point);
 
-/// The tube as one segment on a grid: a voxel belongs if the tube covers at least half of it.
-/// `scale` widens or narrows all radii. A tube thinner than the voxels may be empty or in pieces.
-/// Throws InvalidParameter if the tube has no line or the index is 0.
-volume::LabelMap labelTube(const Tube& tube, const core::GridGeometry& geometry,
-                           const volume::Segment& segment, double scale = 1.0,
-                           const core::Progress& progress = {});
+/// A tube's voxels as the only segment of a label map.
+struct TubeLabel
+{
+  volume::LabelMap map;
+  std::uint64_t bridging = 0; ///< voxels of it that the tube covers by less than half
+};
+
+/// The tube on a grid: a voxel belongs if the tube covers at least half of it. Where the tube is so
+/// thin that these voxels leave a gap along its line, those that the line crosses bridge it: from
+/// one end of the line to the other, as far as the grid reaches, there is a chain of voxels that
+/// share faces. `scale` widens or narrows all radii. Throws InvalidParameter if the tube has no
+/// line or the index is 0.
+TubeLabel labelTube(const Tube& tube, const core::GridGeometry& geometry,
+                    const volume::Segment& segment, double scale = 1.0,
+                    const core::Progress& progress = {});
 
 } // namespace petrous::segmentation

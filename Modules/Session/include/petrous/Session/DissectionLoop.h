@@ -7,6 +7,7 @@
 #include "petrous/Dissection/Dissection.h"
 #include "petrous/Session/MaskEdit.h"
 #include "petrous/Session/RemovalModel.h"
+#include "petrous/Session/SpindleMeter.h"
 #include "petrous/Volume/PublishedMask.h"
 
 namespace petrous::session
@@ -76,6 +77,7 @@ private:
   double secondsOf(const TickRecord& record);
   bool follow(const TickRecord& record);
   bool cut(const dissection::SweptSphere& burr);
+  void drilled(const TickRecord& record, double seconds);
   void open();
   bool turn(bool back);
   void publish(bool raised);
@@ -89,6 +91,7 @@ private:
   Hooks m_hooks;
   double m_time = 0.0;
   bool m_hasTime = false;
+  SpindleMeter m_spindle;  // of the open stroke
   bool m_on = false;       // the drill, in the last tick
   bool m_untilOff = false; // it has been on since before undo or redo
   double m_ignoreUntil = -std::numeric_limits<double>::infinity();

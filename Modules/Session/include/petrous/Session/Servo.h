@@ -102,10 +102,12 @@ private:
   bool m_placed = false; ///< the first good reading has arrived
   bool m_giving = false; ///< force was enabled at the last tick
   bool m_wasUsable = false;
-  bool m_touches = false; ///< at the last tick
-  bool m_inside = false;  ///< at the last tick
-  bool m_pedalOn = false; ///< ServoParameters::kPedalSpeed
-  bool m_arrived = false; ///< the pressed tool has been where it was pressed
+  bool m_touches = false;                   ///< at the last tick
+  bool m_inside = false;                    ///< at the last tick
+  bool m_pedalOn = false;                   ///< ServoParameters::kPedalSpeed
+  bool m_arrived = false;                   ///< the pressed tool has been where it was pressed
+  Eigen::Vector3d m_stillAt{0.0, 0.0, 0.0}; ///< where a pressed tool has rested for m_stillFor
+  double m_stillFor = 0.0;                  ///< s
   double m_postponed = 0.0;
   double m_back = 0.0; ///< mm from its target towards the camera, tried next
   int m_rest = 0;      ///< ticks until the next search for another position

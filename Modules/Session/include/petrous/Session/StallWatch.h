@@ -10,8 +10,8 @@
 namespace petrous::session
 {
 
-/// Detects a drilling burr that makes no progress, and what holds it off. Uses the records'
-/// timestamps; one record per frame is enough.
+/// Detects a pressed burr that should drill and makes no progress, and what holds it off. Uses the
+/// records' timestamps; one record per frame is enough.
 class StallWatch
 {
 public:
@@ -26,16 +26,27 @@ public:
 
   /// TickRecord::kShaft, kHandpiece: what holds the burr off the bone; 0: nothing.
   std::uint8_t heldBy() const noexcept { return m_told; }
-  bool stalls() const noexcept { return m_stalls; } ///< it is pressed and makes no progress
+  /// It drills and is pressed, and stands still or removes nothing (TickRecord::maskState).
+  bool stalls() const noexcept { return m_stalls; }
+  /// It is pressed, but does not drill, as it does not get to where it is pressed (isArriving).
+  bool cannotArrive() const noexcept { return m_cannotArrive; }
 
 private:
-  std::optional<Eigen::Vector3d> m_from; // where it has stood since m_since
-  double m_since = 0.0;                  // s
-  double m_pressed = 0.0;                // s, last time with force
-  std::optional<double> m_heldAt;        // s, last
-  std::uint8_t m_held = 0;               // at that time
+  struct Progress
+  {
+    Eigen::Vector3d place; // within kWay of where it has stood since `stood`
+    double stood;          // s
+    std::uint64_t mask;    // of the last tick
+    double cut;            // s, last removal
+    double arrived;        // s, last time it was not on its way
+  };
+  std::optional<Progress> m_last;
+  double m_pressed = 0.0;         // s, last time with force
+  std::optional<double> m_heldAt; // s, last
+  std::uint8_t m_held = 0;        // at that time
   std::uint8_t m_told = 0;
   bool m_stalls = false;
+  bool m_cannotArrive = false;
 };
 
 } // namespace petrous::session

@@ -30,6 +30,8 @@ struct TickInput
   bool pedalDown() const noexcept; ///< of a tick: the servo sets a pedal that is not on to 0
   /// Fraction of the spindle's speed that is wanted, 0 to 1 (ServoParameters::kPedalSpeed).
   double spindle() const noexcept;
+  /// Whether the pedal's pressure is that fraction, and not a button, key or switch.
+  bool pedalSetsSpeed() const noexcept;
   /// The tool is held in place, by parameter or button.
   bool clutched() const noexcept;
 };
@@ -94,6 +96,9 @@ std::string holderToString(std::uint8_t held);
 
 /// The drill is on, and shaft or handpiece carry most of the burr's force.
 bool isHeldOff(const TickRecord& record) noexcept;
+
+/// The drill is to be on, but a pointer's tool is still on its way to where it is pressed.
+bool isArriving(const TickRecord& record) noexcept;
 
 /// Whether two records are bit-identical.
 bool identical(const TickRecord& a, const TickRecord& b) noexcept;

@@ -1,9 +1,20 @@
 #pragma once
 
+#include <optional>
+
 #include "petrous/Volume/IntensityHistogram.h"
 
 namespace petrous::volume
 {
+
+/// Of soft tissue in an image that is not in Hounsfield units; estimates.
+struct SoftTissueValues
+{
+  /// Where the values of air end: the equivalent of -700 HU, or more where noise of air reaches
+  /// beyond. Always below peak.
+  double foot = 0.0;
+  double peak = 0.0; ///< the equivalent of 40 HU
+};
 
 /// Bone intensities of an image.
 struct IntensityScale
@@ -11,6 +22,7 @@ struct IntensityScale
   double iso = 300.0;     ///< bone surface: the value corresponding to 300 HU
   double dense = 1800.0;  ///< dense cortical bone; always above iso
   bool calibrated = true; ///< in Hounsfield units, with the values above
+  std::optional<SoftTissueValues> soft = std::nullopt; ///< not of Hounsfield units
 };
 
 /// Estimated from the histogram alone, so that bone is visible at once in cone-beam and micro-CT
@@ -24,8 +36,16 @@ struct IntensityScale
 /// two classes of Otsu's threshold (IEEE Trans. SMC 9:62, 1979). dense is the 99th percentile above
 /// iso.
 ///
+/// soft: of such peaks, if the lower one is that of air: nothing but its noise lies below it, it is
+/// narrower than what is above soft tissue, and that is as far from soft tissue and as wide as bone
+/// is. So a region without air, fat beside muscle, and an image whose air is bright have none; nor
+/// has an MR.
+///
 /// Without voxels: 300 and 1800, calibrated. Never throws; all values are finite.
 IntensityScale suggestScale(const IntensityHistogram& histogram);
+
+/// The scale, not calibrated, on which these values are -700 and 40 HU.
+IntensityScale scaleThrough(const SoftTissueValues& values) noexcept;
 
 /// The surface of the patient in an MR, which shows cortical bone as dark as air: of the three
 /// classes of Otsu's two thresholds (air and bone, tissue, bright fluid or fat), iso is the

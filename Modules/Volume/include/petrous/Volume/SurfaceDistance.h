@@ -32,6 +32,10 @@ public:
   /// where the surface is farther.
   double at(const Eigen::Vector3d& patient, double most) const;
 
+  /// At most what `at` gives, and at most a cell's diagonal less; a fraction of its cost, as no
+  /// cell is looked into. Inside 0 or less.
+  double bound(const Eigen::Vector3d& patient, double most) const;
+
   const core::GridGeometry& geometry() const noexcept { return m_occupancy->geometry(); }
   std::size_t bytes() const noexcept;
 
@@ -44,8 +48,10 @@ private:
   };
   struct Search;
 
+  bool isInside(const Eigen::Vector3d& voxel, const Eigen::Vector3d& position) const;
   double squareTo(const Box& box, const Eigen::Vector3d& position) const noexcept;
-  void visit(Search& search, std::size_t level, std::size_t box) const;
+  template <class Look>
+  void visit(Search& search, std::size_t level, std::size_t box, const Look& look) const;
   void look(Search& search, const Cell& cell) const;
 
   std::shared_ptr<const Volume<float>> m_occupancy;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <random>
 #include <utility>
 
 #include "petrous/Haptics/ForceLimits.h"
@@ -14,7 +16,6 @@ namespace
 {
 
 constexpr double kTick = 0.001; // s
-constexpr int kCycles = 3;
 
 SimulatedDevice::Hand handOf(const RealDevice& real, SimulatedDevice::Hand hand)
 {
@@ -23,6 +24,34 @@ SimulatedDevice::Hand handOf(const RealDevice& real, SimulatedDevice::Hand hand)
   hand.friction = real.friction;
   return hand;
 }
+
+class MissedTicks
+{
+public:
+  explicit MissedTicks(const RealDevice& real)
+    : m_real(real)
+  {
+  }
+
+  // Of each tick once, in order.
+  bool operator()(int n)
+  {
+    if (m_real.dropEvery > 0 && n % m_real.dropEvery == 0)
+      return true;
+    if (m_left == 0 && m_real.missed > 0.0 &&
+        static_cast<double>(m_random()) < 4294967296.0 * m_real.missed / m_real.burst)
+      m_left = m_real.burst;
+    if (m_left == 0)
+      return false;
+    --m_left;
+    return true;
+  }
+
+private:
+  const RealDevice& m_real;
+  std::mt19937 m_random{1};
+  int m_left = 0;
+};
 
 } // namespace
 
@@ -71,14 +100,16 @@ Touching press(const RealDevice& real, const WallPress& how)
   ForceLimits limited(limits);
   limited.resume();
 
+  MissedTicks misses(real);
   Touching result;
-  double low = 1e9;
-  double high = -1e9;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  double low = none; // of this cycle
+  double high = -none;
   device.read(0.0);
   double before = device.pose().position.x();
   double energy = 0.0; // of this cycle, which begins and ends before the wall
   int cycle = 0;
-  for (int n = 1; n <= static_cast<int>((kCycles + 0.001) * period / kTick); ++n)
+  for (int n = 1; n <= static_cast<int>((how.times + 0.001) * period / kTick); ++n)
   {
     const double now = kTick * n;
     const Pose pose = device.read(now).pose;
@@ -90,7 +121,10 @@ Touching press(const RealDevice& real, const WallPress& how)
     {
       cycle = present;
       result.energyOut = std::max(result.energyOut, energy);
+      result.ripple = std::max(result.ripple, 0.5 * (high - low));
       energy = 0.0;
+      low = none;
+      high = -none;
     }
     const double at = std::fmod(now, period);
     if (at > how.rest - 0.2 && at < how.rest + 0.2)
@@ -99,7 +133,7 @@ Touching press(const RealDevice& real, const WallPress& how)
       high = std::max(high, acting);
     }
     result.mostForce = std::max(result.mostForce, std::abs(acting));
-    if (real.dropEvery > 0 && n % real.dropEvery == 0)
+    if (misses(n))
       continue;
     Wrench wanted;
     wanted.linear.x() = how.stiffness * std::max(0.0, -pose.position.x());
@@ -107,7 +141,6 @@ Touching press(const RealDevice& real, const WallPress& how)
     guard.sent(output);
     device.send(output);
   }
-  result.ripple = 0.5 * (high - low);
   return result;
 }
 

@@ -19,6 +19,8 @@ struct RealDevice
   double quantum = 0.0;   ///< mm, of the encoders
   int dropEvery = 0;      ///< ticks: every so many the servo misses one; 0: none
   double maxForce = 10.0; ///< N
+  double missed = 0.0;    ///< share of the ticks that the servo misses at random, in [0, 1)
+  int burst = 1;          ///< ticks that it misses at a time, of those
 };
 
 /// What the program sees of such a device: positions on the encoders' grid, and wrenches that act
@@ -39,7 +41,7 @@ private:
 };
 
 /// How a hand presses on a wall: from 2 mm before it, in 0.2 s to 6 mm behind it (with a stiff wall
-/// six times its own stiffness), where it rests, and back; three times.
+/// six times its own stiffness), where it rests, and back.
 struct WallPress
 {
   double stiffness = 1.0; ///< of the wall, N/mm
@@ -48,6 +50,7 @@ struct WallPress
   double handStiffness = SimulatedDevice::Hand().stiffness;
   double rest = 1.0;     ///< s on the wall, >= 0.5
   double subStep = 1e-4; ///< s, of the simulated handle
+  int times = 3;         ///< > 0
 };
 
 struct Touching
@@ -55,7 +58,7 @@ struct Touching
   double energyOut = 0.0; ///< N mm (mJ) that came out at the handle in the worst cycle: the motors'
                           ///< work less the friction of the joints
   double ripple = 0.0; ///< N, half of the force's range in 0.4 s of the hand's rest, 0.1 s before
-                       ///< its end
+                       ///< its end, in the worst cycle
   double mostForce = 0.0; ///< N
 
   static constexpr double kMostEnergy = 0.1;  ///< mJ

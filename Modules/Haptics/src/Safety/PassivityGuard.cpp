@@ -58,10 +58,12 @@ PassivityGuard::PassivityGuard(const Parameters& parameters)
   check(positive(parameters.lever), "the lever must be above 0 mm");
 }
 
-double PassivityGuard::maxStored(const Wrench& wanted) const noexcept
+double PassivityGuard::maxStored(const Wrench& wanted,
+                                 const Eigen::Vector3d& position) const noexcept
 {
-  return storedBy(wanted.linear, m_parameters.stiffness) +
-         storedBy(wanted.angular, m_parameters.angularStiffness);
+  return std::max(0.0, storedBy(wanted.linear, m_parameters.stiffness) +
+                           wanted.linear.dot(position - m_pose.position) +
+                           storedBy(wanted.angular, m_parameters.angularStiffness));
 }
 
 // Of each axis, from the readings.
@@ -90,6 +92,7 @@ Wrench PassivityGuard::apply(const Wrench& wanted, const Pose& pose, double now)
   const bool observed =
       m_hasPose && pose.finite() && dt > 0.0 && dt <= kMaxStep; // false if dt is NaN
   Motion step;
+  double friction = 0.0; // N mm
   if (observed)
   {
     lookForCounts(pose.position);
@@ -99,11 +102,12 @@ Wrench PassivityGuard::apply(const Wrench& wanted, const Pose& pose, double now)
       {
         const double slack = std::min(0.5 * m_count[axis], kFriction / m_parameters.stiffness);
         step.linear[axis] -= std::clamp(step.linear[axis], -slack, slack);
+        friction += m_parameters.stiffness * slack * std::abs(step.linear[axis]);
       }
     m_energy += (m_parameters.deviceDamping * step.linear.squaredNorm() +
                  m_parameters.deviceAngularDamping * step.angular.squaredNorm()) /
-                    dt -
-                m_sent.linear.dot(step.linear) - m_sent.angular.dot(step.angular);
+                    dt +
+                friction - m_sent.linear.dot(step.linear) - m_sent.angular.dot(step.angular);
     if (!std::isfinite(m_energy)) // from implausible forces
       m_energy = 0.0;
   }
@@ -117,7 +121,7 @@ Wrench PassivityGuard::apply(const Wrench& wanted, const Pose& pose, double now)
     return wanted;
 
   const double debt = -m_energy - m_parameters.allowance;
-  m_energy = std::min(m_energy, maxStored(wanted));
+  m_energy = std::min(m_energy, maxStored(wanted, pose.position));
   const double lever2 = m_parameters.lever * m_parameters.lever;
   const double speed2 =
       (step.linear.squaredNorm() + lever2 * step.angular.squaredNorm()) / (dt * dt);

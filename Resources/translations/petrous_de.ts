@@ -2989,6 +2989,18 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <source>Tissue keeps the burr from where you press: press where the burr rests</source>
         <translation>Gewebe hält die Fräse von der gedrückten Stelle ab: dort drücken, wo die Fräse anliegt</translation>
     </message>
+    <message>
+        <source>The case keeps no instrument from the next save on</source>
+        <translation>Der Fall behält ab dem nächsten Speichern kein Instrument</translation>
+    </message>
+    <message>
+        <source>The case does not keep %1 from the next save on</source>
+        <translation>Der Fall behält %1 ab dem nächsten Speichern nicht mehr</translation>
+    </message>
+    <message>
+        <source>Drill &gt; Instrument takes it up again while its file is there</source>
+        <translation>Bohren &gt; Instrument nimmt es wieder auf, solange seine Datei da ist</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::DrillSound</name>
@@ -4256,6 +4268,10 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>It would move an MR while a registration is under way: wait for that, or cancel it</source>
         <translation>Das würde ein MR verschieben, während eine Registrierung läuft: sie abwarten oder abbrechen</translation>
+    </message>
+    <message>
+        <source>The case keeps no instrument</source>
+        <translation>Der Fall behält kein Instrument</translation>
     </message>
 </context>
 <context>
@@ -9389,6 +9405,14 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>The crosshair goes along while the drill is on, and with the tip of the pointer or the instrument</source>
         <translation>Das Fadenkreuz geht mit, während gebohrt wird, und mit der Spitze von Zeiger oder Instrument</translation>
+    </message>
+    <message>
+        <source>T&amp;ake the instrument out of the case</source>
+        <translation>Instrument &amp;aus dem Fall nehmen</translation>
+    </message>
+    <message>
+        <source>The next save keeps none with the case; its file stays as it is</source>
+        <translation>Das nächste Speichern behält keines mit dem Fall; seine Datei bleibt, wie sie ist</translation>
     </message>
 </context>
 </TS>

@@ -177,9 +177,23 @@ TEST(RecordedCourse, TellsTheSpeedThatAPedalGave)
   EXPECT_EQ(metricsCsv(review).find("mean_spindle_speed"), std::string::npos);
   review.speed = speed;
   const std::string metrics = metricsCsv(review);
-  EXPECT_NE(metrics.find("mean_spindle_speed_drilling,,37500,1/min"), std::string::npos)
-      << metrics;
+  EXPECT_NE(metrics.find("mean_spindle_speed_drilling,,37500,1/min"), std::string::npos) << metrics;
   EXPECT_NE(metrics.find("max_spindle_speed,,50000,1/min"), std::string::npos) << metrics;
+
+  const auto speeds = [&](std::uint8_t bits, double halfway)
+  {
+    review.course = course(bits).tools();
+    std::istringstream text(courseCsv(review));
+    core::readCsv(text, "course", {"t_s", "rpm"},
+                  [&](std::size_t, const std::vector<double>& row)
+                  {
+                    const double t = std::round(row[0] * 1000.0) / 1000.0;
+                    EXPECT_EQ(row[1], t < 1.0 ? 0.0 : t < 2.0 ? halfway : 50000.0) << t << " s";
+                  });
+    EXPECT_GT(review.course.size(), 200u);
+  };
+  speeds(session::ServoParameters::kPedalSpeed, 25000.0);
+  speeds(0, 50000.0); // a switch
 }
 
 TEST(RecordedCourse, CountsNoTremorAsPath)

@@ -83,7 +83,7 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
             const QString file = m_fileRead;
             if (file.isEmpty()) // of the case, which keeps it as it is
             {
-              m_ofCase.reset();
+              keep(std::nullopt);
               emit statusMessage({});
               emit instrumentRefused(why);
               return;
@@ -356,12 +356,37 @@ void DrillController::setCaseInstrument(
     const std::optional<scene::ViewState::Instrument>& instrument)
 {
   const bool isLoaded = m_loaded && instrument && *m_loaded == *instrument;
-  m_ofCase = instrument;
+  keep(instrument);
   if (isLoaded || (!instrument && !m_isLoadedFromCase))
     return;
   m_instrument.reset(); // it is read when it is taken up
   m_measured.reset();
   m_loaded.reset();
+}
+
+void DrillController::keep(const std::optional<scene::ViewState::Instrument>& instrument)
+{
+  m_ofCase = instrument;
+  emit caseInstrumentChanged();
+}
+
+void DrillController::takeOutInstrument()
+{
+  if (!m_model.hasCase())
+    return;
+  if (m_tool == Tool::Instrument)
+    releaseTool();
+  abandonReading();
+  scene::ViewState view = m_model.value().view;
+  const auto& kept = m_ofCase ? m_ofCase : view.instrument;
+  const QString name = kept ? words(kept->name) : QString();
+  view.instrument.reset();
+  m_model.setView(view);
+  setCaseInstrument(std::nullopt);
+  emit statusMessage((name.isEmpty()
+                          ? tr("The case keeps no instrument from the next save on")
+                          : tr("The case does not keep %1 from the next save on").arg(name)) +
+                     ". " + tr("Drill > Instrument takes it up again while its file is there"));
 }
 
 void DrillController::readCaseInstrument()
@@ -392,7 +417,8 @@ void DrillController::instrumentCame(const QString& file, const scene::ViewState
 {
   m_instrument = std::move(instrument.instrument);
   m_measured = std::move(measured);
-  m_loaded = m_ofCase = kept;
+  m_loaded = kept;
+  keep(kept);
   m_isLoadedFromCase = file.isEmpty();
   if (!file.isEmpty())
   {
@@ -456,7 +482,7 @@ void DrillController::setTool(Tool tool)
                                       : readInstrument(m_instrumentFile, m_instrumentAxis);
   }
   if (tool == Tool::Instrument)
-    m_ofCase = m_loaded;
+    keep(m_loaded);
   m_view.tool().DrillModeOff(); // stops the drill first
   m_view.tool().ProbeModeOff();
   putAway();

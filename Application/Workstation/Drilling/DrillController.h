@@ -55,6 +55,8 @@ public:
   }
   /// Asks the user for a file, reads it in the background, and then asks for the axis.
   void chooseInstrument();
+  /// The case keeps no instrument any more; one in the hand is put away. Its file stays known.
+  void takeOutInstrument();
 
   DrillSound& sound() noexcept { return m_sound; }
 
@@ -80,6 +82,7 @@ signals:
   void statusMessage(const QString& line); ///< progress of slow operations, or errors
   void instrumentRead(const QString& file, const QString& axis);
   void instrumentRefused(const QString& why);
+  void caseInstrumentChanged(); ///< caseInstrument()
   /// Which tool is in the hand changed; `instrument`: its file's name, empty for another or none.
   void toolChanged(const QString& instrument);
   void faulted(const QString& line); ///< of the touch session; empty when it works again
@@ -103,6 +106,7 @@ private:
   void makeInstrument(const QString& file, const QString& axis,
                       presenters::InstrumentSurface surface);
   void readCaseInstrument();
+  void keep(const std::optional<scene::ViewState::Instrument>& instrument); // with the case
   /// What makes an instrument of a surface; `file` is empty if that is the case's. For m_reading.
   BackgroundWork::Reply made(const QString& file, const scene::ViewState::Instrument& kept,
                              presenters::InstrumentSurface surface, const core::Progress& progress);
@@ -144,7 +148,7 @@ private:
   std::shared_ptr<const session::Instrument> m_instrument;
   std::shared_ptr<const presenters::MeasuredTool> m_measured; // it
   std::optional<scene::ViewState::Instrument> m_loaded;       // it, as a case keeps it
-  std::optional<scene::ViewState::Instrument> m_ofCase;
+  std::optional<scene::ViewState::Instrument> m_ofCase;       // keep()
   bool m_isLoadedFromCase = false;
   QString m_instrumentFile, m_instrumentAxis;
   QString m_fileRead;                   // the one being read; empty: the case's instrument

@@ -246,6 +246,36 @@ TEST_F(InstrumentWindow, IsKeptWithTheCaseAndTakenUpThereThoughItsFileIsGone)
   EXPECT_TRUE(action("Instrument")->toolTip().startsWith("own.obj"));
 }
 
+TEST_F(InstrumentWindow, IsTakenOutOfTheCaseAndItsFileStays)
+{
+  saveBall("ball");
+  openWindow("ball");
+  QAction* out = action("Take the instrument out of the case");
+  EXPECT_FALSE(out->isEnabled());
+  drillController().readInstrument(writePick("pick.obj"), "z+");
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  EXPECT_TRUE(out->isEnabled());
+  save();
+  ASSERT_TRUE(library().open("ball").view.instrument);
+
+  out->trigger();
+  EXPECT_FALSE(action("Instrument")->isChecked()) << "put away";
+  EXPECT_FALSE(out->isEnabled());
+  save();
+  EXPECT_FALSE(library().open("ball").view.instrument);
+  EXPECT_TRUE(std::filesystem::exists(folder() / "pick.obj"));
+  closeWindow();
+
+  openWindow("ball");
+  EXPECT_FALSE(action("Take the instrument out of the case")->isEnabled());
+  action("Instrument")->trigger(); // from its file
+  ASSERT_TRUE(waitFor([this] { return action("Instrument")->isChecked(); }));
+  EXPECT_TRUE(action("Take the instrument out of the case")->isEnabled());
+  action("Close the case")->trigger();
+  ASSERT_TRUE(waitFor([this] { return !window().model().hasCase(); }));
+  EXPECT_FALSE(action("Take the instrument out of the case")->isEnabled());
+}
+
 TEST_F(InstrumentWindow, ThatACaseHasLostIsSaidAndStaysInIt)
 {
   scene::Case value = ballCase("ball");
@@ -264,6 +294,11 @@ TEST_F(InstrumentWindow, ThatACaseHasLostIsSaidAndStaysInIt)
   closeWindow();
   ASSERT_TRUE(library().open("ball").view.instrument);
   EXPECT_EQ(library().open("ball").view.instrument->object, object);
+
+  openWindow("ball");
+  action("Take the instrument out of the case")->trigger();
+  save();
+  EXPECT_FALSE(library().open("ball").view.instrument);
 }
 
 // What is still being read does not take the tool out of the hand.

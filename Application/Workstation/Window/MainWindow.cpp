@@ -713,6 +713,8 @@ void MainWindow::connectActions()
             m_settings->keepBurrAlone(alone);
           });
   on(m_actions->instrumentFile, [this] { m_drill->chooseInstrument(); });
+  on(m_actions->instrumentOut, [this] { m_drill->takeOutInstrument(); });
+  connect(m_drill, &DrillController::caseInstrumentChanged, this, &MainWindow::showInstrumentOut);
   connect(m_drill, &DrillController::instrumentRead, this,
           [this](const QString& file, const QString& axis)
           { m_settings->keepInstrument(file, axis); });
@@ -884,6 +886,14 @@ void MainWindow::connectThumbnails()
   drawer->setEnabled(m_settings->thumbnails());
   connect(m_library->drawThumbnails(), &QAction::toggled, this,
           [this](bool drawn) { m_settings->keepThumbnails(drawn); });
+}
+
+void MainWindow::showInstrumentOut()
+{
+  const bool open = m_model.hasCase();
+  enable(*m_actions->instrumentOut,
+         open && (m_drill->caseInstrument() || m_model.value().view.instrument),
+         open ? tr("The case keeps no instrument") : tr("Open a case first"));
 }
 
 void MainWindow::showUndo()
@@ -1232,6 +1242,7 @@ void MainWindow::stateChanged()
   m_branches->stateChanged();
   m_comparison->stateChanged();
   m_stamps->stateChanged();
+  showInstrumentOut();
   showUndo();
   if (!open)
     return setWindowTitle(program);

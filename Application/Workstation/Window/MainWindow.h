@@ -113,6 +113,7 @@ private:
   void stateChanged();
   void saveLater();
   void showUndo();
+  void showInstrumentOut();
   bool undoesSegment() const;
   bool redoesSegment() const;
   void step(bool back);                       // undo or redo

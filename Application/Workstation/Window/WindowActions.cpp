@@ -206,6 +206,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   instrumentFile = make(drill, tr("Instr&ument from a file…"), {},
                         tr("A closed surface (OBJ, STL, PLY, VTP) of 1 to 300 mm, its tip at the "
                            "origin: it is felt and drawn, and removes nothing"));
+  instrumentOut = make(drill, tr("T&ake the instrument out of the case"), {},
+                       tr("The next save keeps none with the case; its file stays as it is"));
   drill->addAction(drillBar.wheelAction());
   drill->addAction(deviceBar.hereAction());
   drill->addActions({deviceBar.connectAction(), deviceBar.testAction()});

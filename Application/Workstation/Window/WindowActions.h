@@ -79,6 +79,7 @@ public:
   QAction* drillSound;    ///< checkable
   QAction* strokeCamera;  ///< checkable
   QAction* instrumentFile;
+  QAction* instrumentOut;
   QAction* smallerBurr;
   QAction* largerBurr;
   QAction* otherKind;

@@ -151,6 +151,7 @@ bool RecordedCourse::add(const session::TickRecord& record)
   tool.drilling = record.drill != 0;
   tool.force = forceOf(record.wrench.force);
   tool.thrust = record.thrust;
+  tool.spindle = tool.drilling ? record.input.spindle() : 0.0;
   const bool isFirst = !m_placed;
   if (isFirst)
   {
@@ -226,6 +227,8 @@ std::optional<RecordedTool> toolAt(const std::vector<RecordedTool>& course, doub
     tool.axisToHand = axis.normalized();
   tool.force += share * (b.force - a.force);
   tool.thrust += share * (b.thrust - a.thrust);
+  if (tool.drilling && b.drilling)
+    tool.spindle += share * (b.spindle - a.spindle);
   return tool;
 }
 

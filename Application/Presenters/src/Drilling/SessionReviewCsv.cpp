@@ -47,7 +47,7 @@ std::string metricsCsv(const SessionReview& review)
 
 std::string courseCsv(const SessionReview& review)
 {
-  std::string text = "t_s,x_mm,y_mm,z_mm,ax,ay,az,drill,force_n,thrust_n\n";
+  std::string text = "t_s,x_mm,y_mm,z_mm,ax,ay,az,drill,force_n,thrust_n,rpm\n";
   for (const RecordedTool& tool : review.course)
   {
     text += core::fixedText(tool.time, 4);
@@ -56,7 +56,8 @@ std::string courseCsv(const SessionReview& review)
     for (const double value : {tool.axisToHand.x(), tool.axisToHand.y(), tool.axisToHand.z()})
       text += "," + core::fixedText(value, 6);
     text += std::string(",") + (tool.drilling ? "1" : "0") + "," + core::fixedText(tool.force, 4) +
-            "," + core::fixedText(tool.thrust, 4) + "\n";
+            "," + core::fixedText(tool.thrust, 4) + "," +
+            core::fixedText(review.burr.rpm * tool.spindle, 0) + "\n";
   }
   return text;
 }

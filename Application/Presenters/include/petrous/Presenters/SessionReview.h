@@ -24,6 +24,7 @@ struct RecordedTool
   bool drilling = false;                     ///< the burr turns
   double force = 0.0;                        ///< N, on the hand
   double thrust = 0.0;                       ///< N, of the burr's contacts
+  double spindle = 0.0;                      ///< of the set speed, 0 to 1; 0 while it does not turn
 };
 
 /// Economy of motion and force of a recording.
@@ -107,7 +108,7 @@ SessionReview reviewRecording(const std::filesystem::path& file, scene::Case val
 std::string metricsCsv(const SessionReview& review);
 
 /// As CSV, a row per sample of the course: time, centre and axis of the burr (patient LPS mm),
-/// drill, force on the hand and thrust.
+/// drill, force on the hand, thrust and speed of the spindle.
 std::string courseCsv(const SessionReview& review);
 
 } // namespace petrous::presenters

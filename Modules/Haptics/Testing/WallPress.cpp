@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <utility>
 
 #include "petrous/Haptics/ForceLimits.h"
@@ -25,35 +24,26 @@ SimulatedDevice::Hand handOf(const RealDevice& real, SimulatedDevice::Hand hand)
   return hand;
 }
 
-class MissedTicks
-{
-public:
-  explicit MissedTicks(const RealDevice& real)
-    : m_real(real)
-  {
-  }
-
-  // Of each tick once, in order.
-  bool operator()(int n)
-  {
-    if (m_real.dropEvery > 0 && n % m_real.dropEvery == 0)
-      return true;
-    if (m_left == 0 && m_real.missed > 0.0 &&
-        static_cast<double>(m_random()) < 4294967296.0 * m_real.missed / m_real.burst)
-      m_left = m_real.burst;
-    if (m_left == 0)
-      return false;
-    --m_left;
-    return true;
-  }
-
-private:
-  const RealDevice& m_real;
-  std::mt19937 m_random{1};
-  int m_left = 0;
-};
-
 } // namespace
+
+MissedTicks::MissedTicks(const RealDevice& real)
+  : m_every(real.dropEvery)
+  , m_share(real.missed / real.burst)
+  , m_burst(real.burst)
+{
+}
+
+bool MissedTicks::operator()(int tick)
+{
+  if (m_every > 0 && tick % m_every == 0)
+    return true;
+  if (m_left == 0 && m_share > 0.0 && static_cast<double>(m_random()) < 4294967296.0 * m_share)
+    m_left = m_burst;
+  if (m_left == 0)
+    return false;
+  --m_left;
+  return true;
+}
 
 TransmittedDevice::TransmittedDevice(const RealDevice& real, Target target, Hand hand)
   : SimulatedDevice(std::move(target), handOf(real, hand), {})
@@ -137,7 +127,9 @@ Touching press(const RealDevice& real, const WallPress& how)
       continue;
     Wrench wanted;
     wanted.linear.x() = how.stiffness * std::max(0.0, -pose.position.x());
-    const Wrench output = limited.apply(how.guarded ? guard.apply(wanted, pose, now) : wanted, now);
+    const Wrench passed = how.guarded ? guard.apply(wanted, pose, now) : wanted;
+    result.changed = std::max(result.changed, std::abs(passed.linear.x() - wanted.linear.x()));
+    const Wrench output = limited.apply(passed, now);
     guard.sent(output);
     device.send(output);
   }

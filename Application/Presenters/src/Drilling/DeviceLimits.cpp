@@ -25,7 +25,9 @@ bool sound(double stiffness)
 }
 
 constexpr double kMostOfDescribed = 2.0;
-constexpr double kUntested = 0.5; // of the described
+constexpr double kUntested = 0.25;    // of the described
+constexpr double kMostUntested = 0.5; // N/mm
+constexpr double kSoft = 0.2;         // N/mm: rendered by any device with force feedback
 
 // Null if it is no such file.
 nlohmann::json entriesOf(const std::filesystem::path& path)
@@ -80,7 +82,7 @@ double boundedStiffness(double measured, double described) noexcept
 
 double untestedStiffness(double described) noexcept
 {
-  return kUntested * described;
+  return std::clamp(kUntested * described, std::min(0.5 * described, kSoft), kMostUntested);
 }
 
 std::optional<double> keptStiffness(const std::filesystem::path& file, const std::string& server,

@@ -876,6 +876,44 @@ TEST_F(CommandLine, OutputsReplaceNeitherInputsNorTheLibrary)
   json("export ear --what ct --out " + quoted(library() / "mine.nrrd"));
 }
 
+TEST_F(CommandLine, OutputsReplaceNoFileThatACaseWasMadeFrom)
+{
+  makePatient("--dims 24,24,24 --spacing 2.5");
+  json("new ear --ct " + quoted(m_folder / "patient/ct") + " --labels " +
+       quoted(m_folder / "patient/labels.seg.nrrd"));
+  const auto labels = m_folder / "patient/labels.seg.nrrd";
+  const std::string content = textOf(labels);
+  expectRefused("export ear --what labels --out " + quoted(labels), 4, "a case was made from");
+  EXPECT_EQ(textOf(labels), content);
+  for (const auto& entry : std::filesystem::directory_iterator(m_folder / "patient/ct"))
+  {
+    const std::string slice = textOf(entry.path());
+    expectRefused("archive ear " + quoted(entry.path()), 4, "a case was made from");
+    EXPECT_EQ(textOf(entry.path()), slice);
+  }
+  // What a command wrote itself is replaced.
+  for (int n = 0; n < 2; ++n)
+    json("export ear --what ct --out " + quoted(m_folder / "patient/ct/mine.nrrd"));
+  json("new copy --ct " + quoted(m_folder / "patient/ct/mine.nrrd"));
+  expectRefused("export ear --what ct --out " + quoted(m_folder / "patient/ct/mine.nrrd"), 4,
+                "a case was made from");
+  // A DICOM series does not come among other files.
+  expectRefused("export ear --what ct --out " + quoted(m_folder / "patient/ct/"), 4, "not empty");
+}
+
+TEST_F(CommandLine, ALibraryIsAFolderThatCanBeThere)
+{
+  std::ofstream(m_folder / "file") << "x";
+  const std::string file = quoted(m_folder / "file");
+  const std::string nowhere = quoted(m_folder / "none/library");
+  for (const std::string command : {"library list", "info ear", "nodes list", "library verify"})
+  {
+    expectRefused(command + " --library " + file, 3, "file: is a file; a library is a folder");
+    expectRefused(command + " --library " + nowhere, 3, "none is not there");
+  }
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "none"));
+}
+
 TEST_F(CommandLine, AddTellsOnlyWhatIsNew)
 {
   makePatient();

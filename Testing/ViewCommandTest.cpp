@@ -138,3 +138,31 @@ TEST_F(ViewCommand, KeepsShowsAndRemovesViewsByName)
   json("view ear --remove 'Right ear'");
   EXPECT_TRUE(json("view ear").at("saved").empty());
 }
+
+// Nothing is saved where nothing changes: another program may have the case open.
+TEST_F(ViewCommand, ChangesNothingWhereTheSameInstrumentIsTakenUpAgain)
+{
+  const auto file = m_folder / "pick.obj";
+  const auto write = [&file](const char* length)
+  {
+    std::ofstream(file) << "v 0 0 0\nv 1.25 0 " << length << "\nv -1 1 60\nv 0 -1 60\n"
+                        << "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  };
+  write("60");
+  const std::string take = "view ear --instrument " + quoted(file) + " --tool-axis z+";
+  EXPECT_TRUE(json(take).at("changed"));
+  EXPECT_FALSE(json(take).at("changed"));
+  write("60.5");
+  EXPECT_TRUE(json(take).at("changed"));
+  // A lost one is put back by its file.
+  const std::string object = json("view ear").at("instrument").at("object");
+  std::filesystem::remove(m_folder / "library/objects" / object);
+  const auto path = m_folder / "path.csv";
+  std::ofstream(path) << "x_mm,y_mm,z_mm\n0,0,0\n1,0,0\n";
+  const auto lost = run("drill ear --case-tool --path " + quoted(path));
+  EXPECT_EQ(lost.code, 3);
+  EXPECT_NE(lost.err.find("the instrument of case 'ear'"), std::string::npos) << lost.err;
+  EXPECT_NE(lost.err.find("--clear instrument"), std::string::npos) << lost.err;
+  EXPECT_EQ(lost.err.find("--without-damaged"), std::string::npos) << lost.err;
+  EXPECT_EQ(run(take).code, 0);
+}

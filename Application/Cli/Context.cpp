@@ -212,10 +212,14 @@ library::Library Context::openLibrary() const
 
 std::filesystem::path Context::libraryFolder() const
 {
-  if (!m_library.empty())
-    return m_library;
-  if (const char* path = std::getenv("PETROUS_LIBRARY"); path && *path)
-    return path;
+  std::filesystem::path named = m_library;
+  if (const char* path = std::getenv("PETROUS_LIBRARY"); named.empty() && path && *path)
+    named = path;
+  if (!named.empty())
+  {
+    library::checkLibraryFolder(named);
+    return named;
+  }
   if (const auto path = library::defaultFolder(); !path.empty())
     return path;
   throw UsageError("no home folder for the library; give --library DIR");

@@ -60,8 +60,8 @@ public:
   /// `printJson` do it themselves.
   void refuseDamaged() const;
 
-  /// Refuses output files that would replace an input of the command, each other, or a file of the
-  /// library; empty names are ignored. Call before anything is computed.
+  /// Refuses output files that would replace an input of the command, each other, or what
+  /// library::refuseOverwriting refuses; empty names are ignored. Call before anything is computed.
   void refuseOverwriting(const std::vector<std::string>& outputs,
                          const std::vector<std::string>& inputs = {}) const;
 
@@ -83,7 +83,8 @@ public:
   /// The same with a listener of one's own.
   core::Progress progress(core::Progress::Listener listener) const;
 
-  /// --library, else $PETROUS_LIBRARY, else the user's data folder; it need not be there.
+  /// --library, else $PETROUS_LIBRARY, else the user's data folder; it need not be there. Throws
+  /// LibraryError (library::checkLibraryFolder).
   std::filesystem::path libraryFolder() const;
 
 private:

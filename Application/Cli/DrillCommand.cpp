@@ -206,8 +206,15 @@ void play(const Context& context, const Options& options)
       throw core::InvalidParameter("case '" + value.name +
                                    "' keeps no instrument; give one with --tool, or keep one with "
                                    "'petrous view --instrument'");
-    takeUp(presenters::surfaceOf(*value.view.instrument), value.view.instrument->axis,
-           "the instrument of case '" + value.name + "'");
+    try
+    {
+      takeUp(presenters::surfaceOf(*value.view.instrument), value.view.instrument->axis,
+             "the instrument of case '" + value.name + "'");
+    }
+    catch (const library::StructureError& error) // --without-damaged is no way round
+    {
+      throw library::LibraryError(error.reason, error.what());
+    }
   }
   const library::SavedState opened = value;
   tool.camera = presenters::currentCamera(value);

@@ -80,13 +80,20 @@ void find(const Context& context, const library::Library& library, const Options
   printCases(context, library, library.search(filter));
 }
 
-void verify(const Context& context, const library::Library& library)
+// A folder that was named, and not the usual one, which the first case makes.
+void requireFolder(const library::Library& library)
 {
-  if (!std::filesystem::is_directory(library.folder()))
+  if (!std::filesystem::is_directory(library.folder()) &&
+      library.folder() != library::defaultFolder())
     throw library::LibraryError(library::LibraryError::Reason::NotFound,
                                 library.folder().string() +
                                     ": there is no such folder; is the path right, and its disk "
                                     "mounted?");
+}
+
+void verify(const Context& context, const library::Library& library)
+{
+  requireFolder(library);
   const library::Inspection found = library.verify(context.progress());
   const std::size_t count = found.damaged.size();
   nlohmann::json damaged = nlohmann::json::array();
@@ -123,6 +130,7 @@ void verify(const Context& context, const library::Library& library)
 
 void collect(const Context& context, library::Library& library)
 {
+  requireFolder(library);
   const library::Collected removed = library.collectGarbage(context.progress());
   if (removed.cases > 0)
     context.print(std::to_string(removed.cases) +

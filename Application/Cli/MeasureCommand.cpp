@@ -323,6 +323,7 @@ void measure(Context& context, const Options& options)
         throw core::InvalidParameter("case '" + value.name + "' has no MR '" + images.back() + "'");
     }
     scene::setImages(one, std::move(images));
+    scene::setReadings(value, one);
     addAll(answer, value, one);
     addLegs(answer, value, one);
   }

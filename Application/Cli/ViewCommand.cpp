@@ -263,6 +263,20 @@ nlohmann::json viewJson(const scene::Case& value)
           {"instrument", std::move(instrument)}};
 }
 
+// By content, as one is not stored yet.
+bool isSameInstrument(const ViewState::Instrument& kept, const ViewState::Instrument& read)
+try
+{
+  const core::TriangleMesh& one = *kept.mesh.get();
+  const core::TriangleMesh& other = *read.mesh.get();
+  return kept.name == read.name && kept.axis == read.axis && one.vertices == other.vertices &&
+         one.triangles == other.triangles;
+}
+catch (const library::LibraryError&)
+{
+  return false; // lost: it is stored again
+}
+
 void run(const Context& context, const ViewCommandOptions& options)
 {
   library::Library library = context.openLibrary();
@@ -278,6 +292,8 @@ void run(const Context& context, const ViewCommandOptions& options)
     for (const std::string& note : presenters::makeInstrument(surface, axis).notes)
       context.warn(options.instrument.file + ": " + note);
     instrument = presenters::keptInstrument(surface, axis);
+    if (value.view.instrument && isSameInstrument(*value.view.instrument, *instrument))
+      instrument = value.view.instrument; // which is stored
   }
   change(value, options, burr, instrument);
   warnOfView(context, value, options.view);

@@ -25,20 +25,38 @@
 #include "petrous/Devices/ServerCatalogue.h"
 #include "petrous/Imaging/FileError.h"
 #include "petrous/Library/DefaultFolder.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/DeviceLimits.h"
 #include "petrous/Rendering/RenderingError.h"
 
 namespace
 {
 
-// Empty: the user gives up.
+// Empty: the user gives up, or the folder that is named cannot be one.
 std::filesystem::path libraryFolder(const QCommandLineParser& parser)
 {
   QString folder = parser.value("library");
   if (folder.isEmpty())
     folder = qEnvironmentVariable("PETROUS_LIBRARY");
   if (!folder.isEmpty())
-    return QFile::encodeName(folder).toStdString();
+  {
+    const std::filesystem::path named = QFile::encodeName(folder).toStdString();
+    try
+    {
+      petrous::library::checkLibraryFolder(named);
+      return named;
+    }
+    catch (const petrous::library::LibraryError& error)
+    {
+      using petrous::workstation::MainWindow;
+      std::cerr << "petrous-workstation: " << error.what() << '\n';
+      QMessageBox box(QMessageBox::Warning, MainWindow::tr("Library"),
+                      petrous::workstation::toString(error));
+      box.setTextFormat(Qt::PlainText);
+      box.exec();
+      return {};
+    }
+  }
   for (;;) // the same default as the petrous command
     try
     {

@@ -174,6 +174,14 @@
         <source>main</source>
         <translation>Hauptzugang</translation>
     </message>
+    <message>
+        <source>Finishing: %1</source>
+        <translation>Wird beendet: %1</translation>
+    </message>
+    <message>
+        <source>work in the background</source>
+        <translation>Arbeit im Hintergrund</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation</name>

@@ -300,8 +300,8 @@
         <translation>Struktur „%1“ heißt so, da der eigene Name zu lang, vergeben oder reserviert ist oder unsichtbare Zeichen hat</translation>
     </message>
     <message>
-        <source>%1: has %#2 different values, each of which would be a structure, and at most %#3 are taken; an image is added as an MR, and of an atlas only what is needed</source>
-        <translation>%1: hat %#2 verschiedene Werte, von denen jeder eine Struktur würde, und höchstens %#3 werden übernommen; ein Bild wird als MR hinzugefügt, und von einem Atlas nur, was gebraucht wird</translation>
+        <source>%1: has %#2 structures or different values, and at most %#3 are taken as structures; an image is added as an MR, and of an atlas only what is needed</source>
+        <translation>%1: hat %#2 Strukturen oder verschiedene Werte, und höchstens %#3 werden als Strukturen übernommen; ein Bild wird als MR hinzugefügt, und von einem Atlas nur das, was gebraucht wird</translation>
     </message>
     <message>
         <source>label %#1</source>
@@ -1172,8 +1172,12 @@
         <translation>das MR „%1“ ist weggelassen</translation>
     </message>
     <message>
-        <source>there is no MR '%1' to leave out</source>
-        <translation>es gibt kein MR „%1“, das wegzulassen wäre</translation>
+        <source>there is no MR '%1' to leave out; the case has none</source>
+        <translation>es gibt kein MR „%1“, das weggelassen werden könnte; der Fall hat keines</translation>
+    </message>
+    <message>
+        <source>there is no MR '%1' to leave out; the case has %~2</source>
+        <translation>es gibt kein MR „%1“, das weggelassen werden könnte; der Fall hat %~2</translation>
     </message>
     <message>
         <source>loading structures</source>
@@ -2166,6 +2170,10 @@
     <message>
         <source>length: '%1' has no centre line: %~2</source>
         <translation>Länge: „%1“ hat keine Mittellinie: %~2</translation>
+    </message>
+    <message>
+        <source>as it lay before</source>
+        <translation>wie es vorher lag</translation>
     </message>
     <message>
         <source>distance</source>
@@ -6413,6 +6421,14 @@
         <translation>kein PNG, aus dem sich Metadaten entfernen lassen</translation>
     </message>
     <message>
+        <source>the instrument</source>
+        <translation>das Instrument</translation>
+    </message>
+    <message>
+        <source>the instrument is not in the archive: its file is damaged or missing</source>
+        <translation>das Instrument ist nicht im Archiv: Seine Datei ist beschädigt oder fehlt</translation>
+    </message>
+    <message>
         <source>%~1 stays in this library: a plan takes small screenshots and recordings along</source>
         <translation>%~1 bleibt in dieser Bibliothek: Ein Plan nimmt kleine Bildschirmfotos und Aufzeichnungen mit</translation>
     </message>
@@ -6557,6 +6573,10 @@
         <translation>„%1“ hat nicht die genannte Größe</translation>
     </message>
     <message>
+        <source>case '%1' cannot be saved, as of what it needs the library has lost %2 (removed by another program, or by hand); restore the library's files from a copy, or take out of the case what is lost, and save again</source>
+        <translation>der Fall „%1“ kann nicht gespeichert werden, da die Bibliothek von dem, was er braucht, %2 verloren hat (von einem anderen Programm oder von Hand entfernt); stellen Sie die Dateien der Bibliothek aus einer Kopie wieder her, oder nehmen Sie das Verlorene aus dem Fall, und speichern Sie erneut</translation>
+    </message>
+    <message>
         <source>and %#1 more structures</source>
         <translation>und %#1 weitere Strukturen</translation>
     </message>
@@ -6667,14 +6687,6 @@
     <message>
         <source>MR '%1' was acquired in the CT's position, which the library that it comes to cannot know; register it</source>
         <translation>das MR „%1“ wurde in der Lage des CT aufgenommen, was die Bibliothek, in die es kommt, nicht wissen kann; registrieren Sie es</translation>
-    </message>
-    <message>
-        <source>case '%1' is saved, but not all of it is there: %~2</source>
-        <translation>der Fall „%1“ ist gespeichert, aber nicht alles davon ist da: %~2</translation>
-    </message>
-    <message>
-        <source>%~1 is missing</source>
-        <translation>%~1 fehlt</translation>
     </message>
     <message>
         <source>case '%1' was changed by another program since it was opened; open it again and repeat what you did</source>
@@ -6801,8 +6813,8 @@
         <translation>%1: Anhang „%2“ des Falls „%3“: Die verknüpfte Datei ist eine andere als die angehängte; legen Sie die frühere zurück, oder entfernen Sie den Anhang und hängen Sie diese an</translation>
     </message>
     <message>
-        <source>a case of the library is open in Petrous elsewhere (%~1), where what was removed can still be put back; nothing was cleaned up: close it there first</source>
-        <translation>ein Fall der Bibliothek ist anderswo in Petrous offen (%~1), wo Entferntes noch zurückgeholt werden kann; nichts wurde aufgeräumt: schließen Sie ihn dort zuerst</translation>
+        <source>a case of the library is open in Petrous elsewhere (%~1), where what was removed can still be put back; nothing was cleaned up: close it there first. Where no such program runs any more, remove what is in the library's folder 'open'</source>
+        <translation>ein Fall der Bibliothek ist anderswo in Petrous geöffnet (%~1), wo Entferntes noch zurückgeholt werden kann; nichts wurde aufgeräumt: Schließen Sie ihn dort zuerst. Wo kein solches Programm mehr läuft, entfernen Sie, was im Ordner „open“ der Bibliothek liegt</translation>
     </message>
     <message>
         <source>reading cases</source>
@@ -6841,8 +6853,8 @@
         <translation>%1: die Datei des Falls „%2“ wurde außerhalb von Petrous geändert oder ist beschädigt: Sie hat nicht die Prüfsumme, die sie angibt. Wo Bilder und Strukturen liegen, wie ein MR registriert ist und alles andere darin kann falsch sein: Verlassen Sie sich nicht darauf, bevor Sie sie mit einer Kopie der Bibliothek verglichen oder von dort wiederhergestellt haben</translation>
     </message>
     <message>
-        <source>the instrument</source>
-        <translation>das Instrument</translation>
+        <source>which is the instrument, too</source>
+        <translation>das auch das Instrument ist</translation>
     </message>
     <message>
         <source>%1: %~2 of case '%3' does not lie where its voxels say: what is placed by it may be wrong; restore the file from a copy of the library, or import the images again</source>
@@ -7321,6 +7333,22 @@
         <translation>der Ordner der Bibliothek ist, wie er war</translation>
     </message>
     <message>
+        <source>%1: a case was made from this file, which would be replaced; name another file</source>
+        <translation>%1: aus dieser Datei wurde ein Fall erstellt, sie würde ersetzt; geben Sie eine andere Datei an</translation>
+    </message>
+    <message>
+        <source>%1: is a file; a library is a folder: give one, or a new name</source>
+        <translation>%1: ist eine Datei; eine Bibliothek ist ein Ordner: geben Sie einen Ordner oder einen neuen Namen an</translation>
+    </message>
+    <message>
+        <source>%1: no library can be there, as %2 is a file; give a folder</source>
+        <translation>%1: dort kann keine Bibliothek sein, da %2 eine Datei ist; geben Sie einen Ordner an</translation>
+    </message>
+    <message>
+        <source>%1: no library can be there, as %2 is not there; is the path right, and its disk mounted? For a new library make that folder first</source>
+        <translation>%1: dort kann keine Bibliothek sein, da %2 nicht da ist; stimmt der Pfad, und ist der Datenträger eingehängt? Legen Sie für eine neue Bibliothek zuerst diesen Ordner an</translation>
+    </message>
+    <message>
         <source>%1: a file stands where the library needs a folder; choose another library folder</source>
         <translation>%1: wo die Bibliothek einen Ordner braucht, steht eine Datei; wählen Sie einen anderen Ordner für die Bibliothek</translation>
     </message>
@@ -7331,6 +7359,10 @@
     <message>
         <source>checking the voxels</source>
         <translation>Voxel werden geprüft</translation>
+    </message>
+    <message>
+        <source>restore this file from a copy of the library, take it up again from its own file (petrous view --instrument), or take it out of the case (--clear instrument); 'petrous library verify' lists all that is damaged</source>
+        <translation>stellen Sie diese Datei aus einer Kopie der Bibliothek wieder her, nehmen Sie es aus seiner eigenen Datei wieder auf (petrous view --instrument), oder nehmen Sie es aus dem Fall (--clear instrument); „petrous library verify“ nennt alles, was beschädigt ist</translation>
     </message>
     <message>
         <source>restore this file from a copy of the library; 'petrous library verify' lists all that is damaged</source>
@@ -8443,6 +8475,14 @@
     <message>
         <source>measurement: %~1</source>
         <translation>Messung: %~1</translation>
+    </message>
+    <message>
+        <source>the MR '%1' lies elsewhere since points were set on it: their error is not known</source>
+        <translation>das MR „%1“ liegt anders, seit Punkte darauf gesetzt wurden: Ihr Fehler ist unbekannt</translation>
+    </message>
+    <message>
+        <source>the MR '%1', on which points were set, is not in the case any more as it was: their error is not known</source>
+        <translation>das MR „%1“, auf dem Punkte gesetzt wurden, ist nicht mehr so im Fall, wie es war: Ihr Fehler ist unbekannt</translation>
     </message>
     <message>
         <source>a measurement must be a mark, distance, length, angle, area or thickness</source>

@@ -196,6 +196,46 @@ TEST(Between, CountsTheRegistrationOfWhatWasMadeFromAnMrUntilThatIsMoved)
   EXPECT_FALSE(quantitiesOf(value, kept)[0].uncertainty);
 }
 
+// Points on the MR stay where they are when it is moved, and its registration tells of them no
+// more.
+TEST(Between, KnowsNoErrorOfAMarkWhoseMrWasMoved)
+{
+  scene::Case value = twoBallsAndATube();
+  addT2(value);
+  value.mr[0].registered = true;
+  value.measurements = {made(Kind::Mark, {{1, 2, 3}}), made(Kind::Mark, {{4, 6, 3}}, "T2"),
+                        made(Kind::Mark, {{4, 6, 9}}, "T2")};
+  value.measurements[1].name = "other";
+  value.measurements[2].name = "third";
+  for (scene::Measurement& one : value.measurements)
+    scene::setReadings(value, one);
+  scene::Measurement line = made(Kind::Distance, {{1, 2, 3}, {4, 6, 3}});
+  scene::setImages(line, {"T2", "T2"});
+  scene::setReadings(value, line);
+  const auto between = [&value](const char* a, const char* b)
+  { return distanceBetween(value, a, b).distance; };
+  const auto moves = [](const Quantity& quantity)
+  {
+    return !quantity.uncertainty &&
+           quantity.remark.find("lies elsewhere since") != std::string::npos;
+  };
+  EXPECT_TRUE(between("one", "other").uncertainty);
+  EXPECT_TRUE(between("other", "third").uncertainty);
+  EXPECT_TRUE(quantitiesOf(value, value.measurements[1])[0].uncertainty);
+  EXPECT_TRUE(quantitiesOf(value, line)[0].uncertainty);
+
+  value.mr[0].mrFromCt = core::RigidTransform(Eigen::Quaterniond::Identity(), {10.0, 0.0, 0.0});
+  EXPECT_TRUE(moves(between("one", "other"))) << between("one", "other").remark;
+  EXPECT_EQ(between("one", "other").value, 5.0);
+  EXPECT_TRUE(moves(quantitiesOf(value, value.measurements[1])[0]));
+  EXPECT_TRUE(quantitiesOf(value, line)[0].uncertainty) << "both points lay in one image";
+  // One set anew: they do not lie in one image any more.
+  scene::setReadings(value, value.measurements[2]);
+  EXPECT_TRUE(moves(between("other", "third"))) << between("other", "third").remark;
+  scene::setReadings(value, line, 1);
+  EXPECT_TRUE(moves(quantitiesOf(value, line)[0])) << quantitiesOf(value, line)[0].remark;
+}
+
 // A canal 20 mm long that may be turned about its end next to the mark: its greatest error is that
 // at the other end, in the number as in the remark.
 TEST(Between, CountsTheErrorOfAStructureThatItStates)

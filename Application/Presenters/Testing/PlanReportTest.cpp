@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../src/Share/ReportWords.h"
 #include "ShapeCase.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
@@ -466,6 +467,9 @@ TEST(PlanReport, HasNoNumberWithAPointInGerman)
         check(cell.text);
   }
   EXPECT_GT(commas, 10);
+  const auto german = [](const char* text) { return reportText(ReportLanguage::German, text); };
+  EXPECT_EQ(german("(-36.5, 2.5, -0.5)"), "(-36,5; 2,5; -0,5)") << "six numbers else";
+  EXPECT_EQ(german("1.5, and 2.25, or 3"), "1,5, and 2,25, or 3");
 }
 
 TEST(PlanReport, CanBeCancelled)

@@ -2,11 +2,13 @@
 
 #include <QBuffer>
 #include <QDir>
+#include <QFile>
 #include <QFileDialog>
 #include <QInputDialog>
 #include <QMessageBox>
 
 #include "Application.h"
+#include "AskName.h"
 #include "AttachmentsPanel.h"
 #include "CaseStamps.h"
 #include "Theme.h"
@@ -162,19 +164,20 @@ void AttachmentsController::extract(const std::string& name)
   const scene::Attachment one = scene::findAttachment(m_model.value(), name);
   if (one.object.empty() && one.link.empty())
     return emit statusMessage(tr("“%1” is being saved").arg(words(name)));
-  const QString file = QFileDialog::getSaveFileName(&m_window, tr("Save “%1”").arg(words(name)),
-                                                    QDir::home().filePath(words(name)));
-  if (file.isEmpty() || !m_model.hasCase())
+  QFileDialog dialog(&m_window, tr("Save “%1”").arg(words(name)), QDir::homePath());
+  dialog.selectFile(words(name));
+  const std::filesystem::path file = askFile(dialog);
+  if (file.empty() || !m_model.hasCase())
     return;
   scene::Case of; // its name is said in messages
   of.name = m_model.value().name;
   m_work.start(
-      [this, library = m_model.library(), of, one, out = pathOf(file),
+      [this, library = m_model.library(), of, one,
        file](const core::Progress& progress) -> BackgroundWork::Reply
       {
-        library::extractAttachment(library, of, one, out, progress);
+        library::extractAttachment(library, of, one, file, progress);
         return [this, file, name = words(one.name)]
-        { emit statusMessage(tr("“%1” is in %2").arg(name, file)); };
+        { emit statusMessage(tr("“%1” is in %2").arg(name, QFile::decodeName(file.c_str()))); };
       });
 }
 

@@ -2152,15 +2152,19 @@ void CaseDocumentController::closeCase()
 bool CaseDocumentController::mayLeave()
 {
   if (m_giveUp)
+  {
+    m_saver.stop();
     return true;
+  }
   if (m_leaving) // called again while saving
     return false;
   const QScopedValueRollback<bool> leaving(m_leaving, true);
   if (mayDropDraft && !mayDropDraft())
     return false;
-  m_work.drop(); // a cancelled import leaves nothing behind
+  const FinishingNote note(m_window);
+  m_work.dropInLoop(); // a cancelled import leaves nothing behind
   endWork();
-  m_preparation.drop();
+  m_preparation.dropInLoop();
   m_model.stopTouch();
   const bool safe = m_saver.flush();
   if (!safe)

@@ -2,9 +2,6 @@
 
 #include <utility>
 
-#include <QApplication>
-#include <QEventLoop>
-
 #include "Application.h"
 #include "Theme.h"
 #include "petrous/Presenters/CaseNaming.h"
@@ -15,6 +12,7 @@ namespace petrous::workstation
 CaseSaver::CaseSaver(presenters::WorkstationModel& model)
   : m_model(model)
 {
+  m_work.setCompleting(true);
   const auto fail = [this](const QString& why)
   {
     m_model.notStored();
@@ -99,13 +97,15 @@ void CaseSaver::ended()
     start(*next);
 }
 
+void CaseSaver::stop()
+{
+  m_next.reset();
+  m_work.cancel();
+}
+
 bool CaseSaver::flush()
 {
-  const auto wait = [this]
-  {
-    while (busy())
-      QApplication::processEvents(QEventLoop::ExcludeUserInputEvents, 20);
-  };
+  const auto wait = [this] { handleEventsUntil([this] { return !busy(); }); };
   wait();
   if (!m_model.hasCase() || !m_model.unsaved())
     return true;

@@ -36,6 +36,9 @@ public:
   /// false if saving failed, as reported by `failed`.
   bool flush();
 
+  /// Cancels a running save; the case on disk stays as it was.
+  void stop();
+
   bool busy() const noexcept { return m_work.busy(); }
 
 signals:

@@ -333,16 +333,17 @@ void LibraryController::verify()
           }
           if (found.damaged.empty() && !newer.empty())
             return showReport(&m_window, tr("Verify"), sum + ' ' + tr("All others are sound."), {},
-                              {});
+                              {}, {});
           if (found.damaged.empty())
-            return showReport(&m_window, tr("Verify"), sum + ' ' + tr("All are sound."), {}, {});
+            return showReport(&m_window, tr("Verify"), sum + ' ' + tr("All are sound."), {}, {},
+                              {});
           showReport(&m_window, tr("Verify"),
                      sum + ' ' +
                          (found.damaged.size() == 1
                               ? tr("1 is damaged or missing.")
                               : tr("%1 are damaged or missing.").arg(found.damaged.size())) +
                          ' ' + tr("Restore from a copy of the library, or import the data again."),
-                     damageText(found), "petrous-verify.txt");
+                     damageText(found), "petrous-verify.txt", m_model.library().folder());
         };
       });
 }
@@ -412,7 +413,7 @@ void LibraryController::repair()
                           ? tr("The library is repaired.")
                           : tr("What could be repaired is; what cases need is missing.")) +
                          ' ' + verify,
-                     lines.join('\n'), "petrous-repair.txt");
+                     lines.join('\n'), "petrous-repair.txt", m_model.library().folder());
         };
       });
 }

@@ -9,6 +9,7 @@
 #include <QFileInfo>
 
 #include "Application.h"
+#include "AskName.h"
 #include "ReplayPanel.h"
 #include "SceneDisplay.h"
 #include "Theme.h"
@@ -16,6 +17,7 @@
 #include "WindowTexts.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Library/Attachments.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/Recordings.h"
 
 namespace petrous::workstation
@@ -302,21 +304,21 @@ void ReplayController::exportTable()
   const QString metrics = tr("Metrics (*.csv)");
   QFileDialog dialog(&m_window, tr("Export the recording"));
   dialog.setObjectName("exportRecording");
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setNameFilters({metrics, tr("Place and force over time (*.csv)")});
   dialog.setDefaultSuffix("csv");
   dialog.setDirectory(QDir::homePath());
   dialog.selectFile(QFileInfo(QFile::decodeName(m_file.c_str())).completeBaseName() + ".csv");
-  if (dialog.exec() != QDialog::Accepted)
+  const std::filesystem::path file = askFile(dialog);
+  if (file.empty())
     return;
-  const QString file = dialog.selectedFiles().first();
   guarded(
       [&]
       {
-        core::writeFile(pathOf(file), dialog.selectedNameFilter() == metrics
-                                          ? presenters::metricsCsv(review)
-                                          : presenters::courseCsv(review));
-        emit statusMessage(tr("The table is in %1").arg(file));
+        library::refuseOverwriting(file, m_model.library().folder());
+        core::writeFile(file, dialog.selectedNameFilter() == metrics
+                                  ? presenters::metricsCsv(review)
+                                  : presenters::courseCsv(review));
+        emit statusMessage(tr("The table is in %1").arg(QFile::decodeName(file.c_str())));
       },
       [this](const QString& why) { m_panel->say(sentence(capitalized(why))); });
 }

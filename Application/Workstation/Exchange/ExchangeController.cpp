@@ -195,7 +195,8 @@ void ExchangeController::offer(const scene::Case& value, const std::vector<netwo
               tr("“%1” is at “%2”: %3.").arg(words(name), place, transferText(done.transfer));
           head += ' ' + listedText(done.transfer.listed);
           head += ' ' + foundText(name, done.patient, done.studyUid);
-          showReport(&m_window, tr("Send"), head, lines(done.notes), "petrous-send.txt");
+          showReport(&m_window, tr("Send"), head, lines(done.notes), "petrous-send.txt",
+                     m_model.library().folder());
         };
       });
 }
@@ -261,7 +262,7 @@ void ExchangeController::receiveScene(const ReceiveDialog::Choice& choice, const
             showReport(
                 &m_window, tr("Receive"),
                 tr("“%1” is received: %2.").arg(words(done.name), transferText(done.transfer)),
-                lines(done.notes), "petrous-receive.txt");
+                lines(done.notes), "petrous-receive.txt", m_model.library().folder());
           m_keeper.openCase(done.name);
         };
       });
@@ -303,9 +304,11 @@ void ExchangeController::deidentify()
   DeidentifyDialog dialog(&m_window);
   if (dialog.exec() != QDialog::Accepted)
     return;
+  presenters::DeidentifyRequest request = dialog.request();
+  request.library = m_model.library().folder();
   m_keeper.run(
       tr("De-identifying"),
-      [this, request = dialog.request(), passphrase = dialog.takePassphrase()](
+      [this, request = std::move(request), passphrase = dialog.takePassphrase()](
           const core::Progress& progress) -> BackgroundWork::Reply
       {
         const auto done = presenters::deidentifyFolder(request, *passphrase, progress);
@@ -321,7 +324,7 @@ void ExchangeController::deidentify()
           if (!done.report.durable)
             head += '\n' + tr("The disk reported an error; check the disk.");
           showReport(&m_window, tr("De-identify"), head, phrase(done.report.text()),
-                     "deidentification.txt", in);
+                     "deidentification.txt", m_model.library().folder(), in);
         };
       });
 }

@@ -8,6 +8,7 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QClipboard>
+#include <QFile>
 #include <QFileDialog>
 #include <QKeyEvent>
 #include <QLabel>
@@ -16,6 +17,7 @@
 #include <QMouseEvent>
 
 #include "Application.h"
+#include "AskName.h"
 #include "BackgroundWork.h"
 #include "MeasurePanel.h"
 #include "SceneDisplay.h"
@@ -525,21 +527,19 @@ void MeasureController::exportCsv()
     return;
   QFileDialog dialog(&m_window, tr("Export measurements"));
   dialog.setObjectName("exportMeasurementsDialog");
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setNameFilter(tr("Tables (*.csv)"));
   dialog.setDefaultSuffix("csv");
   dialog.selectFile(words(m_model.value().name) + " " + tr("measurements") + ".csv");
-  if (dialog.exec() != QDialog::Accepted)
+  const std::filesystem::path file = askFile(dialog);
+  if (file.empty() || !m_model.hasCase())
     return;
-  const QString file = dialog.selectedFiles().first();
   if (attempt(
           [&]
           {
-            const std::filesystem::path path = pathOf(file);
-            library::refuseOverwriting(path);
-            core::writeFile(path, presenters::measurementsCsv(m_model.value()));
+            library::refuseOverwriting(file, m_model.library().folder());
+            core::writeFile(file, presenters::measurementsCsv(m_model.value()));
           }))
-    emit statusMessage(tr("The measurements are in %1").arg(file));
+    emit statusMessage(tr("The measurements are in %1").arg(QFile::decodeName(file.c_str())));
 }
 
 // In another thread: the surface of a large structure takes seconds.

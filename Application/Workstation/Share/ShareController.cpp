@@ -132,7 +132,7 @@ void ShareController::report()
                 file = dialog.file(), isPdf = dialog.isPdf()](
                    const core::Progress& progress) mutable -> BackgroundWork::Reply
                {
-                 library::refuseOverwriting(file);
+                 library::refuseOverwriting(file, library.folder());
                  const presenters::IdentityText identity(value, library);
                  options.mayIdentify = [&identity](const std::string& text)
                  { return identity.mayIdentify(text); };
@@ -172,7 +172,7 @@ void ShareController::printPicture()
                    const core::Progress& progress) -> BackgroundWork::Reply
                {
                  constexpr int kTile = 1024; // pixels
-                 library::refuseOverwriting(file);
+                 library::refuseOverwriting(file, library.folder());
                  rendering::ScenePicture scene;
                  scene.setContents(contentsOf(value, progress.part(0.0, 0.1)));
                  rendering::Picture picture =
@@ -204,7 +204,7 @@ void ShareController::film()
        file = dialog.file(),
        library = m_model.library()](const core::Progress& progress) mutable -> BackgroundWork::Reply
       {
-        library::refuseOverwriting(file);
+        library::refuseOverwriting(file, library.folder());
         const auto cameras =
             along.empty() ? presenters::turntable(*value.camera, frames)
                           : presenters::flightAlong(value, along, frames, progress.part(0.0, 0.05));

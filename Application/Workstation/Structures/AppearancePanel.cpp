@@ -631,16 +631,15 @@ void AppearancePanel::importFile()
 void AppearancePanel::exportFile()
 {
   QFileDialog dialog(this, tr("Export the transfer function"));
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setNameFilter(tr("Transfer functions (*.json)"));
   dialog.setDefaultSuffix("json");
-  if (dialog.exec() != QDialog::Accepted)
+  const std::filesystem::path file = askFile(dialog);
+  if (file.empty())
     return;
-  const std::filesystem::path file = pathOf(dialog.selectedFiles().value(0));
   attempt(
       [&]
       {
-        library::refuseOverwriting(file);
+        library::refuseOverwriting(file, m_model.library().folder());
         core::writeFile(file, m_editor.json() + "\n");
       });
 }

@@ -471,12 +471,8 @@ TEST_F(Manners, NoVolumeOutlivesItsCaseAndMemoryComesBack)
     const auto info = mallinfo2();
     return static_cast<double>(info.uordblks + info.hblkhd);
   };
-  double before = 0.0;
-  constexpr int kTimes = 20, kWarm = 3; // what is made once and kept
-  for (int n = 0; n < kWarm + kTimes; ++n)
+  const auto openAndClose = [&]
   {
-    if (n == kWarm)
-      before = used();
     window().begin("sixty");
     ASSERT_TRUE(opened("sixty"));
     const std::weak_ptr<const volume::IntensityVolume> ct =
@@ -489,14 +485,24 @@ TEST_F(Manners, NoVolumeOutlivesItsCaseAndMemoryComesBack)
     ASSERT_TRUE(waitFor([this] { return !window().model().hasCase() && !window().busy(); }));
     EXPECT_TRUE(waitFor([&] { return ct.expired(); })) << ct.use_count();
     EXPECT_TRUE(waitFor([&] { return labels.expired(); })) << labels.use_count();
-    if (HasFailure())
-      return;
+  };
+  constexpr int kTimes = 20, kWarm = 3, kRounds = 2;
+  for (int n = 0; n < kWarm && !HasFailure(); ++n)
+    openAndClose();
+  // What is made once and kept may come late on a busy machine, but not in each round.
+  bool isSteady = false;
+  for (int round = 0; round < kRounds && !isSteady && !HasFailure(); ++round)
+  {
+    const double before = used();
+    for (int n = 0; n < kTimes && !HasFailure(); ++n)
+      openAndClose();
+    double after = used();
+    isSteady = waitFor([&] { return (after = used()) < 1.05 * before; },
+                       10000); // work in the background ends
+    std::printf("memory in use: %.1f MB before, %.1f MB after %d cases\n", 1e-6 * before,
+                1e-6 * after, kTimes);
   }
-  double after = used();
-  waitFor([&] { return (after = used()) < 1.05 * before; }, 10000); // work in the background ends
-  std::printf("memory in use: %.1f MB before, %.1f MB after %d cases\n", 1e-6 * before,
-              1e-6 * after, kTimes);
-  EXPECT_LT(after, 1.05 * before);
+  EXPECT_TRUE(isSteady);
 }
 
 TEST_F(Manners, SafeModeHasNoSettingsNoDevicesAndNoPreviousCase)

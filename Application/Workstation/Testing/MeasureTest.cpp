@@ -378,6 +378,43 @@ TEST_F(MeasureWindow, ExportsATable)
   EXPECT_NE(text.find("nerve,structure,volume"), std::string::npos);
 }
 
+// Also where the ending is added to what was typed, which is not yet the name of a file.
+TEST_F(MeasureWindow, AsksBeforeATableReplacesAFile)
+{
+  openBall();
+  key(Qt::Key_D);
+  click(kBallCenter);
+  click(kBallCenter + Vector3d(0, 7, 0));
+  const auto file = folder() / "table.csv";
+  std::ofstream(file) << "mine";
+  int asked = 0;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (auto* files = qobject_cast<QFileDialog*>(&dialog))
+        {
+          if (asked > 0) // again after "Cancel": given up
+          {
+            dialog.reject();
+            return true;
+          }
+          files->findChild<QLineEdit*>("fileNameEdit")
+              ->setText(QString::fromStdString((folder() / "table").string()));
+          dialog.done(QDialog::Accepted);
+          return false;
+        }
+        if (dialog.objectName() != "askReplace")
+          return false;
+        ++asked;
+        dialog.reject();
+        return false;
+      });
+  find<QPushButton>("exportMeasurements").click();
+  EXPECT_EQ(asked, 1);
+  std::ifstream in(file, std::ios::binary);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "mine");
+}
+
 TEST_F(MeasureWindow, OffersNoTableThatWouldBeEmpty)
 {
   scene::Case value = ballCase("bare");

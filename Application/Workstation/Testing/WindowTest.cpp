@@ -1,6 +1,8 @@
 #include "GuiTest.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <new>
 #include <thread>
@@ -14,6 +16,7 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
+#include <QProgressDialog>
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QScrollBar>
@@ -28,6 +31,7 @@
 #include <QTreeWidget>
 
 #include "Application.h"
+#include "BackgroundWork.h"
 #include "Banner.h"
 #include "Bind.h"
 #include "SliceView.h"
@@ -39,6 +43,50 @@ using namespace petrous;
 using namespace petrous::workstation;
 
 using Window = GuiTest;
+
+// A task that cannot end at once: the window says what it waits for, and handles events.
+TEST_F(Window, ClosingCancelsWhatRunsAndSaysWhatItWaitsFor)
+{
+  openWindow();
+  std::atomic<bool> isReleased{false}, isCancelled{false};
+  QString said;
+  QTimer poll;
+  QObject::connect(&poll, &QTimer::timeout, &poll,
+                   [&]
+                   {
+                     const auto* note = window().findChild<QProgressDialog*>("finishing");
+                     if (!note || !note->isVisible())
+                       return;
+                     said = note->labelText();
+                     isReleased = true;
+                   });
+  BackgroundWork slow;
+  bool isIgnored = true;
+  slow.start(
+      [&](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        progress.report(0.5, "saving");
+        for (int n = 0; !isReleased && n < 60000; ++n)
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        try
+        {
+          progress.check("saving");
+        }
+        catch (const core::CancelledError&)
+        {
+          isCancelled = true;
+          throw;
+        }
+        return [&isIgnored] { isIgnored = false; };
+      });
+  poll.start(10);
+  EXPECT_TRUE(window().close());
+  EXPECT_FALSE(slow.busy());
+  EXPECT_TRUE(isCancelled);
+  EXPECT_TRUE(isIgnored);
+  EXPECT_EQ(said, "Finishing: saving");
+  EXPECT_EQ(window().findChild<QProgressDialog*>("finishing"), nullptr);
+}
 
 TEST_F(Window, WithoutACaseTellsHowToBegin)
 {

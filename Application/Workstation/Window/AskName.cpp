@@ -2,6 +2,7 @@
 
 #include <QDialogButtonBox>
 #include <QFile>
+#include <QFileDialog>
 #include <QFileInfo>
 #include <QInputDialog>
 #include <QLabel>
@@ -10,6 +11,7 @@
 
 #include "Application.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Core/Error.h"
 
 namespace petrous::workstation
@@ -68,6 +70,20 @@ bool mayReplace(QWidget& parent, const std::vector<std::filesystem::path>& files
   box.setDefaultButton(QMessageBox::Cancel);
   box.exec();
   return box.clickedButton() == replace;
+}
+
+std::filesystem::path askFile(QFileDialog& dialog)
+{
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setOption(QFileDialog::DontConfirmOverwrite);
+  while (dialog.exec() == QDialog::Accepted)
+  {
+    const std::filesystem::path file = pathOf(dialog.selectedFiles().value(0));
+    QWidget* parent = dialog.parentWidget();
+    if (mayReplace(parent ? *parent : dialog, {file}))
+      return file;
+  }
+  return {};
 }
 
 } // namespace petrous::workstation

@@ -1,6 +1,12 @@
 #include "BackgroundWork.h"
 
+#include <algorithm>
 #include <utility>
+
+#include <QCoreApplication>
+#include <QEventLoop>
+#include <QList>
+#include <QProgressDialog>
 
 #include "Application.h"
 #include "Theme.h"
@@ -10,8 +16,8 @@
 namespace petrous::workstation
 {
 
-BackgroundWork::BackgroundWork(QObject* parent)
-  : QObject(parent)
+BackgroundWork::BackgroundWork()
+  : QObject(QCoreApplication::instance())
 {
 }
 
@@ -24,7 +30,9 @@ void BackgroundWork::start(Work work)
 {
   drop();
   m_token = std::make_shared<core::CancelToken>();
-  m_thread = std::thread([this, work = std::move(work)] { guarded([&] { run(work); }); });
+  m_latest = std::make_shared<Latest>();
+  m_thread = std::thread([this, work = std::move(work), latest = m_latest]
+                         { guarded([&] { run(work, latest); }); });
   m_busy = true; // what it posts is handled later
 }
 
@@ -53,6 +61,23 @@ void BackgroundWork::drop()
 {
   cancel();
   wait();
+}
+
+void BackgroundWork::dropInLoop()
+{
+  abandon();
+  handleEventsUntil([this] { return !m_busy; });
+  drop();
+}
+
+QString BackgroundWork::step() const
+{
+  if (!m_busy || !m_latest)
+    return {};
+  std::unique_lock<std::mutex> lock(m_latest->mutex);
+  const std::string text = m_latest->text;
+  lock.unlock();
+  return text.empty() ? QString() : phrase(text);
 }
 
 void BackgroundWork::wait()
@@ -118,11 +143,10 @@ void BackgroundWork::notify(const std::shared_ptr<Latest>& latest, double fracti
       });
 }
 
-void BackgroundWork::run(const Work& work)
+void BackgroundWork::run(const Work& work, const std::shared_ptr<Latest>& latest)
 {
   try
   {
-    const auto latest = std::make_shared<Latest>();
     const core::Progress progress([this, latest](double fraction, const std::string& text)
                                   { notify(latest, fraction, text); },
                                   m_token);
@@ -143,6 +167,85 @@ void BackgroundWork::run(const Work& work)
   {
     end([this] { emit failed(tr("An unexpected fault.")); });
   }
+}
+
+void handleEventsUntil(const std::function<bool()>& done)
+{
+  constexpr int kAgain = 10; // ms
+  if (done())
+    return;
+  QEventLoop loop;
+  QTimer again;
+  QObject::connect(&again, &QTimer::timeout, &loop,
+                   [&]
+                   {
+                     if (done())
+                       loop.quit();
+                   });
+  again.start(kAgain);
+  loop.exec(QEventLoop::ExcludeUserInputEvents);
+}
+
+namespace
+{
+
+QList<BackgroundWork*> allWork()
+{
+  return QCoreApplication::instance()->findChildren<BackgroundWork*>(QString(),
+                                                                     Qt::FindDirectChildrenOnly);
+}
+
+} // namespace
+
+FinishingNote::FinishingNote(QWidget& window)
+  : m_window(window)
+{
+  constexpr int kAfter = 250; // ms
+  QObject::connect(&m_timer, &QTimer::timeout, &m_timer, [this] { refresh(); });
+  m_timer.start(kAfter);
+}
+
+FinishingNote::~FinishingNote() = default;
+
+void FinishingNote::refresh()
+{
+  const QList<BackgroundWork*> all = allWork();
+  const auto running =
+      std::find_if(all.begin(), all.end(), [](const BackgroundWork* work) { return work->busy(); });
+  if (running == all.end())
+    return;
+  if (!m_dialog)
+  {
+    m_dialog = std::make_unique<QProgressDialog>(QString(), QString(), 0, 0, &m_window);
+    m_dialog->setObjectName("finishing");
+    m_dialog->setWindowTitle(m_window.windowTitle());
+    m_dialog->setWindowModality(Qt::WindowModal);
+    m_dialog->setCancelButton(nullptr);
+    m_dialog->setMinimumWidth(420);
+  }
+  const QString step = (*running)->step();
+  m_dialog->setLabelText(QObject::tr("Finishing: %1")
+                             .arg(step.isEmpty() ? QObject::tr("work in the background") : step));
+  m_dialog->show();
+}
+
+void finishAll(QWidget& window)
+{
+  const FinishingNote note(window);
+  handleEventsUntil(
+      []
+      {
+        bool isDone = true;
+        const QList<BackgroundWork*> all = allWork();
+        for (BackgroundWork* work : all)
+          if (work->busy())
+          {
+            isDone = false;
+            if (!work->isCompleting())
+              work->abandon();
+          }
+        return isDone;
+      });
 }
 
 } // namespace petrous::workstation

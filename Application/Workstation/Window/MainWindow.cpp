@@ -22,6 +22,7 @@
 #include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
+#include <QScopedValueRollback>
 #include <QSlider>
 #include <QSpinBox>
 #include <QStackedWidget>
@@ -35,7 +36,9 @@
 #include "ActiveDeviceController.h"
 #include "AppearancePanel.h"
 #include "Application.h"
+#include "AskName.h"
 #include "AttachmentsController.h"
+#include "BackgroundWork.h"
 #include "Banner.h"
 #include "BranchController.h"
 #include "CaseDocumentController.h"
@@ -85,6 +88,7 @@
 #include "WindowTexts.h"
 #include "petrous/Dissection/Catalogues.h"
 #include "petrous/Interaction/OrbitCamera.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/CaseStamp.h"
 #include "petrous/Presenters/IntensityDisplay.h"
@@ -1463,7 +1467,6 @@ void MainWindow::record(bool on)
 std::filesystem::path MainWindow::chooseRecording()
 {
   QFileDialog dialog(this, tr("Record the session"));
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setNameFilter(tr("Recordings (*.ticks)"));
   dialog.setDefaultSuffix("ticks");
   try
@@ -1477,8 +1480,18 @@ std::filesystem::path MainWindow::chooseRecording()
     showRecording(toString(error));
     dialog.setDirectory(QDir::homePath());
   }
-  return dialog.exec() == QDialog::Accepted ? pathOf(dialog.selectedFiles().first())
-                                            : std::filesystem::path();
+  const std::filesystem::path file = askFile(dialog);
+  try
+  {
+    if (!file.empty())
+      library::refuseOverwriting(file, m_model.library().folder());
+  }
+  catch (const core::Error& error)
+  {
+    showRecording(toString(error));
+    return {};
+  }
+  return file;
 }
 
 void MainWindow::showRecording(const QString& fault)
@@ -1511,6 +1524,9 @@ bool MainWindow::flush()
 
 void MainWindow::closeEvent(QCloseEvent* event)
 {
+  if (m_isClosing) // called again while tasks end
+    return event->ignore();
+  const QScopedValueRollback<bool> closing(m_isClosing, true);
   m_drill->releaseTool(); // ends an open stroke
   event->setAccepted(m_keeper->mayLeave());
   if (!event->isAccepted())
@@ -1520,6 +1536,7 @@ void MainWindow::closeEvent(QCloseEvent* event)
       m_settings->keepPanelShown(entry.name, !findChild<QDockWidget*>(entry.name)->isHidden());
   m_picture->closeSurgeonWindow();
   m_comparison->close();
+  finishAll(*this);
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event)

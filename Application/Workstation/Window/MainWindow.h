@@ -171,6 +171,7 @@ private:
   WindowActions* m_actions;
   CaseStamps* m_stamps;
   CaseSaver* m_saver;
+  bool m_isClosing = false;
   CaseDocumentController* m_keeper;
   DeviceWatcher* m_watcher;
   ActiveDeviceController* m_devices;

@@ -3,6 +3,7 @@
 #include <QDialog>
 #include <QDialogButtonBox>
 #include <QDir>
+#include <QFile>
 #include <QFileDialog>
 #include <QFontDatabase>
 #include <QLabel>
@@ -11,6 +12,7 @@
 #include <QVBoxLayout>
 
 #include "Application.h"
+#include "AskName.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Core/OutputFile.h"
@@ -21,7 +23,7 @@ namespace petrous::workstation
 {
 
 void showReport(QWidget* parent, const QString& title, const QString& head, const QString& text,
-                const QString& file, const QString& input)
+                const QString& file, const std::filesystem::path& library, const QString& input)
 {
   auto* dialog = new QDialog(parent);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -49,20 +51,23 @@ void showReport(QWidget* parent, const QString& title, const QString& head, cons
   save->setAutoDefault(false);
   QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
   QObject::connect(save, &QPushButton::clicked, dialog,
-                   [dialog, whole, outcome, title, file, input]
+                   [dialog, whole, outcome, title, file, library, input]
                    {
-                     const QString path = QFileDialog::getSaveFileName(
-                         dialog, title, QDir::home().filePath(file), QObject::tr("Text (*.txt)"));
-                     if (path.isEmpty())
+                     QFileDialog ask(dialog, title, QDir::homePath(), QObject::tr("Text (*.txt)"));
+                     ask.setDefaultSuffix("txt");
+                     ask.selectFile(file);
+                     const std::filesystem::path path = askFile(ask);
+                     if (path.empty())
                        return;
                      try
                      {
                        const std::filesystem::path from = pathOf(input);
                        if (!input.isEmpty())
-                         presenters::refuseWithin(pathOf(path), from, "report");
-                       library::refuseOverwriting(pathOf(path));
-                       core::writeFile(pathOf(path), bytes(whole->toPlainText()));
-                       outcome->setText(QObject::tr("Saved as %1").arg(path));
+                         presenters::refuseWithin(path, from, "report");
+                       library::refuseOverwriting(path, library);
+                       core::writeFile(path, bytes(whole->toPlainText()));
+                       outcome->setText(
+                           QObject::tr("Saved as %1").arg(QFile::decodeName(path.c_str())));
                      }
                      catch (const std::exception& error)
                      {

@@ -262,4 +262,7 @@ TEST(DistinctColors, GoesOnWhereAllAreTaken)
   EXPECT_EQ(std::set<Color>(colors.begin(),
                             colors.begin() + static_cast<std::ptrdiff_t>(different.size())),
             different);
+  for (const Color& color : different)
+    EXPECT_LE(std::count(colors.begin(), colors.end(), color),
+              static_cast<std::ptrdiff_t>(colors.size() / different.size() + 1));
 }

@@ -175,7 +175,7 @@ void DistinctColors::offer(const Color& color)
   const Seen sights = seen(color);
   if (!isOffered(sights))
     return;
-  m_offered.push_back({color, sights, std::numeric_limits<double>::infinity()});
+  m_offered.push_back({color, sights, std::numeric_limits<double>::infinity(), 0});
   for (const Seen& taken : m_taken)
     m_offered.back().nearest = std::min(m_offered.back().nearest, distance(sights, taken));
 }
@@ -193,8 +193,9 @@ Color DistinctColors::next()
   const auto farthest = [this]
   {
     return std::max_element(m_offered.begin(), m_offered.end(),
-                            [](const Offered& a, const Offered& b)
-                            { return a.nearest < b.nearest; });
+                            [](const Offered& a, const Offered& b) {
+                              return std::tie(a.nearest, b.given) < std::tie(b.nearest, a.given);
+                            });
   };
   if (!m_hasGrid && farthest()->nearest < kNoticed)
   {
@@ -204,7 +205,9 @@ Color DistinctColors::next()
         for (int b = 0; b <= kSteps; ++b)
           offer({part(r, kSteps), part(g, kSteps), part(b, kSteps)});
   }
-  const Color color = farthest()->color;
+  const auto chosen = farthest();
+  ++chosen->given;
+  const Color color = chosen->color;
   take(color);
   return color;
 }

@@ -1,26 +1,13 @@
 #pragma once
 
 #include <chrono>
-#include <thread>
+
+#include "../../Core/Testing/Eventually.h"
 
 namespace petrous::devices::testing
 {
 
-/// Whether `condition` becomes true within `seconds`; polls once per millisecond. The limit only
-/// ends a failing test, and is far above what a busy machine needs.
-template <typename Condition>
-bool eventually(Condition condition, double seconds = 20.0)
-{
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
-  while (Clock::now() < end)
-  {
-    if (condition())
-      return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return condition();
-}
+using core::testing::eventually;
 
 /// s since the clock's epoch, as on the servo's clock.
 inline double steadySeconds()

@@ -506,10 +506,67 @@ TEST_F(Archives, BringTheInstrumentWithoutTheNameOfItsFile)
   fs::remove(m_library.folder() / "objects" / object);
   EXPECT_EQ(m_library.verify().damaged.size(), 1U);
   EXPECT_EQ(m_library.lost(m_library.open("ear")).size(), 1U);
+  for (const bool planOnly : {false, true}) // a lost tool keeps no case back
+  {
+    ArchiveOptions options;
+    options.planOnly = planOnly;
+    const auto notes = archiveCase(m_library, "ear", m_file, options).notes;
+    EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
+                            [](const std::string& note)
+                            { return note.find("the instrument is not in") == 0; }));
+    for (const TestZip::Entry& entry : unpacked().entries)
+      EXPECT_EQ(entry.name.find("tools/"), std::string::npos) << entry.name;
+  }
+  EXPECT_TRUE(m_library.open("ear").view.instrument) << "it stays in the case";
   value = m_library.open("ear");
   value.view.instrument.reset();
   m_library.save(value);
   EXPECT_TRUE(m_library.verify().damaged.empty()) << "nobody needs it";
+}
+
+// One object, and both are told of.
+TEST_F(Archives, HaveAMeshThatIsTheInstrumentTooAmongTheMeshes)
+{
+  scene::Case value = m_library.open("ear");
+  auto probe = std::make_shared<core::TriangleMesh>();
+  probe->vertices = {{0, 0, 0}, {60, 1.25F, 0}, {60, -1, 1}, {60, 0, -1}};
+  probe->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  value.view.instrument.emplace();
+  value.view.instrument->mesh = std::shared_ptr<const core::TriangleMesh>(probe);
+  scene::MeshPart part;
+  part.name = "probe";
+  part.triangles = probe->triangles.size();
+  part.mesh = std::shared_ptr<const core::TriangleMesh>(probe);
+  value.meshes.push_back(part);
+  m_library.save(value);
+  const std::string object = value.view.instrument->object;
+  ASSERT_EQ(value.meshes.back().object, object);
+  const auto hasEntry = [this](const std::string& name)
+  {
+    const TestZip zip = unpacked();
+    return std::any_of(zip.entries.begin(), zip.entries.end(),
+                       [&name](const TestZip::Entry& entry) { return entry.name == name; });
+  };
+  archiveCase(m_library, "ear", m_file);
+  EXPECT_TRUE(hasEntry("meshes/probe.obj"));
+  archiveCase(m_library, "ear", m_file, {true});
+  EXPECT_TRUE(hasEntry("tools/instrument.obj")) << "a plan has no meshes";
+  EXPECT_FALSE(hasEntry("meshes/probe.obj"));
+  const TemporaryFolder folder;
+  Library other(folder.path() / "library");
+  scene::Case same = test::smallCase("same");
+  other.save(same);
+  RestoreOptions to;
+  to.ct = "same";
+  to.name = "plan";
+  restoreCase(other, m_file, to);
+  EXPECT_TRUE(other.open("plan").view.instrument);
+
+  fs::remove(m_library.folder() / "objects" / object);
+  const auto damaged = m_library.verify().damaged;
+  ASSERT_EQ(damaged.size(), 1U);
+  EXPECT_NE(damaged[0].text.find("mesh 'probe', which is the instrument, too"), std::string::npos)
+      << damaged[0].text;
 }
 
 TEST_F(Archives, OfAPlanBringNoVoxels)

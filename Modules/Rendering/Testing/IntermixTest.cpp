@@ -169,6 +169,29 @@ TEST(Intermix, ExposesMeshesAndToolAsTheBone)
   EXPECT_EQ(countDifferentPixels(draw(contents, slanting()), plain), 0U);
 }
 
+TEST(Intermix, HighlightsOfMeshesAndToolAreThoseOfTheReference)
+{
+  SceneContents contents = hollowBall();
+  contents.meshes = {square("sheet", {0.0, -16.0, 0.0}, {14.0, 0.0, 0.0}, {0.0, 0.0, 14.0})};
+  contents.tool = tool({0.0, -25.0, 0.0}, Vector::UnitX());
+  core::CameraPose pose = from({0.0, -40.0, 0.0}, {0.0, 0.0, 0.0}, 30.0);
+  for (const bool isParallel : {false, true})
+  {
+    if (isParallel)
+      pose.parallelScale = 8.0;
+    const Picture picture = draw(contents, pose);
+    const ReferencePicture truth = truthOf(contents, pose);
+    EXPECT_LE(compareColors(picture, truth).others, kOthers) << isParallel;
+    const std::size_t middle = static_cast<std::size_t>(kHeight / 2 * kWidth + kWidth / 2);
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      const double wanted = 255.0 * static_cast<double>(truth.rgb[3 * middle + c]);
+      EXPECT_NEAR(int{picture.rgb[3 * middle + c]}, wanted, 4.0) << isParallel << " " << c;
+    }
+    EXPECT_GT(truth.rgb[3 * middle + 2], 0.55F); // of a burr of 0.35, below its highlight
+  }
+}
+
 // Each pixel is that of the opaque mesh or that without it.
 TEST(Intermix, ExposesAMeshBehindAScreenDoor)
 {

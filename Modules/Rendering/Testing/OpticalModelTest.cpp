@@ -118,14 +118,66 @@ TEST(OpticalModel, SurfaceIsAmbientPlusLambert)
   EXPECT_TRUE(lit(light, -0.5).isApprox(0.6 * kColor, 1e-12)); // seen from the back
 }
 
-TEST(OpticalModel, HighlightIsOfTheTransferFunctionTimesTheLamps)
+TEST(OpticalModel, HighlightIsOfTheTransferFunctionTimesTheLampsAndTakesDiffuseLight)
 {
   LightSettings light;
   light.specular = 0.3;
   const double cosine = 0.95;
   const Eigen::Vector3d added = lit(light, cosine, 0.0, 0.5) - lit(light, cosine, 0.0, 0.0);
-  const double expected = 0.5 * 0.3 * std::exp(kShininess * std::log(cosine));
-  EXPECT_TRUE(added.isApprox(Eigen::Vector3d::Constant(expected), 1e-12));
+  const double highlight = 0.5 * 0.3 * std::exp(kShininess * std::log(cosine));
+  const double taken = 0.5 * 0.3 * std::pow(cosine, 3.0);
+  EXPECT_TRUE(added.isApprox(Eigen::Vector3d::Constant(highlight) - taken * kColor, 1e-12));
+}
+
+// What faces the lamp is c (1 - g) + g.
+TEST(OpticalModel, NoDrySurfaceIsBrighterThanWhite)
+{
+  for (const bool shadows : {false, true})
+  {
+    LightSettings light;
+    light.setShadows(shadows);
+    const double gloss = light.specular;
+    const auto shade = [&light](double grey, double cosine) {
+      return optics::surfaceColor({{grey, grey, grey}, 1.0, 1.0}, kShininess, cosine, light,
+                                  0.0)[0];
+    };
+    for (const double grey : {0.0, 0.5, 0.91, 1.0})
+    {
+      EXPECT_NEAR(shade(grey, 1.0), grey * (1.0 - gloss) + gloss, 1e-12);
+      double before = 0.0;
+      for (double cosine = 0.0; cosine < 1.0; cosine += 1e-3)
+      {
+        const double now = shade(grey, cosine);
+        EXPECT_LT(now, 1.0);
+        EXPECT_GE(now, before); // shape
+        before = now;
+      }
+    }
+  }
+}
+
+TEST(OpticalModel, GlossDarkensNeitherShadowsNorWhatIsSeenFromTheSide)
+{
+  LightSettings light;
+  light.setShadows(true);
+  LightSettings matt = light;
+  matt.specular = 0.0;
+  const auto shade = [](const LightSettings& by, double cosine, const optics::Seen& seen)
+  { return optics::surfaceColor(tissue(1.0), kShininess, cosine, by, 0.0, seen)[0]; };
+  EXPECT_EQ(shade(light, 0.9, {0.7, 0.0}), shade(matt, 0.9, {0.7, 0.0}));
+  EXPECT_EQ(shade(light, 0.0, {}), shade(matt, 0.0, {}));
+  EXPECT_GT(shade(light, 0.3, {}), 0.99 * shade(matt, 0.3, {}));
+}
+
+TEST(OpticalModel, GlossTakesNothingOfAColourThatIsComparedWithALegend)
+{
+  const LightSettings light;
+  const double cosine = 0.8;
+  const double lambert = light.ambient + (1.0 - light.ambient) * cosine;
+  const double highlight = light.specular * std::pow(cosine, kShininess);
+  const Eigen::Vector3d color =
+      optics::surfaceColor(tissue(1.0), kShininess, cosine, light, 0.0, {}, 0.0, true);
+  EXPECT_TRUE(color.isApprox(lambert * kColor + Eigen::Vector3d::Constant(highlight), 1e-12));
 }
 
 TEST(OpticalModel, WetnessAddsANarrowWhiteHighlight)
@@ -146,7 +198,9 @@ TEST(OpticalModel, BelowAFilmOfWaterASurfaceLosesItsOwnGloss)
   {
     LightSettings light;
     light.wetness = wetness;
-    return (lit(light, 0.9, 0.0, 0.5) - lit(light, 0.9, 0.0, 0.0))[2];
+    const double taken =
+        0.5 * light.specular * std::pow(0.9, 3.0); // of diffuse light, also below it
+    return (lit(light, 0.9, 0.0, 0.5) - lit(light, 0.9, 0.0, 0.0))[2] + taken * kColor[2];
   };
   EXPECT_GT(gloss(0.0), 0.01);
   EXPECT_NEAR(gloss(0.4), 0.6 * gloss(0.0), 1e-12);
@@ -179,7 +233,8 @@ TEST(OpticalModel, OnlyWhatIsDisplayedLiesBetweenZeroAndOne)
   light.intensity = 5.0;
   light.wetness = 1.0;
   const Eigen::Vector3d bright = lit(light, 1.0, 0.0, 1.0);
-  EXPECT_TRUE(bright.isApprox(5.0 * (kColor + Eigen::Vector3d::Ones()), 1e-12));
+  const Eigen::Vector3d diffuse = (1.0 - light.specular) * kColor;
+  EXPECT_TRUE(bright.isApprox(5.0 * (diffuse + Eigen::Vector3d::Ones()), 1e-12));
   EXPECT_EQ(optics::displayed(bright, light), Eigen::Vector3d::Ones());
   light.toneCurve = true;
   EXPECT_LT(optics::displayed(bright, light).maxCoeff(), 1.0);

@@ -3,6 +3,8 @@
 
 #include "PictureComparison.h"
 #include "PictureScenes.h"
+#include "petrous/Appearance/AppearanceMaterial.h"
+#include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Rendering/ScenePicture.h"
 
 using namespace petrous;
@@ -137,6 +139,32 @@ TEST(TonePicture, ExposureIsAFactorBehindAVeil)
     }
   }
   EXPECT_EQ(drawn(0), 255); // 2.5 EV
+}
+
+// A wall of the catalogue's bone across the view axis, 1400 HU at the surface, and a mesh of its
+// colour, in the default light: c (1 - 0.18) + 0.18, of which 0.746 is diffuse.
+TEST(TonePicture, CortexThatFacesTheLampIsNotBurntOut)
+{
+  SceneContents contents = boneScene(ct<std::int16_t>(cube(48, 0.5), [](const Vector& p)
+                                                      { return p.y() > 0.0 ? 1400.0 : -1000.0; }));
+  const appearance::StructureAppearance look = appearance::boneLook();
+  contents.materials = {appearance::materialOf(look, {})};
+  const auto cortex = look.transfer->at(1400.0).color;
+  const auto expectCortex = [&](const char* what)
+  {
+    const Picture picture = draw(contents, from({0.0, -40.0, 0.0}, {0.0, 0.0, 0.0}, 7.5));
+    const std::uint8_t* pixel = picture.pixel(kWidth / 2, kHeight / 2);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(int{pixel[c]}, 255.0 * (0.82 * cortex[c] + 0.18), 1.5) << what << " " << c;
+    EXPECT_EQ(std::count(picture.rgb.begin(), picture.rgb.end(), 255), 0) << what;
+  };
+  expectCortex("bone");
+  contents.light.setShadows(true);
+  expectCortex("bone in shadows");
+  contents.light.setShadows(false);
+  const auto channel = [&cortex](std::size_t c) { return static_cast<float>(cortex[c]); };
+  contents.meshes = {sheet({channel(0), channel(1), channel(2)}, -2.0F)};
+  expectCortex("mesh");
 }
 
 // A wall across the view axis, with the focal point on it.

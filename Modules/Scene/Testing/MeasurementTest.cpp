@@ -52,6 +52,9 @@ Case measuredCase()
   value.measurements[2].structureGone = true;
   value.measurements[3].image = "T2";
   setImages(value.measurements[4], {"", "T2", "FLAIR"});
+  value.measurements[4].readings = {
+      {"T2", core::RigidTransform(Eigen::Quaterniond(0.6, 0.8, 0.0, 0.0), {1.0 / 3.0, 2.0, -7.0})},
+      {"FLAIR", core::RigidTransform(), true}};
   return value;
 }
 
@@ -191,6 +194,52 @@ TEST(Measurement, KnowsTheImageOfEachPoint)
   EXPECT_EQ(imageOf(one, 1), "T2");
   one.images.pop_back();
   EXPECT_THROW(checkMeasurements({one}), core::InvalidParameter);
+}
+
+// Points stay where they were set: the error of an MR that moved since is not theirs.
+TEST(Measurement, KnowsWhereTheMrLayWhenItsPointsWereSet)
+{
+  Case value = emptyCase();
+  ImagePart mr;
+  mr.name = "T2";
+  mr.registered = true;
+  value.mr.push_back(mr);
+  Measurement one = made(Kind::Distance, "one", {{0, 0, 0}, {1, 0, 0}});
+  setReadings(value, one);
+  EXPECT_TRUE(one.readings.empty()) << "both on the CT";
+  setImages(one, {"T2", "T2"});
+  EXPECT_EQ(outdatedPoints(value, one, "T2"), "") << "of an older case";
+  setReadings(value, one);
+  EXPECT_EQ(one.readings, MrReadings{readingOf(value.mr[0])});
+  EXPECT_EQ(outdatedPoints(value, one, "T2"), "");
+
+  value.mr[0].mrFromCt = core::RigidTransform(Eigen::Quaterniond::Identity(), {0.0, 0.5, 0.0});
+  EXPECT_NE(outdatedPoints(value, one, "T2").find("lies elsewhere since"), std::string::npos);
+  setReadings(value, one, 1); // that point alone is set anew
+  EXPECT_EQ(one.readings.size(), 2U);
+  EXPECT_NE(outdatedPoints(value, one, "T2"), "");
+  setReadings(value, one, 0);
+  setReadings(value, one);
+  EXPECT_EQ(one.readings, MrReadings{readingOf(value.mr[0])});
+  EXPECT_EQ(outdatedPoints(value, one, "T2"), "");
+
+  Measurement mark = made(Kind::Mark, "mark", {{0, 0, 0}});
+  setImages(mark, {"T2"});
+  setReadings(value, mark);
+  value.mr[0].mrFromCt = core::RigidTransform();
+  EXPECT_NE(outdatedPoints(value, mark, "T2"), "");
+  setReadings(value, mark, 0); // it has no other point
+  EXPECT_EQ(outdatedPoints(value, mark, "T2"), "");
+
+  value.measurements = {mark};
+  removePart(value, "T2");
+  value.mr.push_back(mr);
+  EXPECT_NE(outdatedPoints(value, value.measurements[0], "T2").find("not in the case any more"),
+            std::string::npos)
+      << "another one of its name";
+  setImages(mark, {""});
+  setReadings(value, mark, 0);
+  EXPECT_TRUE(mark.readings.empty());
 }
 
 // What follows a structure that was removed does not follow another one of its name.

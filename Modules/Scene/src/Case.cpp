@@ -227,6 +227,9 @@ void removePart(Case& value, const std::string& name)
       for (StructurePart& structure : part.structures)
         for (MrReading& reading : structure.readings)
           reading.isGone = reading.isGone || reading.mr == name;
+    for (Measurement& measurement : value.measurements)
+      for (MrReading& reading : measurement.readings)
+        reading.isGone = reading.isGone || reading.mr == name;
     if (auto& slices = value.view.slices; slices && slices->overlay && slices->overlay->mr == name)
       slices->overlay.reset();
     return;

@@ -98,6 +98,15 @@ void forgetGoneNames(Case& value)
     if (how.error && !quotesOnly(names, how.error->place))
       how.error->place = kUnnamedPlace;
   }
+  const auto forgetGone = [&value](MrReadings& readings)
+  {
+    for (MrReading& reading : readings)
+      if (reading.isGone || !findMr(value, reading.mr))
+      {
+        reading.mr = kRemovedImage;
+        reading.isGone = true;
+      }
+  };
   // Where it was set counts (an empty image is the CT), its name does not.
   for (Measurement& measurement : value.measurements)
   {
@@ -108,6 +117,7 @@ void forgetGoneNames(Case& value)
     };
     forget(measurement.image);
     std::for_each(measurement.images.begin(), measurement.images.end(), forget);
+    forgetGone(measurement.readings);
     if (measurement.structureGone ||
         (!measurement.structure.empty() && !kindOfPart(value, measurement.structure)))
     {
@@ -119,12 +129,7 @@ void forgetGoneNames(Case& value)
   {
     clean(part.notes);
     for (StructurePart& structure : part.structures)
-      for (MrReading& reading : structure.readings)
-        if (reading.isGone || !findMr(value, reading.mr))
-        {
-          reading.mr = kRemovedImage;
-          reading.isGone = true;
-        }
+      forgetGone(structure.readings);
   }
   for (MeshPart& mesh : value.meshes)
     clean(mesh.notes);

@@ -925,6 +925,8 @@ json measurementOut(const Measurement& measurement)
     j["image"] = measurement.image;
   if (!measurement.images.empty())
     j["images"] = measurement.images;
+  if (!measurement.readings.empty())
+    j[kMadeFrom] = readingsOut(measurement.readings);
   return j;
 }
 
@@ -940,6 +942,7 @@ Measurement measurementIn(const json& j)
   measurement.structureGone = j.value("structure_gone", false);
   measurement.image = j.value("image", std::string());
   measurement.images = j.value("images", std::vector<std::string>());
+  measurement.readings = readingsIn(j);
   return measurement;
 }
 

@@ -109,8 +109,8 @@ bool isName(const std::string& name)
 bool operator==(const Measurement& a, const Measurement& b)
 {
   return std::tie(a.kind, a.name, a.points, a.shown, a.structure, a.structureGone, a.image,
-                  a.images) == std::tie(b.kind, b.name, b.points, b.shown, b.structure,
-                                        b.structureGone, b.image, b.images);
+                  a.images, a.readings) == std::tie(b.kind, b.name, b.points, b.shown, b.structure,
+                                                    b.structureGone, b.image, b.images, b.readings);
 }
 
 const std::string& imageOf(const Measurement& measurement, std::size_t point)
@@ -124,6 +124,41 @@ void setImages(Measurement& measurement, std::vector<std::string> images)
                                  [&](const std::string& one) { return one == images.front(); });
   measurement.image = isOne && !images.empty() ? images.front() : std::string();
   measurement.images = isOne ? std::vector<std::string>() : std::move(images);
+}
+
+void setReadings(const Case& value, Measurement& measurement, std::optional<std::size_t> point)
+{
+  const std::size_t count = measurement.points.size();
+  const auto isUsed = [&](const std::string& mr, bool beforeAlone)
+  {
+    for (std::size_t n = 0; n < count; ++n)
+      if (imageOf(measurement, n) == mr && !(beforeAlone && (!point || n == *point)))
+        return true;
+    return false;
+  };
+  MrReadings& readings = measurement.readings;
+  readings.erase(std::remove_if(readings.begin(), readings.end(),
+                                [&](const MrReading& one) { return !isUsed(one.mr, true); }),
+                 readings.end());
+  for (std::size_t n = point.value_or(0); n < (point ? std::min(*point + 1, count) : count); ++n)
+    if (const std::string& image = imageOf(measurement, n); !image.empty())
+      if (const ImagePart* mr = findMr(value, image))
+        addReadings(readings, {readingOf(*mr)});
+}
+
+std::string outdatedPoints(const Case& value, const Measurement& measurement, const std::string& mr)
+{
+  const auto found =
+      std::find_if(measurement.readings.begin(), measurement.readings.end(),
+                   [&](const MrReading& one) { return one.mr == mr && !isCurrent(value, one); });
+  if (found == measurement.readings.end())
+    return {};
+  const ImagePart* now = found->isGone ? nullptr : findMr(value, mr);
+  if (now && now->registered)
+    return "the MR '" + mr + "' lies elsewhere since points were set on it: their error is not " +
+           "known";
+  return "the MR '" + mr + "', on which points were set, is not in the case any more as it was: " +
+         "their error is not known";
 }
 
 std::vector<std::string> forgetStructure(std::vector<Measurement>& measurements,

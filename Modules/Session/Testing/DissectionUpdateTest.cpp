@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../../Core/Testing/Eventually.h"
 #include "LoopScene.h"
 #include "SimulatedDevice.h"
 #include "petrous/Session/DissectionThread.h"
@@ -290,12 +291,24 @@ TEST_F(Following, ACutThatFailsLeavesWhatWasCutAndIsReportedOnce)
   Session& session = scene.session;
   session.go({0.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, 50);
   session.pedal = 1.0;
-  DissectionThread thread(ring, cutter, hooks());
+  int taken = 0;
+  std::atomic<int> done{0};
+  DissectionThread thread(ring, cutter,
+                          {[&](const TickRecord& record)
+                           {
+                             reporter.note(record);
+                             ++taken;
+                           },
+                           [&]
+                           {
+                             reporter.post();
+                             done = taken;
+                           }});
   std::string failure;
-  for (int n = 0; n < 200; ++n)
+  for (int n = 1; n <= 200; ++n)
   {
     ring.push(session.tick({{0.0, 0.0, 1.0}, Eigen::Quaterniond::Identity()}));
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_TRUE(core::testing::eventually([&] { return done == n; })) << n;
     if (const std::string statusMessage = thread.takeFailure(); !statusMessage.empty())
     {
       EXPECT_EQ(failure, "") << "reported twice";

@@ -13,6 +13,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "../../Core/Testing/Eventually.h"
 #include "BoneBlock.h"
 #include "SimulatedDevice.h"
 #include "petrous/Haptics/ConstrainedProxy.h"
@@ -126,9 +127,7 @@ protected:
   static void wait(const ServoThread& servo, std::uint64_t ticks)
   {
     const std::uint64_t until = servo.state().ticks + ticks;
-    for (int n = 0; servo.state().ticks < until && n < 60000; ++n)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    ASSERT_GE(servo.state().ticks, until);
+    ASSERT_TRUE(core::testing::eventually([&] { return servo.state().ticks >= until; }));
   }
 
   // The servo in one thread; cutting, undo and redo in another.

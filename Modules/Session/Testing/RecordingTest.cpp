@@ -2,6 +2,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <random>
 
@@ -394,6 +395,28 @@ TEST_F(Recording, SaysThatTheDiskDoesNotConfirmItsEnd)
   petrous::testing::SystemCalls::fail("fsync", 1, EIO);
   EXPECT_THROW(writer.close(), RecordingError);
   petrous::testing::SystemCalls::reset();
+}
+
+TEST_F(Recording, ReplacesAFileThatIsThereOnlyWhenItHasBegun)
+{
+  std::ofstream(file()) << "the one before";
+  const auto text = [this]
+  {
+    std::ifstream in(file(), std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  fs::create_directory(file().parent_path() / "folder");
+  EXPECT_THROW(RecordingWriter(file().parent_path() / "folder", {}), RecordingError);
+  petrous::testing::SystemCalls::fail("rename", 1, EIO);
+  EXPECT_THROW(RecordingWriter(file(), {}), RecordingError);
+  petrous::testing::SystemCalls::reset();
+  EXPECT_EQ(text(), "the one before");
+  EXPECT_EQ(std::distance(fs::directory_iterator(file().parent_path()), fs::directory_iterator()),
+            2)
+      << "nothing is left beside it";
+  RecordingWriter(file(), {}).close();
+  EXPECT_NE(text(), "the one before");
+  EXPECT_NO_THROW(RecordingReader(file()).setup());
 }
 
 TEST_F(Recording, SaysThatTheDiskIsFull)

@@ -5,8 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "../../Core/Testing/Eventually.h"
+
 using namespace petrous;
 using namespace petrous::session;
+using core::testing::eventually;
 using Eigen::Vector3d;
 
 namespace
@@ -20,15 +23,9 @@ dissection::RemovedVolume bricksOf(const dissection::Dissection& work)
   return {static_cast<double>(work.openBricks().size()), {}};
 }
 
-double wait(RemovedVolumeEstimator& meter, const dissection::Dissection& work, double wanted)
+bool becomes(RemovedVolumeEstimator& meter, const dissection::Dissection& work, double wanted)
 {
-  for (int n = 0; n < 500; ++n)
-  {
-    if (meter.soFar(work, bricksOf).total == wanted)
-      return wanted;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return meter.soFar(work, bricksOf).total;
+  return eventually([&] { return meter.soFar(work, bricksOf).total == wanted; });
 }
 
 } // namespace
@@ -40,9 +37,9 @@ TEST(RemovedVolumeEstimator, FollowsTheOpenStrokeAndForgetsItWhenItIsClosed)
   EXPECT_EQ(meter.soFar(work, bricksOf).total, 0.0);
   work.beginStroke({});
   work.cut({{2.0, 2.0, 2.0}, {2.0, 2.0, 2.0}, 1.0});
-  EXPECT_EQ(wait(meter, work, 1.0), 1.0);
+  EXPECT_TRUE(becomes(meter, work, 1.0));
   work.cut({{13.0, 2.0, 2.0}, {13.0, 2.0, 2.0}, 1.0});
-  EXPECT_EQ(wait(meter, work, 2.0), 2.0);
+  EXPECT_TRUE(becomes(meter, work, 2.0));
   work.endStroke();
   EXPECT_EQ(meter.soFar(work, bricksOf).total, 0.0);
   // A measurement still running does not count for the next stroke.
@@ -72,11 +69,5 @@ TEST(RemovedVolumeEstimator, NeitherWaitsNorMeasuresWithoutAStroke)
   for (int n = 0; n < 10; ++n)
     EXPECT_EQ(meter.soFar(work, slow).total, 0.0); // returns although nothing is measured yet
   go.set_value();
-  double total = 0.0;
-  for (int n = 0; n < 500 && total == 0.0; ++n)
-  {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    total = meter.soFar(work, slow).total;
-  }
-  EXPECT_EQ(total, 7.0);
+  EXPECT_TRUE(eventually([&] { return meter.soFar(work, slow).total == 7.0; }));
 }

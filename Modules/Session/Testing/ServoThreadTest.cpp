@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../../Core/Testing/Eventually.h"
 #include "BoneBlock.h"
 #include "SimulatedDevice.h"
 #include "petrous/Core/Error.h"
@@ -14,26 +15,12 @@
 using namespace petrous;
 using namespace petrous::session;
 using namespace petrous::session::testing;
+using core::testing::eventually;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 namespace
 {
-
-constexpr auto kPatience = std::chrono::seconds(60); // a loaded machine, under a sanitizer
-
-template <typename Condition>
-bool eventually(Condition condition)
-{
-  const auto end = std::chrono::steady_clock::now() + kPatience;
-  while (!condition())
-  {
-    if (std::chrono::steady_clock::now() > end)
-      return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
-}
 
 // A device that presses into the plane and retracts, about twice a second.
 haptics::Pose pressing(double t)

@@ -384,7 +384,8 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
   return read;
 }
 
-// An image that shows nothing is refused, and one that shows little is noted. `roi`: it is cut.
+// An image that shows nothing is refused, and one that shows little is noted. `roi`: it is cut, as
+// asked, and neither.
 void judgeContents(const fs::path& path, scene::ImagePart& image, bool roi)
 {
   if (!(image.range.min < image.range.max) && !roi)
@@ -394,7 +395,7 @@ void judgeContents(const fs::path& path, scene::ImagePart& image, bool roi)
   constexpr int kFew = 10;
   const int slices = image.geometry.dims()[2];
   const double covered = slices * image.geometry.spacing()[2];
-  if (slices < kFew)
+  if (slices < kFew && !roi)
     image.notes.push_back("The image has only " + std::to_string(slices) + " slices, which cover " +
                           core::fixedText(covered, 1) +
                           " mm; look whether all that is needed is in it.");
@@ -604,6 +605,7 @@ void addMr(scene::Case& value, const PartSource& source, const scene::IdentitySa
                              optionsOf(source.repair, source.roi, source.undeclaredBits), false,
                              source.assumeRas, source.unit, progress);
   scene::ImagePart& part = read.part;
+  judgeContents(source.path, part, source.roi.has_value());
   if (!read.otherQuantity.why.empty() && !read.otherQuantity.isUnspecified)
     part.notes.push_back(read.otherQuantity.why);
   part.name = name;
@@ -932,11 +934,11 @@ void noteManyValues(const fs::path& path, const imaging::LoadedLabels& loaded,
   constexpr std::size_t kMost = 1000; // the largest published atlases have some hundred
   constexpr std::size_t kMany = 120;  // TotalSegmentator has 117
   if (structures > kMost)
-    throw core::InvalidParameter(
-        path.string() + ": has " + std::to_string(structures) +
-        " different values, each of which would be a structure, and at most " +
-        std::to_string(kMost) +
-        " are taken; an image is added as an MR, and of an atlas only what is needed");
+    throw core::InvalidParameter(path.string() + ": has " + std::to_string(structures) +
+                                 " structures or different values, and at most " +
+                                 std::to_string(kMost) +
+                                 " are taken as structures; an image is added as an MR, and of an "
+                                 "atlas only what is needed");
   std::size_t unnamed = 0;
   for (const volume::LabelMap& map : loaded.maps)
     for (const volume::Segment& segment : map.segments)
@@ -1400,6 +1402,7 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   scene::checkCaseName(name);
   scene::Case value;
   value.name = name;
+  value.origins.push_back({sources.ct, fs::file_time_type::clock::now()});
   requireSide(sources.ct, sources.assumeRas, "--ct-frame");
   requireUnit(sources.ct, sources.unit, "--ct-unit");
   ReadImage read = readImage(sources.ct, sources.series,
@@ -1538,6 +1541,9 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
     addLabels(next, source, parts, share(), &reports);
   for (const PartSource& source : parts.meshes)
     addMesh(next, source, share());
+  for (const auto* kind : {&parts.mr, &parts.labels, &parts.meshes})
+    for (const PartSource& source : *kind)
+      next.origins.push_back({source.path, fs::file_time_type::clock::now()});
   value = std::move(next);
   if (report)
     report->insert(report->end(), reports.begin(), reports.end());

@@ -1229,6 +1229,7 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
   if (!segmentations.empty())
     addSegmentations(value, series, folder / "segmentations", summary.notes,
                      progress.part(0.85, 0.9));
+  value.origins.clear(); // what the node sent
   library.save(value, progress.part(0.9, 1.0));
   summary.name = value.name;
   return summary;

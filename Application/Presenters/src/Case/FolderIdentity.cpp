@@ -32,9 +32,9 @@ library::DeidentificationResult deidentifyFolder(const DeidentifyRequest& reques
                       request.output.string() +
                           ": is there already; name another file, or allow it to be replaced "
                           "(--replace)");
-  library::refuseOverwriting(request.output);
+  library::refuseOverwriting(request.output, request.library);
   if (!request.map.empty())
-    library::refuseOverwriting(request.map);
+    library::refuseOverwriting(request.map, request.library);
   std::unique_ptr<library::PseudonymMap> map;
   if (!request.map.empty())
   {

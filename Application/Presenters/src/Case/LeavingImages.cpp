@@ -1,6 +1,9 @@
 #include "petrous/Presenters/LeavingImages.h"
 
+#include <set>
+
 #include "petrous/Core/Error.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::presenters
 {
@@ -36,10 +39,14 @@ maskForArchive(const library::Library& library, const scene::ImageMask& mask,
 
 void leaveOutMrs(scene::Case& value, const std::vector<std::string>& names)
 {
-  for (const std::string& name : names)
+  std::vector<std::string> there;
+  for (const scene::ImagePart& mr : value.mr)
+    there.push_back(mr.name);
+  for (const std::string& name : std::set<std::string>(names.begin(), names.end()))
   {
     if (!scene::findMr(value, name))
-      throw core::InvalidParameter("there is no MR '" + name + "' to leave out");
+      throw core::InvalidParameter("there is no MR '" + name + "' to leave out; the case has " +
+                                   (there.empty() ? "none" : scene::listed(there)));
     scene::removePart(value, name);
   }
 }

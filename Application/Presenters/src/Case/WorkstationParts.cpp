@@ -176,6 +176,7 @@ void WorkstationModel::takeParts(const scene::Case& before, scene::Case with)
   append(m_case->mr, with.mr, before.mr.size());
   append(m_case->labels, with.labels, before.labels.size());
   append(m_case->meshes, with.meshes, before.meshes.size());
+  append(m_case->origins, with.origins, before.origins.size());
   partsMoved();
   recordAddition(added);
 }

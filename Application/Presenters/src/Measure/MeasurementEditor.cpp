@@ -382,6 +382,7 @@ void MeasurementEditor::add(Measurement measurement)
   }
   measurement.name = scene::freeMeasurementName(next, name);
   const std::string text = described(measurement);
+  scene::setReadings(m_model.value(), measurement);
   next.push_back(std::move(measurement));
   scene::checkMeasurements(next); // before the points are dropped
   forgetPoints();
@@ -536,6 +537,7 @@ void MeasurementEditor::follow(const Vector3d& patient)
                        ? partOf(*known->second.line, patient, moved.points.back())
                        : partOf(*known->second.line, moved.points.front(), patient);
     moved.image = known->second.image;
+    scene::setReadings(m_model.value(), moved);
     return show(std::move(next));
   }
   std::vector<std::string> images;
@@ -543,6 +545,7 @@ void MeasurementEditor::follow(const Vector3d& patient)
     images.push_back(n == m_dragged->point ? m_image : scene::imageOf(moved, n));
   moved.points[m_dragged->point] = patient;
   scene::setImages(moved, std::move(images));
+  scene::setReadings(m_model.value(), moved, m_dragged->point);
   show(std::move(next));
 }
 

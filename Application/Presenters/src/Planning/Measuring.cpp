@@ -94,11 +94,13 @@ struct RegistrationShare
   std::optional<double> millimetres; // none: unknown
   std::string text;
 };
-RegistrationShare registrationOf(const scene::Case& value, const std::string& image,
-                                 const core::PatientBox& box)
+RegistrationShare registrationOf(const scene::Case& value, const Measurement& one,
+                                 const std::string& image, const core::PatientBox& box)
 {
   if (image.empty())
     return {0.0, {}};
+  if (std::string outdated = scene::outdatedPoints(value, one, image); !outdated.empty())
+    return {std::nullopt, std::move(outdated)};
   const auto error = registrationErrorIn(value, image, box);
   if (!error)
     return {std::nullopt, kErrorUnknown};
@@ -113,11 +115,20 @@ core::PatientBox boxOf(const std::vector<Vector3d>& points, const std::vector<st
   return box;
 }
 
+// Whether points were set on the MR as it lay at different times.
+bool hasSeveralPlaces(const Measurement& one, const std::string& mr)
+{
+  return std::count_if(one.readings.begin(), one.readings.end(),
+                       [&mr](const scene::MrReading& reading) { return reading.mr == mr; }) > 1;
+}
+
 // Where the points were set: "points 1, 3 set on the CT, voxels ...; point 2 set on the MR ...".
 std::string imagesOf(const scene::Case& value, const Measurement& one)
 {
   if (one.images.empty())
-    return voxelsOf(value, one.image);
+    return joined({voxelsOf(value, one.image), hasSeveralPlaces(one, one.image)
+                                                   ? scene::outdatedPoints(value, one, one.image)
+                                                   : std::string()});
   std::vector<std::string> phrases;
   for (const auto& [image, points] : pointsByImage(one))
   {
@@ -125,7 +136,7 @@ std::string imagesOf(const scene::Case& value, const Measurement& one)
     for (std::size_t n = 0; n < points.size(); ++n)
       which += (n > 0 ? ", " : "") + std::to_string(points[n] + 1);
     phrases.push_back(which + " " + voxelsOf(value, image));
-    phrases.push_back(registrationOf(value, image, boxOf(one.points, points)).text);
+    phrases.push_back(registrationOf(value, one, image, boxOf(one.points, points)).text);
   }
   return joined(phrases);
 }
@@ -160,7 +171,7 @@ std::vector<Quantity> coordinatesOf(const scene::Case& value, const Measurement&
 {
   const auto spread = spreadAt(value, mark.image);
   const RegistrationShare share =
-      registrationOf(value, mark.image, core::PatientBox(mark.points.front()));
+      registrationOf(value, mark, mark.image, core::PatientBox(mark.points.front()));
   std::vector<Quantity> quantities;
   for (Eigen::Index a = 0; a < 3; ++a)
   {
@@ -348,8 +359,10 @@ std::optional<double> propagated(const scene::Case& value, const Measurement& me
       together += slopes[n];
     }
     // All of one image moves as a rigid whole, which changes no value of its points alone.
-    if (groups.size() == 1)
+    if (groups.size() == 1 && !hasSeveralPlaces(measurement, image))
       continue;
+    if (!scene::outdatedPoints(value, measurement, image).empty())
+      return std::nullopt;
     if (const auto off = points.size() > 1
                              ? turned(value, image, measurement.points, slopes, points)
                              : std::nullopt)
@@ -357,7 +370,8 @@ std::optional<double> propagated(const scene::Case& value, const Measurement& me
       registrations += *off * *off;
       continue;
     }
-    const RegistrationShare share = registrationOf(value, image, boxOf(measurement.points, points));
+    const RegistrationShare share =
+        registrationOf(value, measurement, image, boxOf(measurement.points, points));
     if (!share.millimetres)
       return std::nullopt;
     registrations += std::pow(*share.millimetres * together.norm(), 2);
@@ -559,7 +573,8 @@ Between distanceBetween(const scene::Case& value, const std::string& a, const st
     std::optional<double> share; // mm
     std::optional<RegistrationErrorHere> registration;
     std::string text;
-    bool isMade = false; // from an MR, maybe not from it alone
+    bool isMade = false;  // from an MR, maybe not from it alone
+    std::string outdated; // of a mark (scene::outdatedPoints)
   };
   const auto sideOf = [&](const std::string& name, const core::Progress& part)
   {
@@ -572,8 +587,12 @@ Between distanceBetween(const scene::Case& value, const std::string& a, const st
     {
       side.mark = mark->points.front();
       side.image = side.keptImage = mark->image;
-      side.registration =
-          registrationErrorIn(value, side.image, core::PatientBox(mark->points.front()));
+      side.outdated = scene::outdatedPoints(value, *mark, side.image);
+      if (side.outdated.empty())
+        side.registration =
+            registrationErrorIn(value, side.image, core::PatientBox(mark->points.front()));
+      else
+        side.keptImage += " as it lay before";
       return side;
     }
     const scene::StructureOccupancy known = namedOccupancy(value, name, "distance", part);
@@ -647,11 +666,14 @@ Between distanceBetween(const scene::Case& value, const std::string& a, const st
     }
     // What was made from an MR may be of other images too, so that one registration of both sides
     // need not move both alike.
-    if (!side->isMade &&
-        ((one.image == other.image && !one.isMade && !other.isMade) || side->image.empty()))
+    const bool movesAlike = one.image == other.image && !one.isMade && !other.isMade &&
+                            one.outdated.empty() && other.outdated.empty();
+    if (!side->isMade && (movesAlike || side->image.empty()))
       continue;
     if (side->mark) // a structure's text has it
-      remarks.push_back(side->registration ? toString(*side->registration) : kErrorUnknown);
+      remarks.push_back(side->registration       ? toString(*side->registration)
+                        : side->outdated.empty() ? std::string(kErrorUnknown)
+                                                 : side->outdated);
     isKnown = isKnown && side->registration;
     const double p95 = side->registration ? side->registration->p95 : 0.0;
     square += p95 * p95;

@@ -176,6 +176,8 @@ void withholdNames(scene::Case& value, Withheld& withheld)
     structure(one.structure);
     image(one.image);
     std::for_each(one.images.begin(), one.images.end(), image);
+    for (scene::MrReading& reading : one.readings)
+      image(reading.mr);
   }
   for (scene::ImagePart& mr : value.mr)
     if (mr.registration)

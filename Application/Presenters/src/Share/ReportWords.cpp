@@ -217,8 +217,8 @@ bool isDecimal(std::string_view text, std::size_t begin, std::size_t end) noexce
          !(first > 0 && isOfWord(at(first - 1))) && !isOfWord(at(end));
 }
 
-/// A sentence with a comma in each of its decimal numbers. What stands in quotation marks is a
-/// name.
+/// A sentence with a comma in each of its decimal numbers, and semicolons between those of a list.
+/// What stands in quotation marks is a name.
 std::string withCommas(std::string text)
 {
   constexpr std::string_view kOpening = "\u201e", kClosing = "\u201c";
@@ -237,7 +237,12 @@ std::string withCommas(std::string text)
     while (text[end - 1] == '.')
       --end;
     if (isDecimal(text, n, end))
+    {
       text[text.find('.', n)] = ',';
+      const char next = end + 2 < text.size() ? text[end + 2] : ' ';
+      if (text.compare(end, 2, ", ") == 0 && (isDigit(next) || next == '-'))
+        text[end] = ';'; // of a list
+    }
     n = end - 1;
   }
   return text;

@@ -390,6 +390,25 @@ std::string embed(scene::Attachment& one, const Library& library, ArchiveStaging
   return {};
 }
 
+/// A lost tool keeps no case back.
+void chooseInstrument(scene::Case& value, const ObjectStore& kept, std::vector<std::string>& notes,
+                      const core::Progress& progress)
+{
+  auto& instrument = value.view.instrument;
+  if (!instrument)
+    return;
+  instrument->name.clear(); // its file may be called after the patient, or who owns it
+  try
+  {
+    checkObject(kept.path(instrument->object), "the instrument", progress);
+  }
+  catch (const LibraryError&)
+  {
+    instrument.reset();
+    notes.emplace_back("the instrument is not in the archive: its file is damaged or missing");
+  }
+}
+
 /// Leaves out what stays in the library, embeds what is linked, and notes both.
 void chooseAttachments(scene::Case& value, const Library& library, const ArchiveOptions& options,
                        ArchiveStaging& passing, std::vector<std::string>& notes,
@@ -588,8 +607,7 @@ try
   }
   else if (!description.note.empty())
     summary.notes.emplace_back("the note goes along as it was typed; see that it names nobody");
-  if (value.view.instrument) // its file may be called after the patient, or who owns it
-    value.view.instrument->name.clear();
+  chooseInstrument(value, kept, summary.notes, progress.part(0.0, 0.0));
   chooseAttachments(value, library, options, passing, summary.notes, progress.part(0.0, 0.0));
   const std::size_t before = noteCount(value);
   scene::forgetGoneNames(value);
@@ -615,12 +633,17 @@ try
   if (!options.planOnly && !isPrepared)
     index.thumbnail = readThumbnail(library.folder(), value.id);
   std::set<std::string> used;
-  const std::vector<ObjectUse> uses = objectsOf(value);
+  std::vector<ObjectUse> uses = objectsOf(value);
   std::vector<const ObjectUse*> stored;
-  for (const ObjectUse& use : uses)
+  for (ObjectUse& use : uses)
   {
     if (options.planOnly && !isOfPlan(use))
       continue;
+    if (options.planOnly && use.isInstrument) // a plan has no meshes
+    {
+      use.kind = ObjectUse::Kind::Instrument;
+      use.name = "instrument";
+    }
     const fs::path path =
         storeOf(use.object).path(use.object, use.what + " of case '" + name + "'");
     const std::uintmax_t bytes = core::InputFile(path).size();

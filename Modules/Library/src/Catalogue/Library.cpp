@@ -18,6 +18,7 @@
 #include "ManifestFile.h"
 #include "Recovery.h"
 #include "Salt.h"
+#include "Sources.h"
 #include "Thumbnail.h"
 #include "petrous/Core/Log.h"
 #include "petrous/Core/NumberText.h"
@@ -46,7 +47,7 @@ namespace
 using Reason = LibraryError::Reason;
 
 // A missing object (its last case was deleted meanwhile) is stored again if the part is still in
-// memory; else the case keeps the reference, and opening it reports the missing object.
+// memory; else refuseMissing.
 bool mustStore(const std::string& object, const ObjectStore& store, bool inMemory)
 {
   return object.empty() || (inMemory && !store.contains(object));
@@ -84,6 +85,63 @@ void storeParts(const Library& library, scene::Case& value, ObjectStore& store,
         mustStore(strokes[n]->object, store, !!packed.peek()))
       value.dissection.setStored(n, store.add("stroke", *packed.get()), packed);
   storeAttachments(value, store, progress);
+}
+
+// No manifest gets a reference to an object that is not there, but for those of a damaged case:
+// what is drilled in it is kept, also under another name, and its file may come back. Nor does a
+// lost attachment or instrument keep a case from another library.
+void refuseMissing(const scene::Case& next, const scene::Case& present, const fs::path& cases,
+                   const ObjectStore& store)
+{
+  std::vector<ObjectUse> missing;
+  for (const ObjectUse& use : objectsOf(next))
+    if (!use.object.empty() && !store.contains(use.object))
+      missing.push_back(use);
+  if (missing.empty())
+    return;
+  std::set<std::string> damaged;
+  const auto had = [&damaged](const scene::Case& value)
+  {
+    for (const ObjectUse& use : objectsOf(value))
+      damaged.insert(use.object);
+  };
+  if (present.revision > 0)
+    had(present);
+  else
+    for (const std::string& name : namesIn(cases))
+      try
+      {
+        had(manifestIn(cases / (name + ".json"), name));
+      }
+      catch (const core::Error&)
+      {
+        // told where it is opened
+      }
+  std::string lost;
+  std::size_t count = 0;
+  for (const ObjectUse& use : missing)
+    if (damaged.count(use.object) == 0 &&
+        (present.revision > 0 ||
+         (use.kind != ObjectUse::Kind::Attachment && use.kind != ObjectUse::Kind::Instrument)))
+      lost += (count++ == 0 ? "" : ", ") + use.what;
+  if (count > 0)
+    throw LibraryError(Reason::NotFound,
+                       "case '" + next.name +
+                           "' cannot be saved, as of what it needs the library "
+                           "has lost " +
+                           lost +
+                           " (removed by another program, or by hand); restore the library's files "
+                           "from a copy, or take out of the case what is lost, and save again");
+}
+
+// With the files that attachments are links to.
+std::vector<scene::PartsOrigin> originsOf(const scene::Case& value)
+{
+  std::vector<scene::PartsOrigin> origins = value.origins;
+  for (const scene::Attachment& one : value.attachments)
+    if (!one.link.empty())
+      origins.push_back({one.link, fs::file_time_type::min()}); // no folder: of any time
+  return origins;
 }
 
 std::string labelsText(const scene::Case& value, const scene::LabelPart& part)
@@ -775,47 +833,8 @@ void Library::save(scene::Case& value, const core::Progress& progress)
       [this, &progress](scene::Case& next, ObjectStore& store)
       { storeParts(*this, next, store, progress); },
       progress);
-  if (isFirst && m_notice)
-    for (const std::string& words : goneWithAnother(value))
-      m_notice("case '" + value.name + "' is saved, but not all of it is there: " + words);
   if (!isFirst)
     noticeOpenersOf(value.name, value.id);
-}
-
-// What the case shares with one that another program removed for good meanwhile. What other cases
-// need, too, is damage, which they tell.
-std::vector<std::string> Library::goneWithAnother(const scene::Case& value) const
-{
-  const ObjectStore store(objectFolder());
-  std::vector<ObjectUse> missing;
-  for (const ObjectUse& use : objectsOf(value))
-    if (!store.contains(use.object))
-      missing.push_back(use);
-  if (missing.empty())
-    return {};
-  std::set<std::string> needed;
-  const auto need = [&needed](const fs::path& manifest, const std::string& name)
-  {
-    try
-    {
-      for (const ObjectUse& use : objectsOf(manifestIn(manifest, name)))
-        needed.insert(use.object);
-    }
-    catch (const core::Error&)
-    {
-      // damaged, which is told where it is opened
-    }
-  };
-  for (const std::string& name : namesIn(m_folder / "cases"))
-    if (name != value.name)
-      need(manifestPath(name), name);
-  for (const DeletedFile& file : deletedIn(m_folder / "cases"))
-    need(file.manifest, file.name);
-  std::vector<std::string> gone;
-  for (const ObjectUse& use : missing)
-    if (needed.count(use.object) == 0)
-      gone.push_back(use.what + " is missing");
-  return gone;
 }
 
 void Library::saveWith(scene::Case& value,
@@ -829,13 +848,13 @@ void Library::saveWith(scene::Case& value,
 
   const fs::path path = manifestPath(value.name);
   const bool there = contains(value.name);
+  scene::Case present;
   if (value.revision == 0)
     refuseTakenName(m_folder, value.name);
   if (value.revision == 0)
     setOrphanAside(m_folder, value.name);
   else
   {
-    scene::Case present;
     if (there)
       present = readManifest(value.name);
     if (present.revision != value.revision || present.id != value.id)
@@ -850,10 +869,12 @@ void Library::saveWith(scene::Case& value,
   removeLeftovers(m_folder / "cases");
   ObjectStore store(objectFolder());
   bool onDisk = true;
+  std::vector<scene::PartsOrigin> origins;
   try
   {
     scene::Case next = value;
     storeObjects(next, store);
+    refuseMissing(next, present, m_folder / "cases", store);
     if (next.revision == 0)
       next.id = drawnId();
     saltFrames(next, m_folder);
@@ -866,6 +887,8 @@ void Library::saveWith(scene::Case& value,
     onDisk = file.commit();
     // The manifest is published: no rollback from here on.
     store.forget();
+    origins = originsOf(next);
+    next.origins.clear();
     value = std::move(next);
   }
   catch (const core::OutputFileError& error)
@@ -892,6 +915,8 @@ void Library::saveWith(scene::Case& value,
                     (onDisk ? "" : "; the disk reported an error"));
     if (const auto state = stateOf(path))
       Catalogue(m_folder / "library.sqlite").put(entryOf(value, *state));
+    if (!origins.empty())
+      Sources(m_folder).add(origins);
   }
   catch (const std::exception& error) // the case is saved, whatever is said of it
   {

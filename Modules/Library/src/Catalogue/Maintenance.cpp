@@ -19,6 +19,7 @@
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Library/OpenMark.h"
+#include "petrous/Library/OwnerLock.h"
 #include "petrous/Scene/Manifest.h"
 
 // Operations on the whole library, and on cases as files.
@@ -685,7 +686,8 @@ Collected Library::collectGarbage(const core::Progress& progress)
     throw LibraryError(Reason::Conflict,
                        "a case of the library is open in Petrous elsewhere (" + toString(openers) +
                            "), where what was removed can still be put back; nothing was cleaned "
-                           "up: close it there first");
+                           "up: close it there first. Where no such program runs any more, remove "
+                           "what is in the library's folder 'open'");
   std::set<std::string> used;
   std::set<std::string> ids;
   const std::vector<std::string> names = namesIn(m_folder / "cases");
@@ -741,6 +743,7 @@ Collected Library::collectGarbage(const core::Progress& progress)
   core::syncFolder(m_folder / "cases");
   removeLeftovers(objectFolder());
   removeLeftovers(m_folder / "cases");
+  removeAbandoned(m_folder, &core::isLeftover); // its other files have locks of their own
   ObjectStore store(objectFolder());
   const auto objects = store.list();
   std::size_t looked = 0;
@@ -805,6 +808,7 @@ Repaired Library::repair(const core::Progress& progress, bool acceptChanged)
   const core::FileLock lock = lockForWriting(progress);
   removeLeftovers(objectFolder());
   removeLeftovers(m_folder / "cases");
+  removeAbandoned(m_folder, &core::isLeftover); // its other files have locks of their own
   for (const char* ending : {"", "-journal", "-wal", "-shm"})
     removeFile((m_folder / kIndex).string() + ending);
   Catalogue index(m_folder / kIndex);

@@ -143,7 +143,7 @@ std::vector<ObjectUse> objectsOf(const scene::Case& value)
                        const std::string& what)
   {
     if (seen.insert(object).second)
-      uses.push_back({object, kind, name, what});
+      uses.push_back({object, kind, name, what, false});
   };
   const auto addImage = [&](const scene::ImagePart& image)
   {
@@ -155,11 +155,21 @@ std::vector<ObjectUse> objectsOf(const scene::Case& value)
   for (const auto& part : value.labels)
     add(part.object, ObjectUse::Kind::Structures,
         part.structures.empty() ? "" : part.structures.front().name, "structures");
-  // First, as a mesh of the case may be the same object, and a plan has no meshes.
-  if (value.view.instrument)
-    add(value.view.instrument->object, ObjectUse::Kind::Instrument, "instrument", "the instrument");
   for (const auto& mesh : value.meshes)
     add(mesh.object, ObjectUse::Kind::Mesh, mesh.name, "mesh '" + mesh.name + "'");
+  if (const auto& instrument = value.view.instrument)
+  {
+    const auto mesh =
+        std::find_if(uses.begin(), uses.end(),
+                     [&](const ObjectUse& use) { return use.object == instrument->object; });
+    if (mesh == uses.end())
+      add(instrument->object, ObjectUse::Kind::Instrument, "instrument", "the instrument");
+    else
+    {
+      mesh->what += ", which is the instrument, too,";
+      mesh->isInstrument = true;
+    }
+  }
   const auto& strokes = value.dissection.strokes();
   for (std::size_t n = 0; n < strokes.size(); ++n)
     add(strokes[n]->object, ObjectUse::Kind::Stroke, std::to_string(n + 1),

@@ -51,18 +51,19 @@ struct ObjectUse
   };
   std::string object;
   Kind kind;
-  std::string name; ///< of the part; of a stroke, its number
-  std::string what; ///< for messages
+  std::string name;          ///< of the part; of a stroke, its number
+  std::string what;          ///< for messages
+  bool isInstrument = false; ///< of a mesh: it is the instrument, too
 };
 
 /// Whether an archive of a plan has it: what was made, not what was imported.
 inline bool isOfPlan(const ObjectUse& use) noexcept
 {
-  return use.kind == ObjectUse::Kind::Instrument || use.kind == ObjectUse::Kind::Stroke ||
-         use.kind == ObjectUse::Kind::Attachment;
+  return use.kind == ObjectUse::Kind::Instrument || use.isInstrument ||
+         use.kind == ObjectUse::Kind::Stroke || use.kind == ObjectUse::Kind::Attachment;
 }
 
-/// The objects of a case in the order CT, MRs, structures, instrument, meshes, strokes,
+/// The objects of a case in the order CT, MRs, structures, meshes, instrument, strokes,
 /// attachments; each once.
 std::vector<ObjectUse> objectsOf(const scene::Case& value);
 

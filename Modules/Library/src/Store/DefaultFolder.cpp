@@ -62,6 +62,8 @@ fs::path defaultFolder()
                        core::printable(file) +
                            ": does not name the library's folder; write its path there, or remove "
                            "the file to use the usual one");
+  if (fs::exists(folder, error))
+    checkLibraryFolder(folder);
   if (!fs::is_directory(folder, error))
     throw LibraryError(LibraryError::Reason::NotFound,
                        core::printable(folder) +
@@ -92,6 +94,7 @@ void chooseDefaultFolder(const fs::path& folder)
                        core::printable(chosen) +
                            ": a library keeps its own data there; choose that library's folder, or "
                            "one outside of it");
+  checkLibraryFolder(chosen);
   makeFolder(chosen);
   makeFolder(file.parent_path());
   try

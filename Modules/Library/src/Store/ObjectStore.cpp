@@ -39,12 +39,16 @@ bool isObjectName(const std::string& name)
          name.find('/') == std::string::npos;
 }
 
-// What helps if an object is missing or damaged: a stroke cannot be imported.
-std::string remedyFor(const fs::path& object)
+// What helps if an object is missing or damaged: a stroke cannot be imported. `what`: it begins so
+// of an instrument, which no part of the case needs.
+std::string remedyFor(const fs::path& object, const std::string& what)
 {
   const fs::path ending = object.extension();
+  const bool isInstrument = what.rfind("the instrument", 0) == 0;
   return std::string("; restore this file from a copy of the library") +
-         (ending == ".stroke" ? ""
+         (isInstrument ? ", take it up again from its own file (petrous view --instrument), or "
+                         "take it out of the case (--clear instrument)"
+          : ending == ".stroke" ? ""
           : ending == ".nrrd" || ending == ".obj"
               ? ", or import the same data again (into a new case), which puts it back"
               : ", or attach the same file again, which puts it back") +
@@ -55,14 +59,14 @@ std::string remedyFor(const fs::path& object)
 {
   throw LibraryError(LibraryError::Reason::Damaged,
                      core::printable(object) + ": " + (what.empty() ? "this file" : what) +
-                         " is damaged: not what was stored there" + remedyFor(object));
+                         " is damaged: not what was stored there" + remedyFor(object, what));
 }
 
 [[noreturn]] void throwMissing(const fs::path& object, const std::string& what)
 {
   throw LibraryError(LibraryError::Reason::NotFound, core::printable(object) + ": " +
                                                          (what.empty() ? "" : what + " is ") +
-                                                         "missing" + remedyFor(object));
+                                                         "missing" + remedyFor(object, what));
 }
 
 } // namespace

@@ -523,21 +523,22 @@ bool RayCaster::hasInstrument(const Frame& frame) const
          tool::isShown(*frame.tool) && frame.tool->instrument == m_instrument.mesh;
 }
 
-// One that is put away stays: it is often taken up again. A measurement does not.
+// One that is put away or out of the picture stays, as does its measurement: it is often taken up
+// again.
 void RayCaster::uploadInstrument(const Frame& frame)
 {
   m_statistics.pendingShadow = false;
-  const bool isShown = frame.tool && frame.tool->instrument && tool::isShown(*frame.tool);
+  const bool isHeld = frame.tool && frame.tool->instrument;
   if (!m_contents.light.shadows)
   {
     m_instrument.texture.release();
     m_instrument.mesh.reset();
   }
-  if (!m_contents.light.shadows || !isShown || frame.tool->instrument == m_instrument.mesh)
-  {
+  if (!m_contents.light.shadows || (isHeld && frame.tool->instrument == m_instrument.mesh))
     m_measurement.reset();
+  if (!m_contents.light.shadows || !isHeld || !tool::isShown(*frame.tool) ||
+      frame.tool->instrument == m_instrument.mesh)
     return;
-  }
   m_instrument.texture.release();
   m_instrument.mesh.reset(); // until all is there: what fails is tried and told again
   const bool wasPending = m_measurement && m_measurement->instrument() == frame.tool->instrument;

@@ -65,10 +65,12 @@ Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics,
                              const Seen& seen, double focus, bool isScale)
 {
   const double facing = std::clamp(std::abs(cosine), 0.0, 1.0);
-  const double diffuse = light.ambient * seen.sky + (1.0 - light.ambient) * facing * seen.lamp;
-  const double highlight =
-      (1.0 - light.wetness) * optics.specular * light.specular * std::pow(facing, shininess) +
-      light.wetness * std::pow(facing, kWetShininess);
+  const double gloss = optics.specular * light.specular;
+  const double taken = isScale ? 0.0 : gloss * facing * facing;
+  const double diffuse =
+      light.ambient * seen.sky + std::max(1.0 - light.ambient - taken, 0.0) * facing * seen.lamp;
+  const double highlight = (1.0 - light.wetness) * gloss * std::pow(facing, shininess) +
+                           light.wetness * std::pow(facing, kWetShininess);
   const Eigen::Vector3d color(optics.color[0], optics.color[1], optics.color[2]);
   const double reaching = lightAt(light, distance, focus);
   const Eigen::Vector3d lit = (isScale ? std::min(reaching, light.intensity) : reaching) *

@@ -169,13 +169,16 @@ double edgeOpacity(double opacity, double cosine, double edges);
 /// Grey of a CT's value in a section, 0 to 1.
 double sectionGrey(const SectionWindow& window, double value);
 
-/// light (c (ambient sky + (1 - ambient) facing lamp) + lamp ((1 - wetness) k_s specular
-///        facing^shininess + wetness facing^kWetShininess)), without an upper bound; k_s of the
-/// transfer function. Below water a surface has no gloss of its own: bone (refractive index 1.55)
-/// reflects 4.7 % in air and 0.6 % in water (Fresnel).
+/// With the gloss g = k_s specular, k_s of the transfer function:
+///   light (c (ambient sky + max(1 - ambient - g facing^2, 0) facing lamp)
+///          + lamp ((1 - wetness) g facing^shininess + wetness facing^kWetShininess))
+/// without an upper bound. What is reflected as gloss is taken from the lamp's diffuse light, so
+/// that a dry surface which faces the lamp, c (1 - g) + g, is at most white; not seen from the
+/// side, so that what is dark stays as it is. Below water a surface has no gloss of its own: bone
+/// (refractive index 1.55) reflects 4.7 % in air and 0.6 % in water (Fresnel).
 ///
-/// `isScale`: a colour that is compared with a legend; the light is at most the intensity then, and
-/// it is displayed as it is, 0..1.
+/// `isScale`: a colour that is compared with a legend; its gloss takes nothing, the light is at
+/// most the intensity, and it is displayed as it is, 0..1.
 Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics, double shininess,
                              double cosine, const LightSettings& light, double distance,
                              const Seen& seen = {}, double focus = 0.0, bool isScale = false);

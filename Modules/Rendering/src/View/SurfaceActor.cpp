@@ -33,7 +33,16 @@ namespace
 // small angles this equals the optical model's cos(a)^n with a quarter of the exponent.
 constexpr double kHighlight = 0.25;
 
-// By the parts of which VTK's shader has just made the colour.
+// By the parts of which VTK's shader has just made the colour: what the gloss takes from the
+// diffuse light (surfaceColor in OpticalModel.h), and what reaches the surface. The light is at the
+// camera.
+constexpr const char* kGloss =
+    "vec3 toEye = cameraParallel != 0 ? vec3(0.0, 0.0, 1.0) : normalize(-vertexVC.xyz);\n"
+    "float facing = dot(normalVCVSOutput, toEye);\n"
+    "diffuse *= max(1.0 - p_gloss * facing * facing, 0.0);\n"
+    "if (cameraParallel != 0)\n" // VTK's highlight is that of a perspective
+    "  specular = specularColor * pow(max(facing, 0.0), 4.0 * specularPower);\n"
+    "gl_FragData[0].rgb = ambientColor + diffuse + specular;\n";
 constexpr const char* kShadowed =
     "Seen seen = polygonSeen(vertexVC.xyz, normalVCVSOutput);\n"
     "gl_FragData[0].rgb = seen.sky * ambientColor + seen.lamp * (diffuse + specular);\n";
@@ -116,6 +125,12 @@ std::vector<Eigen::Vector3f> vertexNormals(const core::TriangleMesh& mesh)
   return normals;
 }
 
+void setLitColor(vtkProperty* property, double red, double green, double blue)
+{
+  property->SetAmbientColor(red, green, blue);
+  property->SetDiffuseColor(red, green, blue);
+}
+
 void PolygonShading::followShadows(vtkActor* actor, ProgramSetter setter)
 {
   if (!setter)
@@ -136,7 +151,7 @@ void PolygonShading::apply(vtkActor* actor, const LightSettings& light, float op
   const bool isExposed = light.exposure != 0.0;
   const bool hasPattern = opacity < 1.0F;
   const bool isShadowed = light.shadows && m_followsShadows;
-  std::string code;
+  std::string code = kGloss;
   if (isShadowed)
     code += kShadowed;
   if (isExposed)
@@ -156,11 +171,17 @@ void PolygonShading::apply(vtkActor* actor, const LightSettings& light, float op
     if (!functions.empty())
       shader->AddFragmentShaderReplacement("//VTK::Light::Dec", true,
                                            "//VTK::Light::Dec\n" + functions, false);
-    if (!code.empty())
-      shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
-                                           "//VTK::Light::Impl\n" + code, false);
+    // VTK sets it, but declares it only where surfaces have no normals.
+    shader->AddFragmentShaderReplacement("//VTK::Camera::Dec", true,
+                                         "uniform int cameraParallel;\n", false);
+    shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, "//VTK::Light::Impl\n" + code,
+                                         false);
   }
   vtkUniforms* uniforms = shader->GetFragmentCustomUniforms();
+  vtkProperty* property = actor->GetProperty();
+  const double lambert = property->GetDiffuse();
+  uniforms->SetUniformf(
+      "p_gloss", lambert > 0.0 ? static_cast<float>(property->GetSpecular() / lambert) : 0.0F);
   if (isExposed)
     uniforms->SetUniformf("p_exposure", static_cast<float>(optics::exposureFactor(light.exposure)));
   if (hasPattern)
@@ -195,7 +216,7 @@ void SurfaceActor::setLook(const appearance::StructureAppearance& look, const Li
 {
   m_actor->SetVisibility(look.shown && look.opacity > 0.0F ? 1 : 0);
   vtkProperty* property = m_actor->GetProperty();
-  property->SetColor(look.color[0], look.color[1], look.color[2]);
+  setLitColor(property, look.color[0], look.color[1], look.color[2]);
   property->SetInterpolationToPhong();
   property->SetAmbient(light.ambient * light.intensity);
   property->SetDiffuse((1.0 - light.ambient) * light.intensity);

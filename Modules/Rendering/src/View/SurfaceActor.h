@@ -14,6 +14,7 @@
 class vtkActor;
 class vtkPolyData;
 class vtkPolyDataMapper;
+class vtkProperty;
 
 namespace petrous::rendering
 {
@@ -27,12 +28,15 @@ vtkSmartPointer<vtkPolyData> toPolyData(const core::TriangleMesh& mesh,
 /// Area-weighted vertex normals.
 std::vector<Eigen::Vector3f> vertexNormals(const core::TriangleMesh& mesh);
 
+/// RGB, 0 to 1; highlights stay white, as in the optical model (vtkProperty::SetColor tints them).
+void setLitColor(vtkProperty* property, double red, double green, double blue);
+
 /// Sets the uniforms of an OpenGL program that is in use.
 using ProgramSetter = std::function<void(GlUniforms& program)>;
 
 /// What is injected into VTK's polygon shader so that an actor's lit colours are displayed as the
-/// ray caster's are: shadows, exposure, tone curve and screen-door transparency. Nothing where none
-/// is used.
+/// ray caster's are: gloss, shadows, exposure, tone curve and screen-door transparency; the last
+/// four where they are used.
 class PolygonShading
 {
 public:

@@ -159,7 +159,7 @@ ToolProps::ToolProps(Look look)
       continue;
     }
     m_shadings[part] = std::make_unique<PolygonShading>();
-    property->SetColor(colors[part][0], colors[part][1], colors[part][2]);
+    setLitColor(property, colors[part][0], colors[part][1], colors[part][2]);
     property->SetInterpolationToPhong();
     property->SetAmbient(kAmbient);
     property->SetDiffuse(1.0 - kAmbient);
@@ -206,7 +206,7 @@ void ToolProps::setPose(const std::optional<ToolPose>& tool)
     m_handpiece->SetHeight(kHandpieceLength);
     m_handpiece->SetCenter(0.0, kShaftLength + 0.5 * kHandpieceLength, 0.0);
     const auto& burr = tool->drilling ? m_drilling : m_idle;
-    m_actors[0]->GetProperty()->SetColor(burr[0], burr[1], burr[2]);
+    setLitColor(m_actors[0]->GetProperty(), burr[0], burr[1], burr[2]);
     turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), tool->axisToHand)
                .toRotationMatrix();
   }

@@ -1,6 +1,7 @@
 #include "petrous/Session/RecordingWriter.h"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 
 #include <unistd.h>
@@ -36,20 +37,33 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& file, const Record
   : m_name(file.filename().string())
 {
   const std::vector<std::uint8_t> head = headOf(setup);
+  std::filesystem::path target;
   try
   {
-    const std::filesystem::path target = core::outputTarget(file);
-    m_folder = target.parent_path();
-    m_file.reset(std::fopen(target.c_str(), "wb"));
+    target = core::outputTarget(file);
   }
   catch (const core::OutputFileError& error)
   {
     throw RecordingError(RecordingError::Reason::NotWritten, m_name + ": " + error.problem);
   }
+  m_folder = target.parent_path();
+  m_block.ticks.reserve(kBlock);
+  // A file that is there is replaced when this one has begun.
+  const std::filesystem::path begun = core::temporaryBeside(target);
+  m_file.reset(std::fopen(begun.c_str(), "wbx"));
   if (!m_file)
     fail();
-  m_block.ticks.reserve(kBlock);
-  write(head);
+  try
+  {
+    write(head);
+    if (std::rename(begun.c_str(), target.c_str()) != 0)
+      fail();
+  }
+  catch (const RecordingError&)
+  {
+    ::unlink(begun.c_str());
+    throw;
+  }
 }
 
 RecordingWriter::~RecordingWriter()

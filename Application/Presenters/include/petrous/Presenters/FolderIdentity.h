@@ -15,7 +15,8 @@ struct DeidentifyRequest
   std::filesystem::path output; ///< a file, or a new or empty folder
   std::filesystem::path map;    ///< pseudonyms, encrypted; empty: a key that is used once
   library::DeidentificationOptions options;
-  bool replace = false; ///< an output file that is there; otherwise that is refused
+  bool replace = false;               ///< an output file that is there; otherwise that is refused
+  std::filesystem::path library = {}; ///< that is open: library::refuseOverwriting; empty: none
 };
 
 /// Throws Error (Refused) for a file that would lie in `input`: a report, or the map.

@@ -8,9 +8,9 @@ namespace petrous::appearance
 
 /// Colours for structures whose names match no preset: of a palette of 64 each time the one
 /// farthest from all that are taken, from bone, black, grey, and from the colours of nerves,
-/// arteries and veins; where those are used up, of a grid in steps of 1/8, and then colours are
-/// given twice. Deterministic; one colour costs as many comparisons as are offered, whatever is
-/// taken.
+/// arteries and veins; where those are used up, of a grid in steps of 1/8, and then each colour is
+/// given again, none oftener than the others by more than one. Deterministic; one colour costs as
+/// many comparisons as are offered, whatever is taken.
 ///
 /// The distance of two colours is the minimum over four kinds of vision: normal, and without long,
 /// middle or short wavelength cones (protan, deutan, tritan: matrices of severity 1 in Machado,
@@ -38,6 +38,7 @@ private:
     Color color;
     Seen sights;
     double nearest; // weighted CIEDE2000, to the nearest of those taken
+    int given = 0;
   };
   void offer(const Color& color);
 

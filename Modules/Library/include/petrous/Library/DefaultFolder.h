@@ -15,7 +15,8 @@ std::filesystem::path defaultFolder();
 std::filesystem::path usualFolder();
 
 /// Chooses the default for all programs of this user from their next start; makes the folder if it
-/// is not there. Empty, or the usual one: back to that. Nothing is moved. Throws LibraryError.
+/// is not there (checkLibraryFolder). Empty, or the usual one: back to that. Nothing is moved.
+/// Throws LibraryError.
 void chooseDefaultFolder(const std::filesystem::path& folder);
 
 /// The file that names it, a line: $XDG_CONFIG_HOME/petrous/library, else below ~/.config.

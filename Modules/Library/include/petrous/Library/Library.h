@@ -172,9 +172,11 @@ public:
   /// Damage of the case's images found so far, one sentence each. Does not wait.
   std::vector<std::string> damageFound(const scene::Case& value) const;
 
-  /// Writes new objects and the manifest. A case with revision 0 is new: its name must not be in
-  /// use. On any exception the library and the case are unchanged. Throws LibraryError,
-  /// CancelledError.
+  /// Writes new objects, those of parts in memory whose objects are gone, and the manifest;
+  /// remembers Case::origins (isSource) and clears them. A case with revision 0 is new: its name
+  /// must not be in use. On any exception the library and the case are unchanged. Throws
+  /// LibraryError: NotFound naming what the case would refer to and is not there, unless it was
+  /// damaged before: the case on disk, or of a new one any case, refers to it; CancelledError.
   void save(scene::Case& value, const core::Progress& progress = {});
 
   /// Saves what was drilled since `base`, the state in which `value` was opened. If another program
@@ -256,7 +258,6 @@ private:
   scene::Case readManifest(const std::string& name) const;
   void attach(scene::Case& value) const;
   void noticeDoubts(const scene::Case& value, bool isUnchanged) const;
-  std::vector<std::string> goneWithAnother(const scene::Case& value) const;
   void noticeOpenersOf(const std::string& name, const std::string& id) const;
   core::FileLock lockForWriting(const core::Progress& progress = {}) const;
   std::vector<std::pair<std::filesystem::path, std::string>>

@@ -22,8 +22,20 @@ bool isOfLibrary(const std::filesystem::path& file, const std::filesystem::path&
 /// The same of any library that is there.
 bool isOfAnyLibrary(const std::filesystem::path& file);
 
-/// Throws Error (Refused) naming the file if isOfLibrary, or isOfAnyLibrary: what is written there
-/// would replace a case or a part of one.
-void refuseOverwriting(const std::filesystem::path& file, const std::filesystem::path& folder = {});
+/// Whether parts of a case of the library in `folder` were read from this file, which is there: it
+/// was itself imported or attached as a link, or it lies in a folder that was, and has not been
+/// written since. Known by hashes of paths with the library's salt, also of cases that are deleted.
+/// Throws LibraryError if the library cannot tell.
+bool isSource(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+/// The one rule for files that the user names to be written; any other file that is there is
+/// replaced (core::OutputFile). Throws Error (Refused) naming the file if isOfLibrary or
+/// isOfAnyLibrary, since what is written there would replace a case or a part of one, and if
+/// isSource. `folder`: of the library; empty: none is open.
+void refuseOverwriting(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+/// Of a folder that the user named: throws LibraryError (NotFound) unless it is there or can be
+/// made, that is, unless it is a file or the folder that it should lie in is not there.
+void checkLibraryFolder(const std::filesystem::path& folder);
 
 } // namespace petrous::library

@@ -88,11 +88,13 @@ vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, ve
   float u = clamp((value - row.x) * row.y, 0.0, 1.0) * (1.0 - 1.0 / width) + 0.5 / width;
   vec4 look = texture(lookTexture, vec2(u, rowCoordinate(material)));
   look.rgb = mix(look.rgb, overlay.rgb, overlay.a);
-  float diffuse = light.y * seen.sky + (1.0 - light.y) * facing * seen.lamp;
-  float highlight = (1.0 - light.w) * look.a * light.z * pow(facing, row.w) +
-                    light.w * pow(facing, kWetShininess);
-  float reaching = lightAt(t);
   bool isScale = overlay.a > 0.0; // compared with a legend: no brighter than that, and its hue
+  float gloss = look.a * light.z;
+  float taken = isScale ? 0.0 : gloss * facing * facing;
+  float diffuse = light.y * seen.sky + max(1.0 - light.y - taken, 0.0) * facing * seen.lamp;
+  float highlight =
+      (1.0 - light.w) * gloss * pow(facing, row.w) + light.w * pow(facing, kWetShininess);
+  float reaching = lightAt(t);
   vec3 lit = (isScale ? min(reaching, plainLight) : reaching) *
              (look.rgb * diffuse + seen.lamp * highlight);
   lit = isScale ? clamp(lit, 0.0, 1.0) : lit;

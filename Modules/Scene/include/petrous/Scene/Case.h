@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -77,6 +78,13 @@ struct MeshPart
   MeshTouch touch; ///< its voxels for haptics and drilling: see CaseField.h
 };
 
+/// A file or folder from which parts of a case were read.
+struct PartsOrigin
+{
+  std::filesystem::path path;
+  std::filesystem::file_time_type read; ///< when
+};
+
 /// One patient's case as a value: its parts, their appearance, and what was drilled.
 ///
 /// A copy is the case at this moment, also for another thread: a tool that cuts this one does not
@@ -104,6 +112,8 @@ struct Case
   Description description;
   std::vector<Attachment> attachments;
   std::vector<Measurement> measurements;
+  /// Since it was opened; Library::save remembers them. Not in the manifest.
+  std::vector<PartsOrigin> origins;
 
   dissection::Dissection dissection; ///< the strokes, their history and the mask
 

@@ -7,10 +7,10 @@
 
 #include <Eigen/Core>
 
+#include "petrous/Scene/MrReading.h"
+
 namespace petrous::scene
 {
-
-struct Case;
 
 /// A mark or a measurement, by its points in the CT's patient space. Its value is that of the
 /// points alone (valueOf), so that it stays what was measured, whatever becomes of the structures.
@@ -44,12 +44,23 @@ struct Measurement
   std::string image; ///< the MR on which the points were set; empty: the CT
   /// That of each point, where they were set on several images (setImages); else empty.
   std::vector<std::string> images;
+  /// The MRs of its points, and where they lay when these were set (setReadings). Empty where none
+  /// is known, as in older cases.
+  MrReadings readings = {};
 };
 
 /// The MR on which a point was set; empty: the CT.
 const std::string& imageOf(const Measurement& measurement, std::size_t point);
 /// One of each point.
 void setImages(Measurement& measurement, std::vector<std::string> images);
+/// The MRs as they lie now, after points were set on them: all, or that one. Points that were set
+/// before keep what is known of theirs.
+void setReadings(const Case& value, Measurement& measurement,
+                 std::optional<std::size_t> point = std::nullopt);
+/// Why the error of points that were set on that MR is not known, since the MR does not lie any
+/// more as it did then; empty if it does, or nothing is known of it.
+std::string outdatedPoints(const Case& value, const Measurement& measurement,
+                           const std::string& mr);
 
 /// What follows a structure of this name remembers that it was removed; returns the names of these
 /// measurements.

@@ -38,8 +38,9 @@ struct IntensityScale
 ///
 /// soft: of such peaks, if the lower one is that of air: nothing but its noise lies below it, it is
 /// narrower than what is above soft tissue, and that is as far from soft tissue and as wide as bone
-/// is. So a region without air, fat beside muscle, and an image whose air is bright have none; nor
-/// has an MR.
+/// is. So a region without air, fat beside muscle, and an image whose air is bright have none,
+/// where there is cortical bone; nor has an MR. Of fat, muscle and spongy bone alone fat is taken
+/// for air: nothing in the histogram tells that from air, muscle and bone on another scale.
 ///
 /// Without voxels: 300 and 1800, calibrated. Never throws; all values are finite.
 IntensityScale suggestScale(const IntensityHistogram& histogram);

@@ -20,6 +20,7 @@ namespace petrous::cli
 namespace
 {
 
+using haptics::KnownHandle;
 using haptics::RealDevice;
 using haptics::Touching;
 using haptics::TransmittedDevice;
@@ -27,42 +28,37 @@ using haptics::WallPress;
 
 constexpr double kTick = 0.001; // s
 
-// A handle in a light grip: 0.1 kg, 3 N s/m and 0.3 N/mm are the hand's.
-struct Handle
+struct Misses
 {
-  RealDevice real;
-  double described; // N/mm, by its server; for mass and damper alone the usual coupling
+  double share;
+  int burst; // ticks at a time
 };
-
-// Friction and resolution of the Touch are those of its data sheet, as its mass of 45 g; forces and
-// stiffness are those of the servers. All others are assumed: vendors state a resolution at most.
-constexpr Handle kHandles[] = {{{"mass and damper alone", 0.15, 0.003, 0.0, 0, 0.0, 0, 10.0}, 1.0},
-                               {{"Touch", 0.145, 0.003, 0.26, 0, 0.055, 0, 3.3}, 0.4},
-                               {{"Inverse3", 0.2, 0.004, 0.05, 0, 0.01, 0, 5.0}, 1.0},
-                               {{"Falcon", 0.3, 0.005, 0.3, 0, 0.06, 0, 8.0}, 3.0},
-                               {{"omega", 0.3, 0.006, 0.1, 0, 0.01, 0, 12.0}, 5.0},
-                               {{"sigma", 0.4, 0.008, 0.15, 0, 0.005, 0, 20.0}, 4.0},
-                               {{"lambda", 0.35, 0.006, 0.15, 0, 0.005, 0, 10.0}, 2.0}};
 
 struct Sweep
 {
-  std::vector<Handle> handles;
+  std::vector<KnownHandle> handles;
   std::vector<double> stiffnesses; // N/mm
   std::vector<int> delays;         // ms
-  std::vector<int> drops;          // every so many ticks; 0: none
-  double rest;                     // s
+  std::vector<Misses> misses;
+  int times;
+  double borderRest; // s
 };
 
 Sweep sweepOf(bool quick)
 {
   if (quick)
-    return {
-        {std::begin(kHandles), std::begin(kHandles) + 2}, {0.25, 1.0, 10.0}, {0, 8}, {0, 10}, 1.0};
-  return {{std::begin(kHandles), std::end(kHandles)},
+    return {{std::begin(haptics::kHandles), std::begin(haptics::kHandles) + 2},
+            {0.25, 1.0, 10.0},
+            {0, 8},
+            {{0.0, 1}, {0.05, 3}},
+            3,
+            3.0};
+  return {{std::begin(haptics::kHandles), std::end(haptics::kHandles)},
           {0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 10.0},
           {0, 1, 2, 3, 4, 5, 6, 7, 8},
-          {0, 100, 10},
-          4.0};
+          {{0.0, 1}, {0.01, 1}, {0.05, 1}, {0.05, 3}},
+          30,
+          12.0};
 }
 
 // What the window sets for a device of that description, as felt in the hand.
@@ -85,16 +81,17 @@ double tested(const RealDevice& real)
   devices::DeviceCheck::Options options;
   options.workspaceTime = 0.5;
   devices::DeviceCheck check(device.description(), options);
+  haptics::MissedTicks misses(real);
   for (int n = 0; n < 400000 && check.stage() != devices::DeviceCheck::Stage::Done; ++n)
   {
     const haptics::DeviceReading reading = device.read(kTick * n);
-    if (real.dropEvery == 0 || n % real.dropEvery != 0)
+    if (!misses(n))
       device.send(check.tick(reading, kTick * n));
   }
   return check.result().proposed;
 }
 
-core::BenchmarkPoint measure(const Handle& handle, bool guarded, const Sweep& sweep)
+core::BenchmarkPoint measure(const KnownHandle& handle, bool guarded, const Sweep& sweep)
 {
   const auto begin = std::chrono::steady_clock::now();
   const RealDevice& real = handle.real;
@@ -102,12 +99,13 @@ core::BenchmarkPoint measure(const Handle& handle, bool guarded, const Sweep& sw
   point.scene = real.name;
   point.setting["guard"] = guarded ? "on" : "off";
   point.setting["delay_ms"] = std::to_string(real.delay);
-  point.setting["missed_percent"] = std::to_string(real.dropEvery == 0 ? 0 : 100 / real.dropEvery);
-  point.isDefault = guarded && real.delay == 1 && real.dropEvery == 0;
+  point.setting["missed_percent"] = core::generalText(100.0 * real.missed, 3);
+  point.setting["missed_at_once"] = std::to_string(real.burst);
+  point.isDefault = guarded && real.delay == 1 && real.missed == 0.0;
   point.error = std::numeric_limits<double>::quiet_NaN();
   WallPress how;
   how.guarded = guarded;
-  how.rest = sweep.rest;
+  how.times = sweep.times;
   double largest = 0.0;
   bool stable = true;
   for (const double stiffness : sweep.stiffnesses)
@@ -117,11 +115,13 @@ core::BenchmarkPoint measure(const Handle& handle, bool guarded, const Sweep& sw
     const std::string at = "_at_" + core::generalText(stiffness, 3);
     point.extra["energy_mj" + at] = felt.energyOut;
     point.extra["cycle_n_pp" + at] = 2.0 * felt.ripple;
+    if (guarded)
+      point.extra["changed_n" + at] = felt.changed;
     stable = stable && felt.stable();
     if (stable)
       largest = stiffness;
   }
-  const double described = settingOf(real, handle.described);
+  const double described = settingOf(real, presenters::untestedStiffness(handle.described));
   point.extra["largest_stable_n_per_mm"] = largest;
   point.extra["described_n_per_mm"] = described;
   point.extra["described_margin"] = largest / described;
@@ -132,9 +132,10 @@ core::BenchmarkPoint measure(const Handle& handle, bool guarded, const Sweep& sw
   }
   point.extra["passive_n_per_mm"] = haptics::passiveStiffness(real);
   const bool alone = real.friction == 0.0 && real.quantum == 0.0;
-  if (alone && !guarded && real.dropEvery == 0)
+  if (alone && !guarded && real.missed == 0.0)
   {
-    how.rest = 3.0 * sweep.rest;
+    how.rest = sweep.borderRest;
+    how.times = 3;
     point.extra["border_n_per_mm"] = haptics::ringingStiffness(real, how);
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
@@ -150,18 +151,19 @@ core::BenchmarkReport runDevicesBenchmark(bool quick, const core::Progress& prog
   const Sweep sweep = sweepOf(quick);
   struct Row
   {
-    Handle handle;
+    KnownHandle handle;
     bool guarded;
   };
   std::vector<Row> rows;
-  for (const Handle& handle : sweep.handles)
+  for (const KnownHandle& handle : sweep.handles)
     for (const bool guarded : {true, false})
-      for (const int drop : sweep.drops)
+      for (const Misses& misses : sweep.misses)
         for (const int delay : sweep.delays)
         {
           rows.push_back({handle, guarded});
           rows.back().handle.real.delay = delay;
-          rows.back().handle.real.dropEvery = drop;
+          rows.back().handle.real.missed = misses.share;
+          rows.back().handle.real.burst = misses.burst;
         }
   report.points.resize(rows.size());
   constexpr std::size_t batch = 8;

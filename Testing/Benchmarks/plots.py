@@ -600,7 +600,7 @@ def device(report, points):
     delay, y the stiffness; the colour is the force's range at rest; crossed out where energy comes
     out."""
     guards = unique(point.set("guard") for point in points)
-    missed = unique(point.set("missed_percent") for point in points)
+    missed = unique((point.set("missed_percent"), point.set("missed_at_once")) for point in points)
     wide, high, step_x, step_y = 250, 220, 290, 290
     page = Page(report, LEFT + step_x * len(missed) + 90, TOP + 30 + step_y * len(guards) + 90,
                 f"{report.title}: {points[0].scene}")
@@ -621,9 +621,10 @@ def device(report, points):
                                                         "markersize": 5, "linewidth": 1.2})}
     entries = {}
     for row, guard in enumerate(guards):
-        for column, share in enumerate(missed):
+        for column, (share, burst) in enumerate(missed):
             part = sorted((point for point in points if point.set("guard") == guard and
-                           point.set("missed_percent") == share),
+                           point.set("missed_percent") == share and
+                           point.set("missed_at_once") == burst),
                           key=lambda point: float(point.set("delay_ms")))
             delays = [float(point.set("delay_ms")) for point in part]
             axes = page.axes(LEFT + step_x * column, TOP + 30 + step_y * row, wide, high)
@@ -654,7 +655,8 @@ def device(report, points):
             axes.set_xticks(delays)
             axes.xaxis.set_major_formatter(FixedFormatter([number(d) for d in delays]))
             axes.tick_params(length=0, pad=6)
-            axes.set_title(f"guard {guard}, {share} % of the ticks missed")
+            together = "" if burst == "1" else f", {burst} at a time"
+            axes.set_title(f"guard {guard}, {share} % of ticks missed{together}")
             axes.set_xlabel("delay, ms")
             if column == 0:
                 axes.set_ylabel("stiffness, N/mm")

@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "WallPress.h"
 #include "petrous/Core/Error.h"
 
 using namespace petrous;
@@ -64,6 +65,45 @@ TEST(DeviceLimits, RaisesWhatTheServerDescribesToTwiceAtMost)
   EXPECT_EQ(keptStiffness(file, "touch", "Touch", 0.0), 0.0);
   EXPECT_EQ(boundedStiffness(0.2, 0.4), 0.2);
   std::filesystem::remove(file);
+}
+
+TEST(DeviceLimits, TakesAQuarterOfWhatAServerDescribesUntilItIsMeasured)
+{
+  EXPECT_EQ(untestedStiffness(0.0), 0.0);
+  EXPECT_EQ(untestedStiffness(0.2), 0.1);
+  EXPECT_EQ(untestedStiffness(0.4), 0.2);
+  EXPECT_EQ(untestedStiffness(0.6), 0.2);
+  EXPECT_EQ(untestedStiffness(1.0), 0.25);
+  EXPECT_EQ(untestedStiffness(2.0), 0.5);
+  EXPECT_EQ(untestedStiffness(20.0), 0.5);
+}
+
+// What the window renders on the simulated handles: no limit cycle and no energy out of 30 presses,
+// by a balance at the handle that knows nothing of the guard's.
+TEST(DeviceLimits, KeepsDevicesStableWithLongDelaysAndMissedTicks)
+{
+  for (const haptics::KnownHandle& handle : haptics::kHandles)
+  {
+    if (handle.real.friction == 0.0) // no device
+      continue;
+    for (const int delay : {0, 3, 5, 8})
+      for (const int burst : {1, 3})
+      {
+        haptics::RealDevice real = handle.real;
+        real.delay = delay;
+        real.missed = 0.05;
+        real.burst = burst;
+        haptics::WallPress how;
+        how.times = 30;
+        how.stiffness = untestedStiffness(handle.described);
+        const haptics::Touching felt = haptics::press(real, how);
+        EXPECT_LE(felt.energyOut, haptics::Touching::kMostEnergy)
+            << real.name << delay << " ms " << burst;
+        EXPECT_LE(felt.ripple, haptics::Touching::kMostRipple)
+            << real.name << delay << " ms " << burst;
+        EXPECT_GT(felt.mostForce, 0.3) << real.name;
+      }
+  }
 }
 
 TEST(DeviceLimits, ReadsTheFormerFormatAndKeepsItsEntry)

@@ -119,6 +119,53 @@ TEST(CouplingBorder, AnEncodersStepsAreQuietOnlyAsFarAsFrictionGoes)
   EXPECT_LE(pressed(coarse, 3.0, 0.0, false).ripple, Touching::kMostRipple);
 }
 
+// What the guard took for energy of encoder counts would add up over the presses, and be damped in
+// jumps of the force: up to 20 N s/m times a count per tick, 1.1 N on a Touch.
+TEST(CouplingBorder, TheGuardLeavesManyPressesOnCoarseEncodersAlone)
+{
+  for (const KnownHandle& handle : kHandles)
+  {
+    RealDevice real = handle.real;
+    if (real.quantum < 0.05)
+      continue;
+    for (const double stiffness : {0.35, 0.7, 1.4, 2.8}) // k < 4 f / q = 3.3
+      for (real.delay = 0; real.delay <= 2; ++real.delay)
+      {
+        WallPress how;
+        how.stiffness = stiffness;
+        how.times = 30;
+        const Touching felt = press(real, how);
+        EXPECT_LE(felt.ripple, Touching::kMostRipple) << real.name << stiffness << real.delay;
+        EXPECT_LE(felt.energyOut, Touching::kMostEnergy) << real.name << stiffness << real.delay;
+        EXPECT_LE(felt.changed, 0.05) << real.name << stiffness << real.delay;
+      }
+  }
+}
+
+// A Touch is stable with the guard where it is without.
+TEST(CouplingBorder, TheGuardTakesNoStabilityFromATouch)
+{
+  RealDevice touch = kHandles[1].real;
+  int compared = 0;
+  for (touch.missed = 0.0; touch.missed < 0.06; touch.missed += 0.05)
+    for (const int delay : {0, 1, 2, 4, 8})
+      for (const double stiffness : {0.35, 1.0, 2.8, 5.6, 9.0})
+      {
+        touch.delay = delay;
+        WallPress how;
+        how.stiffness = stiffness;
+        how.times = 10;
+        how.guarded = false;
+        if (!press(touch, how).stable())
+          continue;
+        ++compared;
+        how.guarded = true;
+        how.stiffness = 0.9 * stiffness;
+        EXPECT_TRUE(press(touch, how).stable()) << delay << " ms, " << how.stiffness << " N/mm";
+      }
+  EXPECT_GT(compared, 20);
+}
+
 INSTANTIATE_TEST_SUITE_P(, CouplingStability,
                          ::testing::Values(RealDevice{"Ideal", 0.15, 0.003, 0.0, 0, 0.0, 0},
                                            RealDevice{"Late", 0.1, 0.006, 0.05, 2, 0.005, 0},

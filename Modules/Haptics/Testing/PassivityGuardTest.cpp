@@ -231,6 +231,90 @@ TEST(PassivityGuard, EnergySpentInDrillingGivesNoCreditForLater)
   EXPECT_EQ(unknown.energy(), 0.0) << "out of contact";
 }
 
+TEST(PassivityGuard, SeesAForceThatPushesOnThroughManyCounts)
+{
+  Parameters parameters;
+  parameters.stiffness = 1.0;
+  PassivityGuard guard(parameters);
+  for (int n = 0; n < 200; ++n) // 1 N over a count of 0.05 mm each 10 ms: 1 mJ
+    guard.apply({{1, 0, 0}, {0, 0, 0}}, along(0.05 * (n / 10)), 0.001 * n);
+  EXPECT_LT(guard.energy(), -0.05);
+}
+
+// The handle crosses one count at a time, on a spring that feels the readings: the force is a
+// function of the position, so no press gives or takes anything, and none may leave a debt.
+TEST(PassivityGuard, ManySlowPressesOnCoarseEncodersLeaveNoDebt)
+{
+  constexpr double q = 0.055;
+  for (const double stiffness : {0.35, 1.0, 1.8, 2.8, 3.6}) // 4 f / q = 3.64
+  {
+    Parameters parameters;
+    parameters.stiffness = stiffness;
+    PassivityGuard guard(parameters);
+    int tick = 0;
+    const auto rest = [&](int count)
+    {
+      for (int n = 0; n < 12; ++n, ++tick)
+      {
+        const Wrench wanted{{-stiffness * q * std::max(0, count), 0, 0}, {0, 0, 0}};
+        ASSERT_EQ(guard.apply(wanted, along(q * count), 0.001 * tick).linear, wanted.linear);
+      }
+    };
+    for (int press = 0; press < 100; ++press)
+    {
+      for (int count = -2; count < 20; ++count)
+        rest(count);
+      for (int count = 20; count > -2; --count)
+        rest(count);
+      ASSERT_GE(guard.energy(), -1e-12) << stiffness << " N/mm, press " << press;
+      ASSERT_LE(guard.energy(), 1e-12) << stiffness << " N/mm, press " << press;
+    }
+  }
+}
+
+// The balance at the handle itself, of motions slow and fast with ticks missed. With readings
+// p = h + e and a spring in contact at p > 0, E exceeds the hand's work by no more than (record 55)
+//   |F| (q/2 + s) + k sum((s |dp| - e dp) + s |dp|)
+TEST(PassivityGuard, TakesNoMoreCreditThanItsBound)
+{
+  constexpr double q = 0.05;
+  constexpr double stiffness = 1.5; // s = q/2
+  Parameters parameters;
+  parameters.stiffness = stiffness;
+  parameters.allowance = 1e6; // observes only
+  PassivityGuard guard(parameters);
+  std::mt19937 random(3);
+  std::normal_distribution<double> push(0.0, 1.0);
+  double h = -1.0;
+  double v = 0.0;
+  double speed = 1.0;
+  double force = 0.0;
+  double work = 0.0;  // of the hand, N mm
+  double bound = 0.0; // N mm
+  double before = q * std::round(h / q);
+  double most = 0.0;
+  for (int n = 0; n < 200000; ++n)
+  {
+    if (n % 4000 == 0)
+      speed = n % 8000 == 0 ? 2.0 : 60.0; // mm/s
+    v = 0.98 * v + 0.2 * speed * push(random) - 0.5 * h;
+    const double step = 0.001 * v;
+    work -= force * step;
+    h += step;
+    if (random() % 20 == 0)
+      continue;
+    const double p = q * std::round(h / q);
+    const double moved = p - before;
+    bound += stiffness * (q * std::abs(moved) - (p - h) * moved);
+    before = p;
+    force = -stiffness * std::max(0.0, p);
+    guard.apply({{force, 0, 0}, {0, 0, 0}}, along(p), 0.001 * n);
+    ASSERT_LE(guard.energy(), work + bound + std::abs(force) * q + 1e-9) << n;
+    most = std::max(most, guard.energy());
+  }
+  EXPECT_GT(most, 0.5) << "it was pressed";
+}
+
 TEST(PassivityGuard, WhatCannotBeObservedPassesUnchanged)
 {
   const Wrench wanted{{1, 2, 3}, {4, 5, 6}};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "petrous/Haptics/ForceLimits.h"
@@ -14,7 +15,6 @@ namespace
 {
 
 constexpr double kTick = 0.001; // s
-constexpr int kCycles = 3;
 
 SimulatedDevice::Hand handOf(const RealDevice& real, SimulatedDevice::Hand hand)
 {
@@ -25,6 +25,25 @@ SimulatedDevice::Hand handOf(const RealDevice& real, SimulatedDevice::Hand hand)
 }
 
 } // namespace
+
+MissedTicks::MissedTicks(const RealDevice& real)
+  : m_every(real.dropEvery)
+  , m_share(real.missed / real.burst)
+  , m_burst(real.burst)
+{
+}
+
+bool MissedTicks::operator()(int tick)
+{
+  if (m_every > 0 && tick % m_every == 0)
+    return true;
+  if (m_left == 0 && m_share > 0.0 && static_cast<double>(m_random()) < 4294967296.0 * m_share)
+    m_left = m_burst;
+  if (m_left == 0)
+    return false;
+  --m_left;
+  return true;
+}
 
 TransmittedDevice::TransmittedDevice(const RealDevice& real, Target target, Hand hand)
   : SimulatedDevice(std::move(target), handOf(real, hand), {})
@@ -71,14 +90,16 @@ Touching press(const RealDevice& real, const WallPress& how)
   ForceLimits limited(limits);
   limited.resume();
 
+  MissedTicks misses(real);
   Touching result;
-  double low = 1e9;
-  double high = -1e9;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  double low = none; // of this cycle
+  double high = -none;
   device.read(0.0);
   double before = device.pose().position.x();
   double energy = 0.0; // of this cycle, which begins and ends before the wall
   int cycle = 0;
-  for (int n = 1; n <= static_cast<int>((kCycles + 0.001) * period / kTick); ++n)
+  for (int n = 1; n <= static_cast<int>((how.times + 0.001) * period / kTick); ++n)
   {
     const double now = kTick * n;
     const Pose pose = device.read(now).pose;
@@ -90,7 +111,10 @@ Touching press(const RealDevice& real, const WallPress& how)
     {
       cycle = present;
       result.energyOut = std::max(result.energyOut, energy);
+      result.ripple = std::max(result.ripple, 0.5 * (high - low));
       energy = 0.0;
+      low = none;
+      high = -none;
     }
     const double at = std::fmod(now, period);
     if (at > how.rest - 0.2 && at < how.rest + 0.2)
@@ -99,15 +123,16 @@ Touching press(const RealDevice& real, const WallPress& how)
       high = std::max(high, acting);
     }
     result.mostForce = std::max(result.mostForce, std::abs(acting));
-    if (real.dropEvery > 0 && n % real.dropEvery == 0)
+    if (misses(n))
       continue;
     Wrench wanted;
     wanted.linear.x() = how.stiffness * std::max(0.0, -pose.position.x());
-    const Wrench output = limited.apply(how.guarded ? guard.apply(wanted, pose, now) : wanted, now);
+    const Wrench passed = how.guarded ? guard.apply(wanted, pose, now) : wanted;
+    result.changed = std::max(result.changed, std::abs(passed.linear.x() - wanted.linear.x()));
+    const Wrench output = limited.apply(passed, now);
     guard.sent(output);
     device.send(output);
   }
-  result.ripple = 0.5 * (high - low);
   return result;
 }
 

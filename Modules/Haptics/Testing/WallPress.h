@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <random>
 
 #include "SimulatedDevice.h"
 
@@ -19,6 +20,44 @@ struct RealDevice
   double quantum = 0.0;   ///< mm, of the encoders
   int dropEvery = 0;      ///< ticks: every so many the servo misses one; 0: none
   double maxForce = 10.0; ///< N
+  double missed = 0.0;    ///< share of the ticks that the servo misses at random, in [0, 1)
+  int burst = 1;          ///< ticks that it misses at a time, of those
+};
+
+/// A handle in a light grip, 0.1 kg, 3 N s/m and 0.3 N/mm of which are the hand's.
+struct KnownHandle
+{
+  RealDevice real;
+  double described; ///< N/mm, by its server; for mass and damper alone the usual coupling
+};
+
+/// Friction and resolution of the Touch are those of its data sheet, as its mass of 45 g; forces
+/// and stiffness are those of the servers. All others are assumed: vendors state a resolution at
+/// most.
+constexpr KnownHandle kHandles[] = {
+    {{"mass and damper alone", 0.15, 0.003, 0.0, 0, 0.0, 0, 10.0}, 1.0},
+    {{"Touch", 0.145, 0.003, 0.26, 0, 0.055, 0, 3.3}, 0.4},
+    {{"Inverse3", 0.2, 0.004, 0.05, 0, 0.01, 0, 5.0}, 1.0},
+    {{"Falcon", 0.3, 0.005, 0.3, 0, 0.06, 0, 8.0}, 3.0},
+    {{"omega", 0.3, 0.006, 0.1, 0, 0.01, 0, 12.0}, 5.0},
+    {{"sigma", 0.4, 0.008, 0.15, 0, 0.005, 0, 20.0}, 4.0},
+    {{"lambda", 0.35, 0.006, 0.15, 0, 0.005, 0, 10.0}, 2.0}};
+
+/// Which ticks the servo misses on such a device; at random, but the same ones each time.
+class MissedTicks
+{
+public:
+  explicit MissedTicks(const RealDevice& real);
+
+  /// Of each tick once, in order.
+  bool operator()(int tick);
+
+private:
+  int m_every;
+  double m_share; ///< of the ticks at which a burst begins
+  int m_burst;
+  int m_left = 0;
+  std::mt19937 m_random{1};
 };
 
 /// What the program sees of such a device: positions on the encoders' grid, and wrenches that act
@@ -39,7 +78,7 @@ private:
 };
 
 /// How a hand presses on a wall: from 2 mm before it, in 0.2 s to 6 mm behind it (with a stiff wall
-/// six times its own stiffness), where it rests, and back; three times.
+/// six times its own stiffness), where it rests, and back.
 struct WallPress
 {
   double stiffness = 1.0; ///< of the wall, N/mm
@@ -48,6 +87,7 @@ struct WallPress
   double handStiffness = SimulatedDevice::Hand().stiffness;
   double rest = 1.0;     ///< s on the wall, >= 0.5
   double subStep = 1e-4; ///< s, of the simulated handle
+  int times = 3;         ///< > 0
 };
 
 struct Touching
@@ -55,8 +95,9 @@ struct Touching
   double energyOut = 0.0; ///< N mm (mJ) that came out at the handle in the worst cycle: the motors'
                           ///< work less the friction of the joints
   double ripple = 0.0; ///< N, half of the force's range in 0.4 s of the hand's rest, 0.1 s before
-                       ///< its end
+                       ///< its end, in the worst cycle
   double mostForce = 0.0; ///< N
+  double changed = 0.0;   ///< N, most that the guard changed the force by
 
   static constexpr double kMostEnergy = 0.1;  ///< mJ
   static constexpr double kMostRipple = 0.05; ///< N

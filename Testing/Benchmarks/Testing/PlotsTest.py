@@ -201,7 +201,7 @@ class Plots(unittest.TestCase):
             extra |= {f"energy_mj_at_{k}": 10.0 * cycle for k, cycle in zip(("0.5", "2"), cycles)}
             extra |= {"largest_stable_n_per_mm": largest, "passive_n_per_mm": 3.0 / (1 + delay),
                       "described_n_per_mm": 1.0}
-            return point("Touch", error=None, guard="on", missed_percent="0",
+            return point("Touch", error=None, guard="on", missed_percent="0", missed_at_once="1",
                          delay_ms=str(delay), extra=extra)
 
         pages = self.pages([coupling(0, 2.0, (0.001, 0.002)), coupling(4, 0.5, (0.002, 5.0))],

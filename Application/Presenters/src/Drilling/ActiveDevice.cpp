@@ -122,12 +122,12 @@ ActiveDevice::ActiveDevice(const DeviceSources& sources, const InputDevice& inpu
     throw core::InvalidParameter("the mouse is not a device that can be opened");
   m_description = m_device->description();
   // What was measured on this device goes before what its server assumes.
-  if (const auto kept = sources.limits.empty()
-                            ? std::nullopt
-                            : keptStiffness(sources.limits, input.name, m_description.name,
-                                            m_description.maxStiffness);
-      kept && m_description.givesForce)
-    m_description.maxStiffness = *kept;
+  const double described = m_description.maxStiffness;
+  if (const auto kept = sources.limits.empty() ? std::nullopt
+                                               : keptStiffness(sources.limits, input.name,
+                                                               m_description.name, described);
+      m_description.givesForce)
+    m_description.maxStiffness = kept.value_or(untestedStiffness(described));
   if (endless() || !m_device->description().sensesRotation)
     m_grip = mousesHeading();
 }

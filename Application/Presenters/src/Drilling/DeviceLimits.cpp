@@ -25,6 +25,9 @@ bool sound(double stiffness)
 }
 
 constexpr double kMostOfDescribed = 2.0;
+constexpr double kUntested = 0.25;    // of the described
+constexpr double kMostUntested = 0.5; // N/mm
+constexpr double kSoft = 0.2;         // N/mm: rendered by any device with force feedback
 
 // Null if it is no such file.
 nlohmann::json entriesOf(const std::filesystem::path& path)
@@ -75,6 +78,11 @@ std::filesystem::path deviceLimitsFile()
 double boundedStiffness(double measured, double described) noexcept
 {
   return std::max(0.0, std::min(measured, kMostOfDescribed * described));
+}
+
+double untestedStiffness(double described) noexcept
+{
+  return std::clamp(kUntested * described, std::min(0.5 * described, kSoft), kMostUntested);
 }
 
 std::optional<double> keptStiffness(const std::filesystem::path& file, const std::string& server,

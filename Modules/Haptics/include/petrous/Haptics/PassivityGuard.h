@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "petrous/Haptics/Pose.h"
 
 namespace petrous::haptics
@@ -20,12 +22,27 @@ namespace petrous::haptics
 /// |dx|_b^2 / dt  energy dissipated by the device's own damping, which allows a spring of up to
 ///         K = 2 b / dt (Colgate and Schenkel 1997) without the controller
 ///
+/// The pose x is known to half an encoder's count q: of all motions along an axis that agree with
+/// the readings p, x is the one that moves least (play of +-s about the reading),
+///
+///   s = min(q/2, f/k),  f = 0.05 N
+///
+/// So counts are no energy and no velocity where the hand moves slowly: with the reading itself,
+/// each press on a spring would cost |F| q. What a motion within s hides is left to the friction
+/// k s <= f of the joints, which is credited with k s |dx|; with that, no slow press leaves a debt
+/// up to k = 4 f / q. q is the smallest change of a reading after 8 ticks without one, up to 0.1
+/// mm; before the first, and where k is unknown, s = 0. Rotations have no play.
+///
 /// Differences from the paper, our choice: the energy is that of the actual output over the actual
 /// step, not of wanted force times present velocity; the device's damping is credited; alpha is
 /// limited and the remaining debt paid in later ticks; and E is capped at what the coupling's
-/// springs can store at the wanted wrench, |F|^2/(2 k) + |tau|^2/(2 k_a), so that a minute of
-/// drilling gives no credit for later. Without known springs E is capped at 0 whenever the wanted
-/// wrench is zero.
+/// springs can give back along x at the wanted wrench, so that a minute of drilling gives no credit
+/// for later,
+///
+///   U = |F|^2/(2 k) + F . (p - x) + |tau|^2/(2 k_a), at least 0
+///
+/// Without known springs E is capped at 0 whenever the wanted wrench is zero. What is guaranteed,
+/// under what assumptions: record 55.
 ///
 /// The environment is assumed to store no energy at the first tick. A time step that is not
 /// positive or is above 20 ms, or a pose that is not finite, is not observed: the wanted wrench
@@ -66,11 +83,15 @@ public:
   double damping() const noexcept { return m_damping; } ///< alpha of the last tick, N s/mm
 
 private:
-  double maxStored(const Wrench& wanted) const noexcept;
+  double maxStored(const Wrench& wanted, const Eigen::Vector3d& position) const noexcept;
+  void lookForCounts(const Eigen::Vector3d& position) noexcept;
 
   Parameters m_parameters;
   Wrench m_sent;
-  Pose m_pose;
+  Pose m_pose;                               ///< x
+  Eigen::Vector3d m_read{0.0, 0.0, 0.0};     ///< mm, the last reading
+  Eigen::Vector3d m_count{0.0, 0.0, 0.0};    ///< q, mm
+  std::array<int, 3> m_unchanged{{0, 0, 0}}; ///< ticks
   double m_time = 0.0;
   bool m_hasPose = false;
   double m_energy = 0.0;

@@ -388,4 +388,31 @@ TEST(IdentityOfACase, AFileForOtherProgramsIsLookedAtToo)
 }
 
 } // namespace
+
+// The image of a case without a CT is one of its MRs, and may be sent without the others.
+TEST(IdentityOfACase, ListsAnMrThatIsThePrimaryImageWhereItLeaves)
+{
+  scene::Case value = describedCase();
+  value.ct.modality = scene::Modality::Mr;
+  value.mr.emplace_back();
+  value.mr.back().name = "T2";
+  const auto leaves = [&value](const SendParts& parts)
+  {
+    const IdentityReport report = identityReport(value, parts);
+    EXPECT_EQ(mentions(report.leaves, "MR: "), isSent(value, parts, {}));
+    EXPECT_EQ(mentions(report.leaves, "MR 'T2': "), isSent(value, parts, "T2"));
+    return std::pair(isSent(value, parts, {}), isSent(value, parts, "T2"));
+  };
+  SendParts parts;
+  parts.ct = true;
+  EXPECT_EQ(leaves(parts), std::pair(false, false)) << "there is none";
+  parts.primary = true;
+  EXPECT_EQ(leaves(parts), std::pair(true, false));
+  parts = {};
+  parts.mr = true;
+  EXPECT_EQ(leaves(parts), std::pair(true, true));
+  value.ct.modality = scene::Modality::Ct;
+  EXPECT_EQ(leaves(parts), std::pair(false, true));
+}
+
 } // namespace petrous::presenters

@@ -96,7 +96,7 @@ SendDialog::SendDialog(const scene::Case& value, const library::Library& library
 presenters::SendParts SendDialog::parts() const
 {
   presenters::SendParts parts;
-  parts.ct = m_ct->isChecked();
+  parts.primary = m_ct->isChecked();
   parts.mr = m_mr->isChecked();
   parts.labels = m_labels->isChecked();
   parts.scene = m_scene->isChecked();

@@ -111,7 +111,7 @@ public:
     , m_value(value)
     , m_parts(parts)
     , m_folder(folder)
-    , m_alone(parts.ct + parts.mr + parts.labels + parts.scene == 1)
+    , m_alone(parts.ct + parts.mr + parts.labels + parts.scene + parts.primary == 1)
     , m_options(dicomOptionsOf(value, library))
   {
     m_options.segmentationNumber = stateNumber();
@@ -122,7 +122,7 @@ public:
     const bool isMr = m_value.ct.modality == scene::Modality::Mr; // the primary image
     if (m_parts.ct && isMr && m_alone)
       leaveOut("case '" + m_value.name + "' has no CT: its primary image is an MR; send 'mr'");
-    if (isMr ? m_parts.mr : m_parts.ct)
+    if (m_parts.primary || (isMr ? m_parts.mr : m_parts.ct))
       image(m_value.ct, "ct", "", progress.part(0.0, 0.3));
     if (m_parts.mr)
       for (const auto& mr : m_value.mr)
@@ -797,7 +797,7 @@ IdentityReport reportOf(scene::Case value, const SendParts& parts,
   const bool keepIdentity = options.keepIdentity;
   const bool isCt = value.ct.modality != scene::Modality::Mr;
   const bool whole = parts.scene && !planOnly;
-  const bool images = parts.ct || whole;
+  const bool images = whole || (!parts.scene && isSent(value, parts, {}));
   const auto voxels = [](const scene::ImagePart& part)
   {
     const auto& dims = part.geometry.dims();
@@ -1087,7 +1087,7 @@ bool isSent(const scene::Case& value, const SendParts& parts, const std::string&
     return true;
   if (!mr.empty())
     return parts.mr;
-  return parts.ct || (parts.mr && value.ct.modality == scene::Modality::Mr);
+  return parts.primary || (value.ct.modality == scene::Modality::Mr ? parts.mr : parts.ct);
 }
 
 std::string unlistedText(const network::Transfer& sent)

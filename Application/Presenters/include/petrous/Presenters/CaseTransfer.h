@@ -19,14 +19,15 @@ struct ExportOptions;
 
 struct SendParts
 {
-  bool ct = false;
-  bool mr = false;
+  bool ct = false; ///< the primary image, if it is a CT
+  bool mr = false; ///< all MRs, the primary image among them if it is one
   bool labels = false;
   bool scene = false;
   bool note = true;           ///< of the description, with the scene
   bool videos = false;        ///< attached ones, with the scene; they may show or name the patient
   bool documents = false;     ///< likewise
   scene::ImageMask mask = {}; ///< of the images that are sent
+  bool primary = false;       ///< the primary image alone, be it CT or MR
 };
 
 /// Whether an image leaves, as a series or in the scene: an MR by its name, the primary image by an

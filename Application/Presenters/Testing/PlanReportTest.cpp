@@ -23,11 +23,11 @@ using Eigen::Vector3d;
 namespace
 {
 
-scene::Case planned()
+scene::Case planned(const Vector3d& chorda = {15.0, 4.0, 4.0})
 {
   const core::GridGeometry grid({40, 32, 32}, Vector3d::Constant(0.5), {0.0, 0.0, 0.0});
   scene::Case value = shapes::shapeCase(grid, {{"facial nerve", shapes::ball({5.0, 8.0, 8.0}, 2.5)},
-                                               {"chorda", shapes::ball({15.0, 4.0, 4.0}, 0.4)}});
+                                               {"chorda", shapes::ball(chorda, 0.4)}});
   value.name = "left ear";
   value.id = "3f2a90c1d4e5";
   value.description.side = scene::Side::Left;
@@ -232,13 +232,55 @@ TEST(PlanReport, NamesNoEarThatNobodyStated)
 {
   scene::Case value = planned();
   const auto caption = [](const scene::Case& of)
-  { return find(planReport(of, small()), "views")->pictures.back().caption; };
+  { return find(planReport(of, small()), "views")->pictures.at(1).caption; };
   EXPECT_EQ(caption(value), "Surgical position, left ear");
   for (const scene::Side side : {scene::Side::Unknown, scene::Side::Both})
   {
     value.description.side = side;
     EXPECT_EQ(caption(value), "Surgical position; the side is taken from where the image lies");
   }
+}
+
+// Behind bone that is left structures are seen in one of the pictures alone, and nothing else of it
+// differs from the one beside.
+TEST(PlanReport, HasAViewWithTranslucentBoneWhereThereAreStructures)
+{
+  scene::Case value = planned();
+  const auto views = find(planReport(value, small()), "views")->pictures;
+  ASSERT_EQ(views.size(), 3U);
+  EXPECT_EQ(views[2].caption, "Surgical position, left ear (bone translucent)");
+  EXPECT_EQ(views[2].width, views[1].width);
+  EXPECT_NE(views[2].png, views[1].png);
+  value.labels.clear();
+  EXPECT_EQ(find(planReport(value, small()), "views")->pictures.size(), 2U);
+}
+
+// One that the drill is to keep off has its slices also where it is farther away.
+TEST(PlanReport, HasSlicesWhereGuardedStructuresAreNearest)
+{
+  scene::Case value = planned({18.5, 1.5, 14.0}); // 8.6 mm from what is drilled
+  auto& nerve = value.labels.front().structures.front().look;
+  auto& chorda = value.labels.front().structures.back().look;
+  const auto captions = [&value]
+  {
+    const PlanReport report = planReport(value, small());
+    std::vector<std::string> all;
+    for (const ReportPicture& picture : find(report, "places")->pictures)
+      all.push_back(picture.caption);
+    return all;
+  };
+  const auto isThere = [](const std::vector<std::string>& all, const std::string& name)
+  {
+    return std::count_if(all.begin(), all.end(),
+                         [&name](const std::string& caption)
+                         { return caption.find("nearest to " + name) != std::string::npos; });
+  };
+  nerve.drillable = chorda.drillable = true;
+  nerve.warning = chorda.warning = 0.0;
+  EXPECT_EQ(isThere(captions(), "facial nerve"), 3);
+  EXPECT_EQ(isThere(captions(), "chorda"), 0);
+  chorda.warning = 1.0;
+  EXPECT_EQ(isThere(captions(), "chorda"), 3);
 }
 
 TEST(PlanReport, GivesTheReasonOfARegistrationInEveryLanguage)

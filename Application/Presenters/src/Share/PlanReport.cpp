@@ -38,7 +38,7 @@ using dissection::History;
 using Eigen::Vector3d;
 
 constexpr std::size_t kMostRows = 200; // of a table
-constexpr std::size_t kMostPlaces = 4;
+constexpr std::size_t kMostPlaces = 8; // of slices, three each
 
 std::string filled(std::string text, const std::string& first, const std::string& second = {})
 {
@@ -509,7 +509,8 @@ private:
       }
       illuminate(contents, m_value.view.light);
       const auto add = [&](const std::string& caption, const core::CameraPose& camera,
-                           const scene::ViewState::Clipping& clipping, const core::Progress& part)
+                           const scene::ViewState::Clipping& clipping, const core::Progress& part,
+                           const std::string& how = {})
       {
         const int width = m_options.pictureWidth;
         const int height = 3 * width / 4;
@@ -521,6 +522,8 @@ private:
         std::vector<std::string> lines{say(sideText(m_value.description.side))};
         for (const std::string& line : clippingTexts(clipping, m_value.ct.geometry))
           lines.push_back(say(line));
+        if (!how.empty())
+          lines.push_back(how);
         addLines(picture, lines, magnified);
         addScaleBar(picture, rendering::millimetresPerPixel(camera, height),
                     camera.parallelScale ? "" : say("in the focal plane"), magnified);
@@ -530,11 +533,19 @@ private:
         views.pictures.push_back({text, rendering::pngOf(picture), width, height, 2});
       };
       add(say("3D view as saved"), currentCamera(m_value), m_value.view.clipping,
-          progress.part(0.4, 0.7));
-      add(say(surgicalCaption()),
+          progress.part(0.4, 0.6));
+      const core::CameraPose surgical =
           standardCamera(m_value, isLeft ? rendering::StandardView::SurgicalLeft
-                                         : rendering::StandardView::SurgicalRight),
-          {}, progress.part(0.7, 1.0));
+                                         : rendering::StandardView::SurgicalRight);
+      add(say(surgicalCaption()), surgical, {}, progress.part(0.6, 0.8));
+      if (!contents.boneShown || (contents.meshes.empty() && contents.materials.size() < 2))
+        return;
+      // How structures lie to what was drilled, behind bone that is left.
+      constexpr float kTranslucent = 0.25F;
+      appearance::Material& bone = contents.materials.front();
+      bone.surfaceOpacity = std::min(bone.surfaceOpacity, kTranslucent);
+      contents.softTissue.reset();
+      add(say(surgicalCaption()), surgical, {}, progress.part(0.8, 1.0), say("bone translucent"));
     }
     catch (const rendering::RenderingError& error)
     {
@@ -599,12 +610,21 @@ private:
     Vector3d point;
   };
 
+  // Whether the drill is to keep off it.
+  bool isGuarded(const std::string& structure) const
+  {
+    const auto* look = lookOf(structure);
+    return look && look->solid && (!look->drillable || look->warning > 0.0);
+  }
+
   // Where the dissection came nearest to structures, and marks; else the crosshair.
   // What was injured counts most; a lumen is opened, and no danger.
   std::vector<Place> keyPlaces(std::vector<DissectionDistance> distances) const
   {
-    constexpr double kNear = 5.0;  // mm: of structures that count
-    constexpr double kApart = 2.0; // mm: of places that differ
+    constexpr double kNear = 5.0;           // mm: of structures that count
+    constexpr double kGuarded = 15.0;       // mm: of those that the drill is to keep off
+    constexpr double kApart = 2.0;          // mm: of places that differ
+    constexpr std::size_t kStructures = 6U; // room is left for marks
     std::vector<Place> places;
     const auto add = [&](const std::string& name, const Vector3d& point)
     {
@@ -617,7 +637,8 @@ private:
                      [](const DissectionDistance& a, const DissectionDistance& b)
                      { return a.injured > b.injured; });
     for (const DissectionDistance& one : distances)
-      if (*one.distance.value <= kNear && places.size() < 3 && !isLumen(one.name))
+      if (*one.distance.value <= (isGuarded(one.name) ? kGuarded : kNear) &&
+          places.size() < kStructures && !isLumen(one.name))
         add(say("nearest to") + " " + shownName(one.name) + ": " +
                 (*one.distance.value > 0.0 ? textOf(one.distance) : say("reached")),
             one.place);

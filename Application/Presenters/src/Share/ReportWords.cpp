@@ -39,6 +39,7 @@ const std::map<std::string, std::string>& germanTexts()
       {"Cut away for the view, not drilled", "Für die Ansicht weggeschnitten, nicht gebohrt"},
       {"Only a part of the image is shown", "Nur ein Teil des Bildes wird gezeigt"},
       {"Surgical position, left ear", "Operationslage, linkes Ohr"},
+      {"bone translucent", "Knochen durchscheinend"},
       {"Surgical position, right ear", "Operationslage, rechtes Ohr"},
       {"Surgical position; the side is taken from where the image lies",
        "Operationslage; die Seite folgt aus der Lage des Bildes"},

@@ -24,6 +24,24 @@ struct Options
   bool acceptsChanged = false;
 };
 
+// Why the library has nothing, where its folder is not there: one that was named, and not the usual
+// one, which the first case makes. Else empty.
+std::string missingFolder(const library::Library& library)
+{
+  return std::filesystem::is_directory(library.folder()) ||
+                 library.folder() == library::defaultFolder()
+             ? std::string()
+             : library.folder().string() +
+                   ": there is no such folder; is the path right, and its disk mounted?";
+}
+
+// To be looked at or changed as a whole.
+void requireFolder(const library::Library& library)
+{
+  if (const std::string why = missingFolder(library); !why.empty())
+    throw library::LibraryError(library::LibraryError::Reason::NotFound, why);
+}
+
 void printCases(const Context& context, const library::Library& library,
                 const std::vector<library::CaseSummary>& summaries)
 {
@@ -59,6 +77,8 @@ void printCases(const Context& context, const library::Library& library,
   }
   if (summaries.empty())
     context.print("no case in " + library.folder().string());
+  if (const std::string why = missingFolder(library); !why.empty())
+    context.warn(why);
   context.printJson({{"library", library.folder().string()}, {"cases", std::move(cases)}});
 }
 
@@ -78,17 +98,6 @@ void find(const Context& context, const library::Library& library, const Options
     throw UsageError("--notes: give the text to be found in them, 'petrous library search TEXT "
                      "--notes'");
   printCases(context, library, library.search(filter));
-}
-
-// A folder that was named, and not the usual one, which the first case makes.
-void requireFolder(const library::Library& library)
-{
-  if (!std::filesystem::is_directory(library.folder()) &&
-      library.folder() != library::defaultFolder())
-    throw library::LibraryError(library::LibraryError::Reason::NotFound,
-                                library.folder().string() +
-                                    ": there is no such folder; is the path right, and its disk "
-                                    "mounted?");
 }
 
 void verify(const Context& context, const library::Library& library)
@@ -148,6 +157,7 @@ void collect(const Context& context, library::Library& library)
 
 void repair(const Context& context, library::Library& library, bool acceptsChanged)
 {
+  requireFolder(library);
   const library::Repaired found = library.repair(context.progress(), acceptsChanged);
   for (const auto* lines : {&found.lost, &found.done})
     for (const std::string& line : *lines)

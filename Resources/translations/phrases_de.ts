@@ -264,6 +264,10 @@
         <translation>%~1 liegen ganz außerhalb: %2. Nichts davon ist zu sehen oder zu fühlen; prüfen Sie, ob sie zu diesem Patienten gehören</translation>
     </message>
     <message>
+        <source>partly outside the %~1, where nothing is seen or felt of them: %2</source>
+        <translation>teilweise außerhalb des %~1, wo nichts von ihnen zu sehen oder zu fühlen ist: %2</translation>
+    </message>
+    <message>
         <source>its frame of reference could not be compared with the %~1's, as %~2; look whether it lies where it belongs</source>
         <translation>das Bezugssystem ließ sich mit dem des %~1 nicht vergleichen, da %~2; sehen Sie nach, ob die Lage stimmt</translation>
     </message>
@@ -604,8 +608,16 @@
         <translation>„%1“ reicht über das CT hinaus; was außerhalb liegt, wird nicht geschrieben</translation>
     </message>
     <message>
+        <source>'%1' has no voxel on the CT's grid, of %2: the rest lies outside of it; without --on-ct it is written whole</source>
+        <translation>„%1“ hat kein Voxel auf dem Gitter des CT, von %2: Der Rest liegt außerhalb; ohne --on-ct wird es ganz geschrieben</translation>
+    </message>
+    <message>
         <source>'%1' has no voxel on the CT's grid, of %2: its voxels are finer than the CT's; without --on-ct it keeps its own</source>
         <translation>„%1“ hat auf dem Gitter des CT kein Voxel, von %2: Die Voxel sind feiner als die des CT; auf dem eigenen Gitter bleiben sie erhalten</translation>
+    </message>
+    <message>
+        <source>'%1' has %#2 mm3 on the CT's grid, of %3: the rest lies outside of it; without --on-ct it is written whole</source>
+        <translation>„%1“ hat %#2 mm³ auf dem Gitter des CT, von %3: Der Rest liegt außerhalb; ohne --on-ct wird es ganz geschrieben</translation>
     </message>
     <message>
         <source>'%1' has %#2 mm3 on the CT's grid, of %3: its voxels are finer than the CT's; without --on-ct it keeps its own</source>
@@ -4294,6 +4306,10 @@
         <translation>%~1; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
     </message>
     <message>
+        <source>The slices are %#1 mm thick and stand %#2 mm apart: %#3 mm from each to the next were not measured.</source>
+        <translation>Die Schichten sind %#1 mm dick und stehen %#2 mm auseinander: %#3 mm von jeder zur nächsten wurden nicht gemessen.</translation>
+    </message>
+    <message>
         <source>The slices are numbered in steps of %#1 and are %#2 mm thick, but stand %#3 mm apart: those between them may be missing, and %#4 mm from each to the next were not measured. Look whether the series has more files.</source>
         <translation>Die Schichten sind in Schritten von %#1 nummeriert und %#2 mm dick, stehen aber %#3 mm auseinander: Die dazwischen können fehlen, und %#4 mm von jeder zur nächsten wurden nicht gemessen. Sehen Sie nach, ob die Serie weitere Dateien hat.</translation>
     </message>
@@ -6142,8 +6158,12 @@
         <translation>„%1“ hat %#2 Konturen, kleiner als ein Voxel, die je ein Voxel wurden</translation>
     </message>
     <message>
-        <source>'%1' is thinner than the voxels: those that it became lie on average %#2 % within its contours and are scattered; its volume is right, its shape is not</source>
-        <translation>„%1“ ist dünner als die Voxel: Die daraus gewordenen liegen im Mittel zu %#2 % in den Konturen und sind verstreut; das Volumen stimmt, die Form nicht</translation>
+        <source>'%1' is thinner than the voxels: those that it became lie on average %2 % within its contours and are scattered; its volume is right, its shape is not</source>
+        <translation>„%1“ ist dünner als die Voxel: Die daraus wurden, liegen im Mittel zu %2 % innerhalb der Konturen und sind verstreut; das Volumen stimmt, die Form nicht</translation>
+    </message>
+    <message>
+        <source>'%1' is thinner than the voxels: those that it became lie on average %2 % within its contours, and their volume is %#3 times that of the contours; neither it nor their shape is that of the structure</source>
+        <translation>„%1“ ist dünner als die Voxel: Die daraus wurden, liegen im Mittel zu %2 % innerhalb der Konturen, und ihr Volumen ist das %#3-Fache dessen der Konturen; weder dieses noch ihre Form ist die der Struktur</translation>
     </message>
     <message>
         <source>its structures overlap in more layers than are read; export fewer of them at a time</source>

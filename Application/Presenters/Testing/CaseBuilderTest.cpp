@@ -1287,6 +1287,34 @@ TEST_F(CaseBuilder, SaysWhatOfLabelsIsEmptyOrOutsideTheCt)
   EXPECT_THROW(presenters::buildCase("ear", m_sources, {}), core::InvalidParameter);
 }
 
+TEST_F(CaseBuilder, NotesHowMuchOfAStructureLiesOutside)
+{
+  const auto noted = [this](double up, int columns)
+  {
+    const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3 + up));
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+    for (int k = 0; k < 10; ++k)
+      for (int i = 0; i < columns; ++i)
+        voxels->at(4 + i, 4, k) = 1;
+    volume::Segment nerve;
+    nerve.name = "nerve";
+    nerve.index = 1;
+    imaging::writeLabelFile(m_folder / "part.seg.nrrd", volume::makeLabelMap(voxels, {nerve}));
+    m_sources.parts.labels = {{"", m_folder / "part.seg.nrrd"}};
+    std::string text;
+    for (const std::string& note : presenters::buildCase("ear", m_sources, {}).labels.at(0).notes)
+      text += note;
+    return text;
+  };
+  EXPECT_EQ(noted(0.0, 2).find("partly outside"), std::string::npos);
+  EXPECT_NE(noted(6.0, 2).find("partly outside the CT, where nothing is seen or felt of them: "
+                               "'nerve' (60 %)"),
+            std::string::npos)
+      << noted(6.0, 2);
+  EXPECT_NE(noted(-3.0, 1).find("'nerve' (30 %)"), std::string::npos) << noted(-3.0, 1);
+  EXPECT_EQ(noted(0.4, 1).find("partly outside"), std::string::npos) << "within its voxels";
+}
+
 // Of one map two structures are left out again, and with them their note; the note of a part that
 // was there before stays.
 TEST_F(CaseBuilder, TheNoteGoesWithTheStructuresThatLieOutside)

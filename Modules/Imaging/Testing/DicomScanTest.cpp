@@ -970,7 +970,8 @@ TEST(DicomScan, SaysThatEndsMayBeMissing)
 
 TEST(DicomScan, SaysThatEverySecondSliceMayBeMissing)
 {
-  const auto said = [](int step, const std::string& thickness)
+  std::string notes;
+  const auto said = [&notes](int step, const std::string& thickness)
   {
     const TemporaryFolder folder;
     writeSeries(folder.path(), 20,
@@ -982,6 +983,9 @@ TEST(DicomScan, SaysThatEverySecondSliceMayBeMissing)
                 });
     const SeriesGeometry geometry = scanDicom(folder.path(), {}).series.front().geometry;
     EXPECT_EQ(geometry.verdict, Verdict::Ok);
+    notes.clear();
+    for (const std::string& note : geometry.notes)
+      notes += note;
     std::string between;
     for (const Finding& finding : geometry.findings)
     {
@@ -1001,8 +1005,12 @@ TEST(DicomScan, SaysThatEverySecondSliceMayBeMissing)
     EXPECT_NE(text.find("0.60 mm from each to the next were not measured"), std::string::npos)
         << text;
   }
-  EXPECT_EQ(said(1, "0.4"), "") << "a scan with gaps";
+  EXPECT_EQ(said(1, "0.4"), "") << "a scan with gaps, or numbered anew";
+  EXPECT_NE(notes.find("0.40 mm thick and stand 1.00 mm apart: 0.60 mm from each"),
+            std::string::npos)
+      << notes;
   EXPECT_EQ(said(2, "1.0"), "") << "numbered with those of another reconstruction";
+  EXPECT_EQ(notes, "");
 }
 
 // Every second slice of most of the stack is lost: its gaps are the common ones.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "TestDicom.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/StructureSet.h"
 
 namespace petrous::imaging
@@ -366,12 +367,34 @@ TEST(StructureSet, ASheetThinnerThanAVoxelIsThereInEverySlice)
   const LoadedLabels loaded = imaging::labelsOf({{roi}, ""}, grid(), "set.dcm");
   ASSERT_EQ(loaded.notes.size(), 1U);
   EXPECT_NE(loaded.notes[0].find("'eardrum' is thinner than the voxels"), std::string::npos);
+  EXPECT_NE(loaded.notes[0].find("its volume is right"), std::string::npos);
   roi = named("plate", {}); // three voxels thick
   for (int k = 5; k < 35; ++k)
     roi.contours.push_back(square(-5.25, 14.75, -15.6, -14.1, 5.0 + k));
   EXPECT_TRUE(imaging::labelsOf({{roi}, ""}, grid(), "set.dcm").notes.empty());
   // Of 32 lines a row the sheet holds 12 or 13: a thickness along the rows is known to a line.
   EXPECT_NEAR(labels.volume(labels.segments[0]), 20.0 * 0.2 * 30.0, 1.0 / 32.0 / 0.4 * 120.0);
+}
+
+// The voxels that keep a thin nerve whole are more than it has.
+TEST(StructureSet, StatesHowMuchLargerAThinStructureBecame)
+{
+  Roi roi = named("chorda", {});
+  for (int k = 5; k < 35; ++k)
+    roi.contours.push_back(circle({-5.0, -15.0, 5.0 + k}, 0.15));
+  const LoadedLabels loaded = imaging::labelsOf({{roi}, ""}, grid(), "set.dcm");
+  const volume::LabelMap& map = loaded.maps[0];
+  const double times = map.volume(map.segments[0]) / loaded.fileVolumes.at("chorda");
+  ASSERT_GT(times, 1.5);
+  std::string notes;
+  for (const std::string& note : loaded.notes)
+    notes += note + "; ";
+  EXPECT_EQ(notes.find("its volume is right"), std::string::npos) << notes;
+  if (notes.find("is thinner than the voxels") != std::string::npos)
+  {
+    EXPECT_NE(notes.find("volume is " + core::fixedText(times, 2) + " times"), std::string::npos)
+        << notes;
+  }
 }
 
 TEST(StructureSet, FollowsATurnedGridAndPlanesAcrossAnyAxis)

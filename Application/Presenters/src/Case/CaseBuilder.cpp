@@ -731,6 +731,53 @@ std::string outsideNote(const std::vector<std::string>& names, const std::string
                     ", so nothing of them is seen or felt; check that they are this patient's");
 }
 
+// Share of a structure's voxels whose centres lie in none of the CT's, 0 to 1.
+double shareOutside(const core::GridGeometry& ct, const volume::LabelMap& map, std::uint16_t index,
+                    const core::IndexBox& box)
+{
+  const core::GridGeometry& grid = map.voxels->geometry();
+  const Eigen::Array3d last = Eigen::Array3d(ct.dims()[0], ct.dims()[1], ct.dims()[2]) - 0.5;
+  std::size_t count = 0, outside = 0;
+  for (int k = box.lower[2]; k < box.upper[2]; ++k)
+    for (int j = box.lower[1]; j < box.upper[1]; ++j)
+      for (int i = box.lower[0]; i < box.upper[0]; ++i)
+      {
+        if (map.voxels->at(i, j, k) != index)
+          continue;
+        const Eigen::Array3d at =
+            ct.voxelFromPatient(grid.patientFromVoxel(Eigen::Vector3d(i, j, k))).array();
+        ++count;
+        outside += (at < -0.5).any() || (at > last).any();
+      }
+  return count == 0 ? 0.0 : static_cast<double>(outside) / static_cast<double>(count);
+}
+
+// Of what lies partly outside; of a grid that is the CT's or within it nothing does.
+void notePartlyOutside(const scene::Case& value, scene::LabelPart& part,
+                       const volume::LabelMap& map, const std::vector<core::IndexBox>& boxes)
+{
+  constexpr double kNoted = 0.01; // of the voxels
+  const auto& n = value.ct.geometry.dims();
+  const Eigen::AlignedBox3d inner(Eigen::Vector3d::Constant(-0.5),
+                                  Eigen::Vector3d(n[0] - 0.5, n[1] - 0.5, n[2] - 0.5));
+  std::string names;
+  for (const auto& structure : part.structures)
+    for (std::size_t s = 0; s < map.segments.size(); ++s)
+    {
+      if (structure.index != map.segments[s].index || boxes[s].empty() ||
+          inner.contains(boxOn(value.ct.geometry, map.voxels->geometry(), boxes[s])) ||
+          liesOutside(value.ct.geometry, map.voxels->geometry(), boxes[s]))
+        continue;
+      const double share = shareOutside(value.ct.geometry, map, structure.index, boxes[s]);
+      if (share > kNoted)
+        names += (names.empty() ? "'" : ", '") + structure.name + "' (" +
+                 std::to_string(std::lround(100.0 * share)) + " %)";
+    }
+  if (!names.empty())
+    part.notes.push_back("partly outside the " + std::string(primaryName(value)) +
+                         ", where nothing is seen or felt of them: " + names);
+}
+
 // Notes structures that will be neither visible nor touchable, and returns their names.
 std::vector<std::string> noteOutside(const scene::Case& value, scene::LabelPart& part,
                                      const volume::LabelMap& map)
@@ -746,6 +793,7 @@ std::vector<std::string> noteOutside(const scene::Case& value, scene::LabelPart&
         names.push_back(structure.name);
   if (!names.empty())
     part.notes.push_back(outsideNote(names, primaryName(value)));
+  notePartlyOutside(value, part, map, boxes);
   return names;
 }
 

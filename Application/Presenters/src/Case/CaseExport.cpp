@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -163,9 +164,11 @@ std::string gridText(const PlacedLabels& labels)
          " mm from (" + three(grid.origin(), ", ") + ") on";
 }
 
-// Structures of which the CT's grid would not take all.
-void warnOfWhatIsBeyond(const Warn& warn, const PlacedLabels& labels, const core::GridGeometry& ct)
+// Structures of which the CT's grid would not take all. Returns their names.
+std::set<std::string> warnOfWhatIsBeyond(const Warn& warn, const PlacedLabels& labels,
+                                         const core::GridGeometry& ct)
 {
+  std::set<std::string> names;
   const core::GridGeometry& grid = labels.map->voxels->geometry();
   const auto boxes = volume::boxesOf(*labels.map);
   for (const auto* structure : labels.structures)
@@ -185,13 +188,16 @@ void warnOfWhatIsBeyond(const Warn& warn, const PlacedLabels& labels, const core
           isInside = isInside && at[static_cast<Eigen::Index>(a)] > -0.5 &&
                      at[static_cast<Eigen::Index>(a)] < ct.dims()[a] - 0.5;
       }
-      if (!isInside)
+      if (!isInside && names.insert(structure->name).second)
         warn("'" + structure->name + "' reaches beyond the CT; what is outside is not written");
     }
+  return names;
 }
 
 // What the CT's grid made of the structures: warns where more than a hundredth is gone or added.
+// `beyond`: of warnOfWhatIsBeyond.
 void compareVolumes(const Warn& warn, const PlacedLabels& labels, const volume::LabelMap& own,
+                    const std::set<std::string>& beyond,
                     std::vector<ExportSummary::Resampled>& resampled)
 {
   constexpr double kNoted = 0.01; // share of the volume
@@ -214,7 +220,9 @@ void compareVolumes(const Warn& warn, const PlacedLabels& labels, const volume::
          (after == 0.0
               ? "has no voxel on the CT's grid, of " + change
               : "has " + core::generalText(after, 3) + " mm3 on the CT's grid, of " + change) +
-         ": its voxels are finer than the CT's; without --on-ct it keeps its own");
+         (beyond.count(structure->name) > 0
+              ? ": the rest lies outside of it; without --on-ct it is written whole"
+              : ": its voxels are finer than the CT's; without --on-ct it keeps its own"));
   }
 }
 
@@ -263,11 +271,11 @@ std::vector<PlacedLabels> placedLabels(const Warn& warn, const scene::Case& valu
     }
     if (options.onCt && !core::sameGrid(labels.map->voxels->geometry(), value.ct.geometry))
     {
-      warnOfWhatIsBeyond(warn, labels, value.ct.geometry);
+      const std::set<std::string> beyond = warnOfWhatIsBeyond(warn, labels, value.ct.geometry);
       const std::shared_ptr<const volume::LabelMap> own = labels.map;
       labels.map =
           std::make_shared<const volume::LabelMap>(onGrid(*own, value.ct.geometry, progress));
-      compareVolumes(warn, labels, *own, summary.resampled);
+      compareVolumes(warn, labels, *own, beyond, summary.resampled);
     }
     if (!placed.empty() && labels.drawnOn != placed.front().drawnOn)
       throw ExportChoiceError("export labels: " + spaceText(labels) + ", and " +

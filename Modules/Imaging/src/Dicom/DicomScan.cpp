@@ -599,6 +599,23 @@ std::string missingEnds(const SeriesGeometry& geometry, const Numbering& numberi
                 "skull base that is needed is there.");
 }
 
+constexpr double kThicker = 1.5; // by which slices without a gap may stand apart
+
+/// What was not measured between the slices of a stack without a gap in its numbers, as those of an
+/// MR and of sets that were thinned out and numbered anew. Empty: nothing.
+std::string unmeasuredBetween(const SeriesGeometry& geometry)
+{
+  if (!geometry.grid || geometry.slices.empty() || !geometry.slices.front().thickness)
+    return {};
+  const double spacing = geometry.grid->spacing()[2];
+  const double thickness = *geometry.slices.front().thickness;
+  if (!(thickness > 0.0) || spacing <= kThicker * thickness)
+    return {};
+  return "The slices are " + decimals(thickness, 2) + " mm thick and stand " +
+         decimals(spacing, 2) + " mm apart: " + decimals(spacing - thickness, 2) +
+         " mm from each to the next were not measured.";
+}
+
 /// What the numbers of a stack say of slices between those that are there: they go in equal steps
 /// of more than one, farther apart than the slices are thick. Empty: nothing.
 std::string numbersBetween(const SeriesGeometry& geometry)
@@ -615,7 +632,6 @@ std::string numbersBetween(const SeriesGeometry& geometry)
   for (std::size_t k = 2; k < numbers.size(); ++k)
     if (numbers[k] - numbers[k - 1] != step)
       return {};
-  constexpr double kThicker = 1.5; // by which slices without a gap may stand apart
   const double spacing = geometry.grid->spacing()[2];
   const auto& thickness = slices.front().thickness;
   if (std::abs(step) < 2.0 || !thickness || !(*thickness > 0.0) || spacing <= kThicker * *thickness)
@@ -921,6 +937,8 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
     }
     if (std::string between = numbersBetween(one.geometry); !between.empty())
       findings.push_back({FindingKind::MissingBetween, std::move(between), 0.0});
+    else if (std::string gaps = unmeasuredBetween(one.geometry); !gaps.empty())
+      one.geometry.notes.push_back(std::move(gaps));
     if (std::string ends = missingEnds(one.geometry, numbering); name.empty() && !ends.empty())
       findings.push_back({FindingKind::MissingEnd, std::move(ends), 0.0});
     const std::size_t lost = doubts.files.size();

@@ -1097,12 +1097,27 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
         constexpr double kThin = 0.7;
         if (const double inside = meanShare(shares, in);
             shares.sum >= kThinVoxels && inside < kThin)
-          loaded.notes.push_back("'" + name +
-                                 "' is thinner than the voxels: those that it became "
-                                 "lie on average " +
-                                 std::to_string(std::lround(100.0 * inside)) +
-                                 " % within its contours and are scattered; its volume is right, "
-                                 "its shape is not");
+        {
+          constexpr double kRight = 0.1; // of the volume
+          const auto became = static_cast<double>(std::count(in.begin(), in.end(), char{1}));
+          const double times = became / shares.sum;
+          const std::string within = std::to_string(std::lround(100.0 * inside));
+          if (std::abs(times - 1.0) <= kRight)
+            loaded.notes.push_back("'" + name +
+                                   "' is thinner than the voxels: those that it became "
+                                   "lie on average " +
+                                   within +
+                                   " % within its contours and are scattered; its volume is right, "
+                                   "its shape is not");
+          else
+            loaded.notes.push_back("'" + name +
+                                   "' is thinner than the voxels: those that it became "
+                                   "lie on average " +
+                                   within + " % within its contours, and their volume is " +
+                                   core::fixedText(times, 2) +
+                                   " times that of the contours; neither it nor their shape is "
+                                   "that of the structure");
+        }
         const auto forEach = [&](const auto& visit)
         {
           std::size_t at = 0;

@@ -77,8 +77,27 @@ const std::map<std::string, std::string>& germanTexts()
       {"uncertainty unknown", "Unsicherheit unbekannt"},
       {"unknown", "unbekannt"},
       {"nothing", "nichts"},
+      {"Nearest to structures", "Nächste Stellen an Strukturen"},
+      {"The dissection comes near no structure that is warned of.",
+       "Die Präparation kommt keiner Struktur nahe, vor der gewarnt wird."},
+      {"Each row has slices through the place of the cavity, marked by the cross, that is nearest "
+       "to a structure. Structures are tinted and outlined, what was drilled is red and hatched; "
+       "the line is the distance, in a plane that contains it.",
+       "Jede Zeile hat Schichten durch die Stelle der Höhle, die einer Struktur am nächsten ist; "
+       "das Kreuz zeigt sie. Strukturen sind getönt und umrandet, Gebohrtes ist rot und "
+       "schraffiert; die Linie ist der Abstand, in einer Ebene, die ihn enthält."},
+      {"Farther than %1 mm, and without slices: %2.", "Ferner als %1 mm und ohne Schichten: %2."},
+      {"Only the first %1 have slices; without are: %2.",
+       "Nur die ersten %1 haben Schichten; ohne sind: %2."},
+      {"Along the distance", "Entlang des Abstands"},
+      {"bone made translucent", "Knochen durchscheinend gemacht"},
+      {"Guessed", "Geschätzt"},
+      {"guessed:", "geschätzt:"},
+      {"slices %1 of %2, in which it lies, are interpolated",
+       "Schichten %1 von %2, in denen sie liegt, sind interpoliert"},
+      {"Guessed at import of the %1, and distances with it:",
+       "Beim Import des %1 geschätzt, und damit auch Abstände:"},
       {"Key places", "Wichtige Stellen"},
-      {"nearest to", "am nächsten an"},
       {"mark", "Marke"},
       {"crosshair", "Fadenkreuz"},
       {"Axial", "Axial"},

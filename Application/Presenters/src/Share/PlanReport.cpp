@@ -637,8 +637,8 @@ private:
             joined(repairsOf(m_value.ct.provenance, m_value.ct.geometry.dims()[2]));
         !repairs.empty())
       table.paragraphs.push_back(
-          filled(say("Guessed at import of the %1, and distances with it:"), primaryName(m_value)) +
-          " " + repairs + ".");
+          filled(say("Guessed at import of the %1, and distances with it"), primaryName(m_value)) +
+          ": " + repairs + ".");
     addAbsent(table);
     table.remarks.push_back(
         say("Shortest distance between what was removed and the surface of each "

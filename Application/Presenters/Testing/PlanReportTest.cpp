@@ -442,6 +442,24 @@ TEST(PlanReport, SaysWhatIsGuessedWhereTheNumbersStand)
   EXPECT_NE(find(within, "measurements")->table.rows[0][3].text.find(text), std::string::npos);
 
   value.ct.provenance = {};
+  value.labels.front().structures[1].tubes = {12.0, 3.5, 7};
+  ReportOptions options = small();
+  for (const auto& [language, traced] :
+       {std::pair(ReportLanguage::English,
+                  "traced between points alone along 3.5 of 12.0 mm, as the image does not resolve "
+                  "it there; thinner than the voxels, and drawn one voxel wide in 7 of them"),
+        std::pair(
+            ReportLanguage::German,
+            "auf 3,5 von 12,0 mm allein zwischen Punkten verfolgt, da das Bild sie dort nicht "
+            "auflöst; dünner als die Voxel und in 7 von ihnen ein Voxel breit gezeichnet")})
+  {
+    options.language = language;
+    const PlanReport report = planReport(value, options);
+    EXPECT_EQ(find(report, "distances")->table.rows.at(1).back().text, traced);
+    EXPECT_EQ(find(report, "structures")->table.rows.at(1).back().text, traced);
+  }
+  value.labels.front().structures[1].tubes = {12.0, 0.5, 0}; // of which the window does not warn
+  EXPECT_TRUE(guessedOf(planReport(value, small()), "distances").empty());
   value.labels.front().provenance.isFrameAssumed = true;
   const auto assumed = guessedOf(planReport(value, small()), "distances");
   ASSERT_EQ(assumed.size(), 2U);

@@ -651,13 +651,29 @@ private:
   {
     std::vector<std::string> texts;
     for (const scene::LabelPart& part : m_value.labels)
-      if (std::any_of(part.structures.begin(), part.structures.end(),
-                      [&](const scene::StructurePart& one) { return one.name == structure; }))
-        texts = placeGuessesOf(part);
+      for (const scene::StructurePart& one : part.structures)
+        if (one.name == structure)
+        {
+          texts = placeGuessesOf(part);
+          addTubes(one.tubes, texts);
+        }
     for (const scene::StructureOccupancy& known : m_known)
       if (known.name == structure)
         addInterpolated(known, texts);
     return texts;
+  }
+
+  void addTubes(const scene::TracedTubes& tubes, std::vector<std::string>& texts) const
+  {
+    constexpr double kLeast = 0.05; // of the length: as the window warns
+    if (tubes.unresolved > 0.0 && tubes.unresolved >= kLeast * tubes.length)
+      texts.push_back(
+          filled(say("traced between points alone along %1 of %2 mm, as the image does not "
+                     "resolve it there"),
+                 number(tubes.unresolved, 1), number(tubes.length, 1)));
+    if (tubes.bridging > 0)
+      texts.push_back(filled(say("thinner than the voxels, and drawn one voxel wide in %1 of them"),
+                             std::to_string(tubes.bridging)));
   }
 
   // Slices of an image into which a structure reaches, that repair interpolated. Patient LPS, mm.

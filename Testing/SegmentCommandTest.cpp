@@ -176,6 +176,18 @@ TEST_F(SegmentCommand, TracesANerveThroughAFewPoints)
   EXPECT_DOUBLE_EQ(given["radius_mm"]["max"].get<double>(), 0.5);
   const double tube = kPi * 0.25 * given["length_mm"].get<double>();
   EXPECT_NEAR(given["volume_mm3"].get<double>(), tube, 0.15 * tube);
+
+  // How much of it is a guess stays with the case.
+  for (const auto& [name, told] : {std::pair("facial_nerve", made), std::pair("thin", given)})
+  {
+    const auto kept = structure(name)["traced_tubes"];
+    EXPECT_EQ(kept["length_mm"], told["length_mm"]);
+    EXPECT_EQ(kept["bridging_voxels"], told["bridging_voxels"]);
+    EXPECT_NEAR(kept["unresolved_mm"].get<double>(),
+                told["length_mm"].get<double>() - told["resolved_mm"].get<double>(), 1e-9);
+  }
+  json("segment ear ball --threshold 200,650 --seed 22,22,13.35");
+  EXPECT_FALSE(structure("ball").contains("traced_tubes"));
 }
 
 TEST_F(SegmentCommand, IsUndoneByRemovingAndReplacesOnlyWhenTold)

@@ -373,6 +373,10 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
                           {"frame_assumed", part.provenance.isFrameAssumed}}}});
       addPlace(labels.back(), place);
       addReadings(labels.back(), value, s.readings);
+      if (!(s.tubes == scene::TracedTubes()))
+        labels.back()["traced_tubes"] = {{"length_mm", s.tubes.length},
+                                         {"unresolved_mm", s.tubes.unresolved},
+                                         {"bridging_voxels", s.tubes.bridging}};
       addRegistrationError(labels.back(), facts, s.name);
     }
   }

@@ -59,6 +59,7 @@ struct Made
   segmentation::Mask mask;
   nlohmann::json facts = nlohmann::json::object();
   std::vector<std::string> lines, warnings;
+  scene::TracedTubes tubes = {};
 };
 
 // The brightest region of an MR, its seed in the CT's patient space.
@@ -158,6 +159,7 @@ Made tube(const SegmentOptions& options, const scene::Case& value, const scene::
       tube, value.ct.geometry, {options.name, 1, {}, 0}, 1.0, progress.part(0.6, 0.8));
   Made made;
   made.mask = segmentation::maskOf(label.map, 1);
+  made.tubes = presenters::tracedTubes(tube, label);
   if (made.mask.count == 0)
     throw core::InvalidParameter("the tube lies outside of the image");
   const double farthest = *std::max_element(tube.pointDistances.begin(), tube.pointDistances.end());
@@ -261,6 +263,7 @@ void segment(Context& context, const SegmentOptions& options)
   presenters::addStructures(value, segmentation::labelMapOf(mask, {options.name, 1, {}, 0}));
   if (replaced)
     presenters::keepIdentity(*scene::findStructure(value, options.name), *replaced);
+  scene::findStructure(value, options.name)->tubes = made.tubes;
   if (&source != &value.ct)
     scene::findStructure(value, options.name)->readings = {scene::readingOf(source)};
   context.refuseDamaged();

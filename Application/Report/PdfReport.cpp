@@ -143,11 +143,16 @@ QString picturesHtml(const std::vector<ReportPicture>& all,
   {
     const int inRow = std::max(all[n].inRow, 1);
     const int width = static_cast<int>(kTextWidth / inRow) - 8;
+    if (!all[n].heading.empty())
+      html += "<h3 style=\"font-size:9.5pt;margin-top:10px;margin-bottom:3px\">" +
+              escaped(all[n].heading) + "</h3>";
     html += "<table width=\"100%\" cellspacing=\"0\" cellpadding=\"2\" border=\"0\"><tr>";
-    for (int column = 0; column < inRow; ++column, ++n)
+    bool isInRow = true;
+    for (int column = 0; column < inRow; ++column)
     {
       html += QString("<td width=\"%1%\" valign=\"top\">").arg(100 / inRow);
-      if (n < all.size())
+      isInRow = n < all.size() && isInRow && (column == 0 || all[n].heading.empty());
+      if (isInRow)
       {
         html += QString("<p style=\"margin:0px\"><img src=\"%1\" width=\"%2\" height=\"%3\"></p>"
                         "<p style=\"font-size:7.5pt;color:%4;margin-top:5px;margin-bottom:2px\">%5"
@@ -156,7 +161,7 @@ QString picturesHtml(const std::vector<ReportPicture>& all,
                     .arg(width)
                     .arg(width * all[n].height / std::max(all[n].width, 1))
                     .arg(kDim, escaped(all[n].caption));
-        pictures.push_back(&all[n]);
+        pictures.push_back(&all[n++]);
       }
       html += "</td>";
     }

@@ -8465,6 +8465,10 @@
         <translation>das Verfahren einer Struktur ist keines von manual, semiautomatic und automatic</translation>
     </message>
     <message>
+        <source>of a structure's tubes more than their length is unresolved, or less than nothing</source>
+        <translation>von den Röhren einer Struktur ist mehr nicht aufgelöst, als sie lang sind, oder weniger als nichts</translation>
+    </message>
+    <message>
         <source>view: a burr must be cutting or diamond</source>
         <translation>Ansicht: eine Fräse muss schneidend oder Diamant sein</translation>
     </message>

@@ -63,6 +63,20 @@ std::array<int, 5> lettersOf(const core::CameraPose& camera, double magnified)
 
 } // namespace
 
+TEST(LabelledPicture, DrawsALineFromOnePlaceToTheOther)
+{
+  constexpr int kWidth = 40, kHeight = 20;
+  rendering::Picture picture{kWidth, kHeight, std::vector<std::uint8_t>(3 * kWidth * kHeight, 90)};
+  presenters::addLine(picture, {8.0, 10.0}, {30.0, 10.0});
+  for (int column = 0; column < kWidth; ++column)
+  {
+    EXPECT_EQ(*picture.pixel(column, 10) > 200, column >= 8 && column <= 30) << column;
+    EXPECT_EQ(*picture.pixel(column, 9), column >= 7 && column <= 31 ? 0 : 90) << column;
+    EXPECT_EQ(*picture.pixel(column, 7), 90) << column;
+  }
+  presenters::addLine(picture, {-5.0, -5.0}, {60.0, 25.0}); // as far as the picture reaches
+}
+
 TEST(CasePicture, ItsEdgesBearThePatientsDirections)
 {
   core::CameraPose upright; // from in front: R and L beside, S above, I below

@@ -50,6 +50,9 @@ TEST(DissectionDistances, AreThoseOfBallsOfABurrAndStructures)
   EXPECT_NEAR(*distances[0].distance.uncertainty, std::hypot(0.25, 0.25), 1e-12);
   // The place on the wall is the one towards the structure.
   EXPECT_LT((distances[0].place - Vector3d(16.0, 10.0, 10.0)).norm(), 1.5 * kVoxel);
+  EXPECT_LT((distances[0].onStructure - Vector3d(19.0, 10.0, 10.0)).norm(), 1.5 * kVoxel);
+  for (const DissectionDistance& one : distances)
+    EXPECT_NEAR((one.onStructure - one.place).norm(), *one.distance.value, 0.01);
   EXPECT_EQ(distances[0].distance.unit, "mm");
 }
 
@@ -62,6 +65,7 @@ TEST(DissectionDistances, AreNoneWithoutACavityAndZeroWhereItReaches)
   ASSERT_EQ(distances.size(), 2U);
   EXPECT_EQ(distances[0].name, "nerve");
   EXPECT_EQ(*distances[0].distance.value, 0.0);
+  EXPECT_EQ(distances[0].onStructure, distances[0].place);
   value.dissection.unload();
   EXPECT_THROW(dissectionDistances(value), core::InvalidParameter);
 }

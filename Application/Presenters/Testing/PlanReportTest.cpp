@@ -1,6 +1,7 @@
 #include "petrous/Presenters/PlanReport.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -23,11 +24,11 @@ using Eigen::Vector3d;
 namespace
 {
 
-scene::Case planned(const Vector3d& chorda = {15.0, 4.0, 4.0})
+scene::Case planned()
 {
   const core::GridGeometry grid({40, 32, 32}, Vector3d::Constant(0.5), {0.0, 0.0, 0.0});
   scene::Case value = shapes::shapeCase(grid, {{"facial nerve", shapes::ball({5.0, 8.0, 8.0}, 2.5)},
-                                               {"chorda", shapes::ball(chorda, 0.4)}});
+                                               {"chorda", shapes::ball({15.0, 4.0, 4.0}, 0.4)}});
   value.name = "left ear";
   value.id = "3f2a90c1d4e5";
   value.description.side = scene::Side::Left;
@@ -232,55 +233,13 @@ TEST(PlanReport, NamesNoEarThatNobodyStated)
 {
   scene::Case value = planned();
   const auto caption = [](const scene::Case& of)
-  { return find(planReport(of, small()), "views")->pictures.at(1).caption; };
+  { return planReport(of, small()).sections.front().pictures.at(2).caption; };
   EXPECT_EQ(caption(value), "Surgical position, left ear");
   for (const scene::Side side : {scene::Side::Unknown, scene::Side::Both})
   {
     value.description.side = side;
     EXPECT_EQ(caption(value), "Surgical position; the side is taken from where the image lies");
   }
-}
-
-// Behind bone that is left structures are seen in one of the pictures alone, and nothing else of it
-// differs from the one beside.
-TEST(PlanReport, HasAViewWithTranslucentBoneWhereThereAreStructures)
-{
-  scene::Case value = planned();
-  const auto views = find(planReport(value, small()), "views")->pictures;
-  ASSERT_EQ(views.size(), 3U);
-  EXPECT_EQ(views[2].caption, "Surgical position, left ear (bone translucent)");
-  EXPECT_EQ(views[2].width, views[1].width);
-  EXPECT_NE(views[2].png, views[1].png);
-  value.labels.clear();
-  EXPECT_EQ(find(planReport(value, small()), "views")->pictures.size(), 2U);
-}
-
-// One that the drill is to keep off has its slices also where it is farther away.
-TEST(PlanReport, HasSlicesWhereGuardedStructuresAreNearest)
-{
-  scene::Case value = planned({18.5, 1.5, 14.0}); // 8.6 mm from what is drilled
-  auto& nerve = value.labels.front().structures.front().look;
-  auto& chorda = value.labels.front().structures.back().look;
-  const auto captions = [&value]
-  {
-    const PlanReport report = planReport(value, small());
-    std::vector<std::string> all;
-    for (const ReportPicture& picture : find(report, "places")->pictures)
-      all.push_back(picture.caption);
-    return all;
-  };
-  const auto isThere = [](const std::vector<std::string>& all, const std::string& name)
-  {
-    return std::count_if(all.begin(), all.end(),
-                         [&name](const std::string& caption)
-                         { return caption.find("nearest to " + name) != std::string::npos; });
-  };
-  nerve.drillable = chorda.drillable = true;
-  nerve.warning = chorda.warning = 0.0;
-  EXPECT_EQ(isThere(captions(), "facial nerve"), 3);
-  EXPECT_EQ(isThere(captions(), "chorda"), 0);
-  chorda.warning = 1.0;
-  EXPECT_EQ(isThere(captions(), "chorda"), 3);
 }
 
 TEST(PlanReport, GivesTheReasonOfARegistrationInEveryLanguage)
@@ -330,8 +289,183 @@ TEST(PlanReport, IsOneFileWithoutAnythingFromElsewhere)
        (at = html.find("src=\"data:image/png;base64,iVBOR", at)) != std::string::npos; ++at)
     ++data;
   EXPECT_EQ(pictures, data);
-  EXPECT_GE(pictures, find(report, "places")->pictures.size());
-  EXPECT_EQ(find(report, "places")->pictures.size() % 3, 0U);
+  const auto& nearest = find(report, "nearest")->pictures;
+  EXPECT_EQ(pictures, find(report, "views")->pictures.size() + nearest.size());
+  std::size_t headings = 0;
+  for (std::size_t at = 0; (at = html.find("<h3>", at)) != std::string::npos; ++at)
+    ++headings;
+  EXPECT_EQ(headings, 2U) << "a row each";
+}
+
+// Bone hides the course of a nerve.
+TEST(PlanReport, HasEachViewWithTranslucentBoneBesideTheOpaqueOne)
+{
+  const PlanReport report = planReport(planned(), small());
+  const auto& pictures = find(report, "views")->pictures;
+  ASSERT_EQ(pictures.size(), 4U);
+  for (const std::size_t opaque : {0U, 2U})
+  {
+    EXPECT_EQ(pictures[opaque + 1].caption, pictures[opaque].caption + ", bone made translucent");
+    EXPECT_NE(pictures[opaque + 1].png, pictures[opaque].png);
+  }
+}
+
+TEST(PlanReport, HasSlicesWhereTheCavityIsNearestToStructures)
+{
+  const PlanReport report = planReport(planned(), small());
+  const ReportTable& distances = find(report, "distances")->table;
+  const auto& pictures = find(report, "nearest")->pictures;
+  ASSERT_EQ(distances.rows.size(), 2U);
+  ASSERT_EQ(pictures.size(), 8U);
+  const std::vector<std::string> planes{"Axial", "Coronal", "Sagittal", "Along the distance"};
+  for (std::size_t n = 0; n < pictures.size(); ++n)
+  {
+    EXPECT_EQ(pictures[n].caption, planes[n % 4]);
+    EXPECT_EQ(pictures[n].inRow, 4);
+    const auto& row = distances.rows[n / 4];
+    EXPECT_EQ(pictures[n].heading, n % 4 == 0 ? row[0].text + ": " + row[1].text : "");
+  }
+}
+
+// Who hid it in the window wants to see how near the cavity is all the same.
+TEST(PlanReport, DrawsAHiddenStructureInItsOwnSlices)
+{
+  const auto slices = [](const scene::Case& value)
+  {
+    std::vector<std::vector<std::uint8_t>> all;
+    const PlanReport report = planReport(value, small());
+    for (const ReportPicture& picture : find(report, "nearest")->pictures)
+      all.push_back(picture.png);
+    return all;
+  };
+  scene::Case value = planned();
+  const auto shown = slices(value);
+  for (scene::StructurePart& structure : value.labels.front().structures)
+    structure.look.shown = false;
+  EXPECT_EQ(slices(value), shown);
+  value.labels.front().structures[0].look.color = {0.0F, 0.0F, 1.0F};
+  EXPECT_NE(slices(value), shown) << "it is in the slices";
+}
+
+TEST(PlanReport, HasNoPlaneAlongADistanceThatIsNone)
+{
+  scene::Case value = planned();
+  value.dissection.beginStroke({});
+  value.dissection.cut({{7.0, 8.0, 8.0}, {7.0, 8.0, 8.0}, 2.0}); // into the nerve
+  value.dissection.endStroke();
+  const PlanReport report = planReport(value, small());
+  const auto& pictures = find(report, "nearest")->pictures;
+  ASSERT_EQ(pictures.size(), 7U);
+  EXPECT_EQ(pictures[0].heading.substr(0, 21), "facial nerve: reached");
+  EXPECT_FALSE(pictures[3].heading.empty());
+}
+
+TEST(PlanReport, HasSlicesOfTheEightNearestAndNamesTheRest)
+{
+  // A burr of 2 mm at the left end, and balls at growing distances in front of it.
+  const core::GridGeometry grid({104, 24, 80}, Vector3d::Constant(0.5), {0.0, 0.0, 0.0});
+  const Vector3d burr(6.0, 6.0, 20.0);
+  std::vector<shapes::Shape> balls;
+  for (int n = 0; n < 9; ++n) // 5 to 13 mm from the burr's centre, around it
+  {
+    const double turn = 0.35 * (n - 4);
+    const Vector3d towards(std::cos(turn), 0.0, std::sin(turn));
+    balls.push_back({"part " + std::string(1, static_cast<char>('a' + n)),
+                     shapes::ball(burr + (5.0 + n) * towards, 0.8)});
+  }
+  balls.push_back({"far part", shapes::ball({45.0, 6.0, 20.0}, 1.0)});
+  scene::Case value = shapes::shapeCase(grid, balls);
+  for (scene::StructurePart& structure : value.labels.front().structures)
+    structure.look.warning = 1.0;
+  value.dissection.beginStroke({});
+  value.dissection.cut({burr, burr, 2.0});
+  value.dissection.endStroke();
+  const PlanReport report = planReport(value, small());
+  const ReportSection* nearest = find(report, "nearest");
+  ASSERT_EQ(nearest->pictures.size(), 32U);
+  for (std::size_t n = 0; n < 8; ++n)
+    EXPECT_EQ(nearest->pictures[4 * n].heading.substr(0, 7),
+              "part " + std::string(1, static_cast<char>('a' + n)) + ":");
+  ASSERT_EQ(nearest->paragraphs.size(), 3U);
+  EXPECT_EQ(nearest->paragraphs[1], "Farther than 15 mm, and without slices: far part.");
+  EXPECT_EQ(nearest->paragraphs[2], "Only the first 8 have slices; without are: part i.");
+  EXPECT_EQ(find(report, "distances")->table.rows.size(), 10U);
+}
+
+TEST(PlanReport, SaysWhyNoStructureHasSlices)
+{
+  scene::Case value = planned();
+  for (scene::StructurePart& structure : value.labels.front().structures)
+    structure.look.solid = false; // lumens, not warned of
+  const PlanReport lumens = planReport(value, small());
+  EXPECT_EQ(find(lumens, "nearest")->paragraphs.at(0),
+            "The dissection comes near no structure that is warned of.");
+  EXPECT_TRUE(find(lumens, "nearest")->pictures.empty());
+  ASSERT_TRUE(find(lumens, "places")) << "the crosshair instead";
+  EXPECT_EQ(find(lumens, "places")->pictures.size(), 3U);
+  EXPECT_EQ(find(lumens, "places")->pictures.front().heading, "crosshair");
+
+  value.dissection = dissection::Dissection(value.ct.geometry);
+  const PlanReport none = planReport(value, small());
+  EXPECT_EQ(find(none, "nearest")->paragraphs.at(0), "Nothing was drilled on this approach.");
+  EXPECT_TRUE(find(none, "nearest")->pictures.empty());
+}
+
+// Beside the numbers, not only where the import is told of.
+TEST(PlanReport, SaysWhatIsGuessedWhereTheNumbersStand)
+{
+  scene::Case value = planned();
+  const auto guessedOf = [](const PlanReport& report, const char* id)
+  {
+    const ReportTable& table = find(report, id)->table;
+    std::vector<std::string> texts;
+    if (table.columns.back() == "Guessed")
+      for (const auto& row : table.rows)
+        texts.push_back(row.back().text);
+    return texts;
+  };
+  const PlanReport beside = planReport(value, small());
+  EXPECT_TRUE(guessedOf(beside, "distances").empty()) << "slices in which no structure lies";
+  EXPECT_NE(find(beside, "distances")->paragraphs.at(0).find("slices 4-5 of 32 interpolated"),
+            std::string::npos);
+
+  // The nerve's voxels have their centres at 6 to 10 mm: slices 13 to 21.
+  value.ct.provenance.interpolated = {{3, 4}, {15, 16}};
+  value.measurements.front().structure = "facial nerve";
+  const PlanReport within = planReport(value, small());
+  const std::string text = "slices 16-17 of CT, in which it lies, are interpolated";
+  EXPECT_EQ(guessedOf(within, "distances"), (std::vector<std::string>{text, ""}));
+  EXPECT_EQ(guessedOf(within, "structures"), (std::vector<std::string>{text, ""}));
+  EXPECT_TRUE(find(within, "distances")->table.rows[0].back().isWarning);
+  EXPECT_NE(find(within, "nearest")->pictures[0].heading.find("guessed: " + text),
+            std::string::npos);
+  EXPECT_EQ(find(within, "nearest")->pictures[4].heading.find("guessed"), std::string::npos);
+  EXPECT_NE(find(within, "measurements")->table.rows[0][3].text.find(text), std::string::npos);
+
+  value.ct.provenance = {};
+  value.labels.front().structures[1].tubes = {12.0, 3.5, 7};
+  ReportOptions options = small();
+  for (const auto& [language, traced] :
+       {std::pair(ReportLanguage::English,
+                  "traced between points alone along 3.5 of 12.0 mm, as the image does not resolve "
+                  "it there; thinner than the voxels, and drawn one voxel wide in 7 of them"),
+        std::pair(
+            ReportLanguage::German,
+            "auf 3,5 von 12,0 mm allein zwischen Punkten verfolgt, da das Bild sie dort nicht "
+            "auflöst; dünner als die Voxel und in 7 von ihnen ein Voxel breit gezeichnet")})
+  {
+    options.language = language;
+    const PlanReport report = planReport(value, options);
+    EXPECT_EQ(find(report, "distances")->table.rows.at(1).back().text, traced);
+    EXPECT_EQ(find(report, "structures")->table.rows.at(1).back().text, traced);
+  }
+  value.labels.front().structures[1].tubes = {12.0, 0.5, 0}; // of which the window does not warn
+  EXPECT_TRUE(guessedOf(planReport(value, small()), "distances").empty());
+  value.labels.front().provenance.isFrameAssumed = true;
+  const auto assumed = guessedOf(planReport(value, small()), "distances");
+  ASSERT_EQ(assumed.size(), 2U);
+  for (const std::string& guess : assumed)
+    EXPECT_NE(guess.find("frame of reference"), std::string::npos) << guess;
 }
 
 TEST(PlanReport, WithholdsNamesThatTellWhoThePatientIs)
@@ -436,7 +570,10 @@ TEST(PlanReport, SpeaksGerman)
     for (const std::string& text : section.remarks)
       expectGerman(text);
     for (const ReportPicture& picture : section.pictures)
+    {
       expectGerman(picture.caption);
+      expectGerman(picture.heading);
+    }
     for (const auto& row : section.table.rows)
       for (const ReportCell& cell : row)
         expectGerman(cell.text);

@@ -1424,4 +1424,31 @@ TEST_F(SegmentEditorTest, TheNerveToolFindsThePhantomsFacialNerve)
   EXPECT_EQ(editor.tubePoints().size(), axis.size());
   editor.redo();
   EXPECT_EQ(editor.voxels(), tube);
+  work();
+  editor.setName("traced");
+  work();
+  editor.create();
+  double polyline = 0.0;
+  for (std::size_t n = 1; n < axis.size(); ++n)
+    polyline += (axis[n] - axis[n - 1]).norm();
+  const auto tubesOf = [this](const char* name)
+  {
+    const scene::StructurePart* made = scene::findStructure(model.value(), name);
+    return made ? made->tubes : scene::TracedTubes{-1.0, -1.0, 0};
+  };
+  EXPECT_GT(tubesOf("traced").length, 0.95 * polyline);
+  EXPECT_LT(tubesOf("traced").unresolved, 0.05 * tubesOf("traced").length) << "as nothing warned";
+
+  // Once it is undone, what is made is of no tube.
+  editor.setTool(Tool::Nerve);
+  for (const Vector3d& point : axis)
+    stroke(point, point);
+  step();
+  editor.undo();
+  editor.setTool(Tool::Paint);
+  stroke(axis[2], axis[2]);
+  editor.setName("painted");
+  work();
+  editor.create();
+  EXPECT_TRUE(tubesOf("painted") == scene::TracedTubes());
 }

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <set>
 
 #include <Eigen/Geometry>
 
@@ -210,6 +212,23 @@ TEST(SlicePresenter, ShowsInRedWhereLessThanHalfIsLeft)
       red += pixels.at(column, row)[0] > pixels.at(column, row)[1] + 40;
   EXPECT_NEAR(red, 3.14159 * 36.0, 6.0);
   EXPECT_EQ(pixels.at(20, 10)[1], 255);
+
+  // Its edge is a line of one colour on the white bone, whatever the hatching.
+  const auto isCut = [&](int column, int row)
+  { return pixels.at(column, row)[0] > pixels.at(column, row)[1] + 40; };
+  std::set<std::array<std::uint8_t, 3>> edge, within;
+  for (int row = 1; row < 39; ++row)
+    for (int column = 1; column < 39; ++column)
+      if (isCut(column, row))
+      {
+        const bool isInner = isCut(column - 1, row) && isCut(column + 1, row) &&
+                             isCut(column, row - 1) && isCut(column, row + 1);
+        (isInner ? within : edge).insert(pixels.at(column, row));
+      }
+  EXPECT_EQ(edge.size(), 1U);
+  EXPECT_EQ(within.size(), 2U) << "hatched";
+  for (const auto& color : within)
+    EXPECT_EQ(edge.count(color), 0U);
 }
 
 TEST(SlicePresenter, TellsWhatIsNotSeenInSlices)

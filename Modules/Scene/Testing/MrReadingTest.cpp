@@ -92,6 +92,27 @@ TEST(MrReading, IsKeptInTheManifest)
   EXPECT_NE(scene::outdatedReading(read, readings(read)), "");
 }
 
+TEST(TracedTubes, AreKeptInTheManifestAndNeverMoreUnresolvedThanLong)
+{
+  scene::Case value = madeFromT2();
+  scene::TracedTubes& tubes = value.labels.front().structures.front().tubes;
+  const auto read = [&value]
+  {
+    const scene::Case back = scene::fromManifest(scene::toManifest(value), "test");
+    return back.labels.front().structures.front().tubes;
+  };
+  EXPECT_TRUE(read() == scene::TracedTubes());
+  tubes = {12.0, 3.5, 7};
+  tubes += {8.0, 0.5, 1};
+  EXPECT_EQ(read().length, 20.0);
+  EXPECT_EQ(read().unresolved, 4.0);
+  EXPECT_EQ(read().bridging, 8U);
+  tubes.unresolved = 20.5;
+  EXPECT_THROW(read(), core::Error);
+  tubes.unresolved = -0.5;
+  EXPECT_THROW(read(), core::Error);
+}
+
 TEST(Registration, OfAFileIsNotByHand)
 {
   scene::Registration how;

@@ -211,6 +211,7 @@ constexpr const char* kFrame = "frame_of_reference_salted_sha256";
 constexpr const char* kPatient = "patient_salted_sha256";
 constexpr const char* kSalt = "salt_id";       // absent: of a salt that has none, or no hashes
 constexpr const char* kMadeFrom = "made_from"; // absent: from no MR, or by older programs
+constexpr const char* kTubes = "traced_tubes"; // absent: none, or by older programs
 constexpr const char* kModality = "modality";  // "CT" or "MR"; absent: not known
 constexpr const char* kUnsaltedFrame = "frame_of_reference_sha256"; // written by older programs
 
@@ -449,6 +450,27 @@ MrReadings readingsIn(const json& j)
   return readings;
 }
 
+json tubesOut(const TracedTubes& tubes)
+{
+  return {{"length_mm", tubes.length},
+          {"unresolved_mm", tubes.unresolved},
+          {"bridging_voxels", tubes.bridging}};
+}
+
+TracedTubes tubesIn(const json& j)
+{
+  if (!j.contains(kTubes))
+    return {};
+  const json& from = j.at(kTubes);
+  const TracedTubes tubes{from.at("length_mm").get<double>(),
+                          from.at("unresolved_mm").get<double>(),
+                          integerIn<std::uint64_t>(from.at("bridging_voxels"))};
+  if (!(tubes.unresolved >= 0.0 && tubes.length >= tubes.unresolved))
+    throw core::InvalidParameter("of a structure's tubes more than their length is unresolved, or "
+                                 "less than nothing");
+  return tubes;
+}
+
 json labelsOut(const LabelPart& part)
 {
   json structures = json::array();
@@ -463,6 +485,8 @@ json labelsOut(const LabelPart& part)
       structures.back()["codes"] = codesOut(s.codes);
     if (!s.readings.empty())
       structures.back()[kMadeFrom] = readingsOut(s.readings);
+    if (!(s.tubes == TracedTubes()))
+      structures.back()[kTubes] = tubesOut(s.tubes);
   }
   json j{{"object", part.object}, {"structures", structures}};
   if (part.drawnOn)
@@ -494,7 +518,8 @@ LabelPart labelsIn(const json& j, const appearance::StructurePresets& presets)
         {s.at("name").get<std::string>(), integerIn<std::uint16_t>(s.at("index")),
          integerIn<std::uint64_t>(s.at("voxels")), s.at("volume_mm3").get<double>(),
          lookIn(s.at("look"), presets),
-         s.contains("codes") ? codesIn(s.at("codes")) : volume::SegmentCodes(), readingsIn(s)});
+         s.contains("codes") ? codesIn(s.at("codes")) : volume::SegmentCodes(), readingsIn(s),
+         tubesIn(s)});
   return part;
 }
 

@@ -605,7 +605,6 @@ void addMr(scene::Case& value, const PartSource& source, const scene::IdentitySa
                              optionsOf(source.repair, source.roi, source.undeclaredBits), false,
                              source.assumeRas, source.unit, progress);
   scene::ImagePart& part = read.part;
-  judgeContents(source.path, part, source.roi.has_value());
   if (!read.otherQuantity.why.empty() && !read.otherQuantity.isUnspecified)
     part.notes.push_back(read.otherQuantity.why);
   part.name = name;

@@ -594,7 +594,8 @@ void WorkstationModel::labelsChanged()
 
 std::optional<scene::LabelPart> WorkstationModel::addStructure(volume::LabelMap labels,
                                                                const std::string& replaced,
-                                                               const scene::MrReadings& readings)
+                                                               const scene::MrReadings& readings,
+                                                               const scene::TracedTubes& tubes)
 {
   if (!m_case)
     return std::nullopt;
@@ -612,7 +613,10 @@ std::optional<scene::LabelPart> WorkstationModel::addStructure(volume::LabelMap 
     throw;
   }
   for (scene::StructurePart& structure : m_case->labels.back().structures)
+  {
     structure.readings = readings;
+    structure.tubes = tubes;
+  }
   if (taken)
   {
     scene::LabelPart& added = m_case->labels.back();

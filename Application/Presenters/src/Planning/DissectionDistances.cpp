@@ -156,6 +156,8 @@ std::vector<DissectionDistance> dissectionDistances(const scene::Case& value,
     if (const auto found = injured.find(one.name); found != injured.end())
       one.injured = found->second;
     one.place = nearest->place;
+    one.onStructure =
+        nearest->distance > 0.0 ? surfaces.nearestPoint(n, nearest->place) : nearest->place;
     distances.push_back(std::move(one));
   }
   std::stable_sort(distances.begin(), distances.end(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "petrous/Presenters/StructureShape.h"
 #include "petrous/Scene/StructureOccupancy.h"
 #include "petrous/Volume/SurfaceDistance.h"
 
@@ -94,6 +95,12 @@ double StructureSurfaces::distance(std::size_t structure, const Eigen::Vector3d&
   if (asked.box.squaredExteriorDistance(patient) >= most * most)
     return most;
   return asked.surface().at(patient, most);
+}
+
+Eigen::Vector3d StructureSurfaces::nearestPoint(std::size_t structure,
+                                                const Eigen::Vector3d& patient)
+{
+  return shortestWay(patient, m_structures[structure]->surface()).to;
 }
 
 double StructureSurfaces::bound(std::size_t structure, const Eigen::Vector3d& patient, double most)

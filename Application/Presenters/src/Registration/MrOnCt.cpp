@@ -1,5 +1,6 @@
 #include "petrous/Presenters/MrOnCt.h"
 
+#include <algorithm>
 #include <atomic>
 #include <type_traits>
 #include <utility>
@@ -87,6 +88,11 @@ std::string likelyOrderText(const std::vector<Eigen::Vector3d>& points)
   for (const std::size_t n : segmentation::likelyOrder(points))
     text += (text.empty() ? "" : ", ") + std::to_string(n + 1);
   return text;
+}
+
+scene::TracedTubes tracedTubes(const segmentation::Tube& tube, const segmentation::TubeLabel& label)
+{
+  return {tube.length, std::max(tube.length - tube.resolvedLength, 0.0), label.bridging};
 }
 
 std::string bridgingText(const segmentation::TubeLabel& label)

@@ -275,6 +275,7 @@ struct SegmentEditor::Preview
 {
   std::optional<Mask> result; ///< none: computed only in slices, `range`
   std::shared_ptr<const Tube> tube;
+  scene::TracedTubes traced;               ///< that tube
   std::optional<volume::ValueRange> range; ///< that was used
   std::optional<Eigen::Vector3d> seed;     ///< of the region that is proposed
   Image image;                             ///< the source on the CT's grid, if it was made
@@ -299,17 +300,29 @@ struct SegmentEditor::Draft
     std::optional<std::pair<Points, Points>> points;                         ///< before and after
     std::optional<std::pair<Points, Points>> seeds;                          ///< before and after
     std::optional<std::pair<scene::MrReadings, scene::MrReadings>> readings; ///< before and after
+    std::optional<std::pair<scene::TracedTubes, scene::TracedTubes>> tubes;  ///< before and after
   };
 
   // `afresh`: the step makes all voxels anew.
-  void read(Step& step, const scene::MrReadings& read, bool afresh)
+  void read(Step& step, const scene::MrReadings& read, bool afresh,
+            const scene::TracedTubes& traced = {})
   {
+    if (!step.mask)
+      return;
     scene::MrReadings after = afresh ? scene::MrReadings() : readings;
     scene::addReadings(after, read);
-    if (!step.mask || after == readings)
-      return;
-    step.readings = {readings, after};
-    readings = std::move(after);
+    if (after != readings)
+    {
+      step.readings = {readings, after};
+      readings = std::move(after);
+    }
+    scene::TracedTubes all = afresh ? scene::TracedTubes() : tubes;
+    all += traced;
+    if (!(all == tubes))
+    {
+      step.tubes = {tubes, all};
+      tubes = all;
+    }
   }
 
   void did(Step step)
@@ -333,6 +346,7 @@ struct SegmentEditor::Draft
   Points seeds;                                                  ///< of the connected threshold
   Points points;                                                 ///< of the nerve
   scene::MrReadings readings;                                    ///< of the voxels
+  scene::TracedTubes tubes;                                      ///< among the voxels
   std::vector<Step> undo, redo;
   std::uint64_t changes = 0;                              ///< steps ever made
   std::optional<std::pair<Pieces, std::uint64_t>> pieces; ///< and `changes` by then
@@ -682,7 +696,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
   touched();
   return [this, draft = m_draft, labels = scene::labelsOnCt(m_model.value(), *part),
           map = part->labels.get(), index = found->index, look = found->look, structure,
-          readings = readingsOf(m_model.value(), *part, *found),
+          readings = readingsOf(m_model.value(), *part, *found), tubes = found->tubes,
           volume = static_cast<double>(found->voxels) *
                    part->labels.get()->voxels->geometry().voxelVolume(),
           ct = m_model.value().ct.geometry, primary = std::string(primaryName(m_model.value()))](
@@ -695,7 +709,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
                   core::fixedText(static_cast<double>(mask->count()) * ct.voxelVolume(), 1) +
                   " mm³ for " + core::fixedText(volume, 1) +
                   " mm³. Saving replaces what was drawn.";
-    return [this, draft, mask, map, index, structure, look, resampled, readings]
+    return [this, draft, mask, map, index, structure, look, resampled, readings, tubes]
     {
       if (draft != m_draft)
         return;
@@ -707,6 +721,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
       draft->resampled = resampled;
       draft->editedLook = look;
       draft->readings = readings;
+      draft->tubes = tubes;
       chooseColor();
       touched();
     };
@@ -1292,6 +1307,7 @@ SegmentEditor::Computed SegmentEditor::computed() const
                            ? std::nullopt
                            : std::optional(options.widest));
       preview.warning = warningOf(tube, label);
+      preview.traced = tracedTubes(tube, label);
       preview.tube = std::make_shared<const Tube>(std::move(tube));
       preview.result = united(base, segmentation::maskOf(label.map, 1), Combine::Add);
       return preview;
@@ -1489,13 +1505,13 @@ SegmentEditor::Work SegmentEditor::replacing(const char* what,
       draft->mask.beginStep();
       box = draft->mask.replace(*preview->result);
       changed = draft->mask.endStep();
-      draft->pending =
-          [draft = draft.get(), changed, endsTool, what, reads, pieces = preview->pieces]
+      draft->pending = [draft = draft.get(), changed, endsTool, what, reads,
+                        pieces = preview->pieces, traced = preview->traced]
       {
         Draft::Step step;
         step.what = what;
         step.mask = changed;
-        draft->read(step, reads.readings, reads.afresh);
+        draft->read(step, reads.readings, reads.afresh, traced);
         if (endsTool)
         {
           if (!draft->seeds.empty())
@@ -1779,6 +1795,8 @@ std::function<void()> SegmentEditor::step(Draft& draft, bool back)
   {
     if (step.readings)
       draft->readings = back ? step.readings->first : step.readings->second;
+    if (step.tubes)
+      draft->tubes = back ? step.tubes->first : step.tubes->second;
     if (step.points)
       draft->points = back ? step.points->first : step.points->second;
     if (step.seeds)
@@ -1842,13 +1860,14 @@ SegmentEditor::Work SegmentEditor::createWork()
   if (const std::string why = whyNotCreate(); !why.empty())
     throw core::InvalidParameter(why);
   const std::optional<Mask> preview = m_preview ? m_preview->result : std::nullopt;
+  const scene::TracedTubes traced = m_preview ? m_preview->traced : scene::TracedTubes();
   beginStep();
   volume::Segment segment;
   segment.name = m_draft->name;
   segment.index = 1;
   touched();
   return [this, draft = m_draft, mask = *m_frozen->result, preview = preview.has_value(), segment,
-          what = nameOf(m_tool),
+          what = nameOf(m_tool), traced,
           reads = preview ? readsOfTool() : Reads()](const core::Progress& progress) -> Apply
   {
     progress.report(0.0, "making the structure");
@@ -1859,12 +1878,12 @@ SegmentEditor::Work SegmentEditor::createWork()
       draft->mask.beginStep();
       draft->mask.replace(mask);
       const bool changed = draft->mask.endStep();
-      draft->pending = [draft = draft.get(), changed, what, reads]
+      draft->pending = [draft = draft.get(), changed, what, reads, traced]
       {
         Draft::Step step;
         step.what = what;
         step.mask = changed;
-        draft->read(step, reads.readings, reads.afresh);
+        draft->read(step, reads.readings, reads.afresh, traced);
         draft->did(std::move(step));
       };
     }
@@ -1877,7 +1896,8 @@ SegmentEditor::Work SegmentEditor::createWork()
       std::optional<scene::LabelPart> replaced;
       try
       {
-        replaced = m_model.addStructure(std::move(*labels), draft->edited, readingsOfDraft());
+        replaced = m_model.addStructure(std::move(*labels), draft->edited, readingsOfDraft(),
+                                        draft->tubes);
       }
       catch (const core::InvalidParameter& error) // its name has been taken meanwhile
       {

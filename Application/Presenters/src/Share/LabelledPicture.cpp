@@ -121,6 +121,23 @@ void addCross(rendering::Picture& picture, const Eigen::Vector2d& place)
   arms(0, kCross);
 }
 
+void addLine(rendering::Picture& picture, const Eigen::Vector2d& from, const Eigen::Vector2d& to)
+{
+  const int steps = std::max(1, static_cast<int>(std::ceil(2.0 * (to - from).norm())));
+  const auto draw = [&](int wider, const Color& color)
+  {
+    for (int n = 0; n <= steps; ++n)
+    {
+      const Eigen::Vector2d at = from + (to - from) * (static_cast<double>(n) / steps);
+      const int column = static_cast<int>(std::lround(at[0]));
+      const int row = static_cast<int>(std::lround(at[1]));
+      fill(picture, column - wider, row - wider, column + 1 + wider, row + 1 + wider, color);
+    }
+  };
+  draw(1, kDark);
+  draw(0, kCross);
+}
+
 rendering::Picture labelledSlice(SlicePixels pixels, const SliceGeometry& slice,
                                  const std::vector<std::string>& lines)
 {

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "ReportWords.h"
+#include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Presenters/CaseNaming.h"
@@ -37,8 +39,10 @@ namespace
 using dissection::History;
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostRows = 200; // of a table
-constexpr std::size_t kMostPlaces = 8; // of slices, three each
+constexpr std::size_t kMostRows = 200;     // of a table
+constexpr std::size_t kMostPlaces = 4;     // marks with slices
+constexpr std::size_t kMostStructures = 8; // with slices
+constexpr double kTooFar = 15.0;           // mm: a structure beyond gets no slices
 
 std::string filled(std::string text, const std::string& first, const std::string& second = {})
 {
@@ -206,13 +210,15 @@ public:
     auto distances = dissectionDistances(m_value, progress.part(0.0, 0.25));
     withholdNotes(m_value, m_withheld, m_options.keepIdentity);
     withholdNames(m_value, m_withheld);
+    m_known = scene::structureOccupancies(m_value);
     m_absent = absentStructures();
     for (DissectionDistance& one : distances)
       one.name = m_withheld.name(one.name, "structure");
     addHead();
     addViews(progress.part(0.25, 0.5));
     addDistances(distances);
-    addPlaces(distances, progress.part(0.5, 0.7));
+    addNearest(distances, progress.part(0.5, 0.65));
+    addPlaces(progress.part(0.65, 0.7));
     addApproaches();
     addStrokes();
     addMeasurements();
@@ -434,7 +440,7 @@ private:
   std::vector<Absent> absentStructures() const
   {
     std::set<std::string> measured;
-    for (const scene::StructureOccupancy& known : scene::structureOccupancies(m_value))
+    for (const scene::StructureOccupancy& known : m_known)
       measured.insert(known.name);
     std::vector<Absent> absent;
     for (const scene::LabelPart& part : m_value.labels)
@@ -489,6 +495,57 @@ private:
     return text;
   }
 
+  rendering::SceneContents lit(rendering::SceneContents contents) const
+  {
+    illuminate(contents, m_value.view.light);
+    return contents;
+  }
+
+  // With what lies within the bone: its own structures, and hidden ones that are warned of.
+  scene::Case translucentCase() const
+  {
+    scene::Case value = m_value;
+    const auto reveal = [](appearance::StructureAppearance& look)
+    { look.shown = look.shown || look.warning > 0.0; };
+    for (scene::LabelPart& part : value.labels)
+      for (scene::StructurePart& structure : part.structures)
+        reveal(structure.look);
+    for (scene::MeshPart& mesh : value.meshes)
+      reveal(mesh.look);
+    if (!m_options.keepIdentity)
+      value = thumbnailCase(std::move(value));
+    appearance::applyPreset(value.boneLook,
+                            appearance::StructurePresets::builtIn().preset("bone-translucent"));
+    value.boneLook.sourceImage.clear();
+    value.boneLook.shown = true;
+    value.softTissue.shown = false;
+    return value;
+  }
+
+  ReportPicture viewPicture(rendering::SceneContents contents, std::string caption,
+                            const core::CameraPose& camera,
+                            const scene::ViewState::Clipping& clipping,
+                            const core::Progress& progress) const
+  {
+    const int width = m_options.pictureWidth;
+    const int height = 3 * width / 4;
+    clip(contents, clipping, m_value.ct.geometry);
+    rendering::ScenePicture scene;
+    scene.setContents(contents);
+    rendering::Picture picture = rendering::renderTiled(scene, camera, width, height, progress);
+    const double magnified = width / 600.0;
+    std::vector<std::string> lines{say(sideText(m_value.description.side))};
+    for (const std::string& line : clippingTexts(clipping, m_value.ct.geometry))
+      lines.push_back(say(line));
+    addLines(picture, lines, magnified);
+    addEdgeLetters(picture, camera, magnified);
+    addScaleBar(picture, rendering::millimetresPerPixel(camera, height),
+                camera.parallelScale ? "" : say("in the focal plane"), magnified);
+    for (std::size_t n = 1; n < lines.size(); ++n)
+      caption += " (" + lines[n] + ")";
+    return reportPicture(std::move(caption), picture, 2);
+  }
+
   // As the case was saved, and as the surgeon has the patient. Without identity nothing in front of
   // bone is drawn by which a face could be recognised.
   void addViews(const core::Progress& progress)
@@ -500,52 +557,32 @@ private:
     try
     {
       const scene::Case shown = m_options.keepIdentity ? m_value : thumbnailCase(m_value);
-      rendering::SceneContents contents = sceneContents(shown, progress.part(0.0, 0.4));
-      if (!contents.boneShown && contents.meshes.empty() && contents.materials.size() < 2 &&
-          !contents.softTissue)
+      const rendering::SceneContents opaque = lit(sceneContents(shown, progress.part(0.0, 0.2)));
+      if (!opaque.boneShown && opaque.meshes.empty() && opaque.materials.size() < 2 &&
+          !opaque.softTissue)
       {
         views.paragraphs.push_back(say("Nothing of the case is shown in 3D."));
         return;
       }
-      illuminate(contents, m_value.view.light);
+      std::optional<rendering::SceneContents> translucent;
+      if (m_value.ct.modality != scene::Modality::Mr)
+        translucent = lit(sceneContents(translucentCase(), progress.part(0.2, 0.4)));
       const auto add = [&](const std::string& caption, const core::CameraPose& camera,
-                           const scene::ViewState::Clipping& clipping, const core::Progress& part,
-                           const std::string& how = {})
+                           const scene::ViewState::Clipping& clipping, const core::Progress& part)
       {
-        const int width = m_options.pictureWidth;
-        const int height = 3 * width / 4;
-        clip(contents, clipping, m_value.ct.geometry);
-        rendering::ScenePicture scene;
-        scene.setContents(contents);
-        rendering::Picture picture = rendering::renderTiled(scene, camera, width, height, part);
-        const double magnified = width / 600.0;
-        std::vector<std::string> lines{say(sideText(m_value.description.side))};
-        for (const std::string& line : clippingTexts(clipping, m_value.ct.geometry))
-          lines.push_back(say(line));
-        if (!how.empty())
-          lines.push_back(how);
-        addLines(picture, lines, magnified);
-        addScaleBar(picture, rendering::millimetresPerPixel(camera, height),
-                    camera.parallelScale ? "" : say("in the focal plane"), magnified);
-        std::string text = caption;
-        for (std::size_t n = 1; n < lines.size(); ++n)
-          text += " (" + lines[n] + ")";
-        views.pictures.push_back({text, rendering::pngOf(picture), width, height, 2});
+        views.pictures.push_back(
+            viewPicture(opaque, caption, camera, clipping, part.part(0.0, 0.5)));
+        if (translucent)
+          views.pictures.push_back(viewPicture(*translucent,
+                                               caption + ", " + say("bone made translucent"),
+                                               camera, clipping, part.part(0.5, 1.0)));
       };
       add(say("3D view as saved"), currentCamera(m_value), m_value.view.clipping,
-          progress.part(0.4, 0.6));
-      const core::CameraPose surgical =
+          progress.part(0.4, 0.7));
+      add(say(surgicalCaption()),
           standardCamera(m_value, isLeft ? rendering::StandardView::SurgicalLeft
-                                         : rendering::StandardView::SurgicalRight);
-      add(say(surgicalCaption()), surgical, {}, progress.part(0.6, 0.8));
-      if (!contents.boneShown || (contents.meshes.empty() && contents.materials.size() < 2))
-        return;
-      // How structures lie to what was drilled, behind bone that is left.
-      constexpr float kTranslucent = 0.25F;
-      appearance::Material& bone = contents.materials.front();
-      bone.surfaceOpacity = std::min(bone.surfaceOpacity, kTranslucent);
-      contents.softTissue.reset();
-      add(say(surgicalCaption()), surgical, {}, progress.part(0.8, 1.0), say("bone translucent"));
+                                         : rendering::StandardView::SurgicalRight),
+          {}, progress.part(0.7, 1.0));
     }
     catch (const rendering::RenderingError& error)
     {
@@ -597,6 +634,13 @@ private:
       injured.text = one.injured > 0.0 ? volumeText(one.injured) : say("nothing");
       table.table.rows.push_back({structureCell(one.name), distance, injured});
     }
+    addGuesses(table);
+    if (const std::string repairs =
+            joined(repairsOf(m_value.ct.provenance, m_value.ct.geometry.dims()[2]));
+        !repairs.empty())
+      table.paragraphs.push_back(
+          filled(say("Guessed at import of the %1, and distances with it"), primaryName(m_value)) +
+          ": " + repairs + ".");
     addAbsent(table);
     table.remarks.push_back(
         say("Shortest distance between what was removed and the surface of each "
@@ -604,79 +648,306 @@ private:
             "the error of the registration where a structure was drawn on an MR."));
   }
 
-  struct Place
+  // What of the structure's geometry nobody measured or drew, a phrase each.
+  std::vector<std::string> guessesOf(const std::string& structure) const
   {
-    std::string name;
-    Vector3d point;
-  };
+    std::vector<std::string> texts;
+    for (const scene::LabelPart& part : m_value.labels)
+      for (const scene::StructurePart& one : part.structures)
+        if (one.name == structure)
+        {
+          texts = placeGuessesOf(part);
+          addTubes(one.tubes, texts);
+        }
+    for (const scene::StructureOccupancy& known : m_known)
+      if (known.name == structure)
+        addInterpolated(known, texts);
+    return texts;
+  }
 
-  // Whether the drill is to keep off it.
-  bool isGuarded(const std::string& structure) const
+  void addTubes(const scene::TracedTubes& tubes, std::vector<std::string>& texts) const
+  {
+    constexpr double kLeast = 0.05; // of the length: as the window warns
+    if (tubes.unresolved > 0.0 && tubes.unresolved >= kLeast * tubes.length)
+      texts.push_back(
+          filled(say("traced between points alone along %1 of %2 mm, as the image does not "
+                     "resolve it there"),
+                 number(tubes.unresolved, 1), number(tubes.length, 1)));
+    if (tubes.bridging > 0)
+      texts.push_back(filled(say("thinner than the voxels, and drawn one voxel wide in %1 of them"),
+                             std::to_string(tubes.bridging)));
+  }
+
+  // Slices of an image into which a structure reaches, that repair interpolated. Patient LPS, mm.
+  static std::vector<volume::SliceRange> interpolatedIn(const scene::ImagePart& image,
+                                                        const core::RigidTransform& imageFromCt,
+                                                        const core::GridGeometry& around)
+  {
+    constexpr double kMargin = 1.0; // voxels, of `around` beyond the structure's own
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      Vector3d voxel;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        voxel[static_cast<Eigen::Index>(axis)] =
+            (corner >> axis & 1) != 0 ? around.dims()[axis] - 1 - kMargin : kMargin;
+      const double slice =
+          image.geometry.voxelFromPatient(imageFromCt * around.patientFromVoxel(voxel))[2];
+      first = std::min(first, slice);
+      last = std::max(last, slice);
+    }
+    std::vector<volume::SliceRange> found;
+    for (const volume::SliceRange& range : image.provenance.interpolated)
+    {
+      const volume::SliceRange shared{std::max(range.first, static_cast<int>(std::lround(first))),
+                                      std::min(range.last, static_cast<int>(std::lround(last)))};
+      if (shared.first <= shared.last)
+        found.push_back(shared);
+    }
+    return found;
+  }
+
+  // Of the images on which it was drawn, or from which it was made.
+  void addInterpolated(const scene::StructureOccupancy& known,
+                       std::vector<std::string>& texts) const
+  {
+    const auto add = [&](const scene::ImagePart& image, const core::RigidTransform& imageFromCt,
+                         const std::string& name)
+    {
+      const auto slices = interpolatedIn(image, imageFromCt, known.around);
+      if (!slices.empty())
+        texts.push_back(filled(say("slices %1 of %2, in which it lies, are interpolated"),
+                               volume::toString(slices), name));
+    };
+    const scene::ImagePart* mr = scene::findMr(m_value, known.mr);
+    if (mr)
+      add(*mr, mr->mrFromCt, mr->name);
+    for (const scene::MrReading& reading : known.readings)
+      if (const auto* source = reading.isGone ? nullptr : scene::findMr(m_value, reading.mr))
+        add(*source, reading.mrFromCt, source->name);
+    if (!mr && known.readings.empty())
+      add(m_value.ct, core::RigidTransform(), primaryName(m_value));
+  }
+
+  static std::string joined(const std::vector<std::string>& texts)
+  {
+    std::string all;
+    for (const std::string& text : texts)
+      all += (all.empty() ? "" : "; ") + text;
+    return all;
+  }
+
+  std::string withGuesses(std::string remark, const std::string& structure) const
+  {
+    const std::string guesses = structure.empty() ? std::string() : joined(guessesOf(structure));
+    if (guesses.empty())
+      return remark;
+    return remark + (remark.empty() ? "" : "; ") + say("guessed:") + " " + guesses;
+  }
+
+  // A column beside the numbers, where any of the structures has guesses.
+  void addGuesses(ReportSection& table) const
+  {
+    std::vector<std::string> texts;
+    for (const auto& row : table.table.rows)
+      texts.push_back(joined(guessesOf(row.front().text)));
+    if (std::all_of(texts.begin(), texts.end(), [](const auto& text) { return text.empty(); }))
+      return;
+    table.table.columns.push_back(say("Guessed"));
+    for (std::size_t n = 0; n < texts.size(); ++n)
+    {
+      table.table.rows[n].push_back(textCell(texts[n]));
+      table.table.rows[n].back().isWarning = !texts[n].empty();
+    }
+  }
+
+  // Those of which slices are drawn, injured ones first, then those that are warned of, each
+  // nearest first. A lumen that is not warned of is opened, and no danger.
+  std::vector<DissectionDistance> critical(const std::vector<DissectionDistance>& distances) const
+  {
+    constexpr double kNear = 5.0; // mm: of structures without a warning
+    std::vector<DissectionDistance> found;
+    for (const DissectionDistance& one : distances)
+      if (one.injured > 0.0 || isWarnedOf(one.name) ||
+          (*one.distance.value <= kNear && !isLumen(one.name)))
+        found.push_back(one);
+    const auto rank = [this](const DissectionDistance& one) {
+      return one.injured > 0.0 ? 0 : isWarnedOf(one.name) ? 1 : 2;
+    };
+    std::stable_sort(found.begin(), found.end(),
+                     [&rank](const DissectionDistance& a, const DissectionDistance& b)
+                     { return rank(a) < rank(b); });
+    return found;
+  }
+
+  bool isWarnedOf(const std::string& structure) const
   {
     const auto* look = lookOf(structure);
-    return look && look->solid && (!look->drillable || look->warning > 0.0);
+    return look && look->warning > 0.0;
   }
 
-  // Where the dissection came nearest to structures, and marks; else the crosshair.
-  // What was injured counts most; a lumen is opened, and no danger.
-  std::vector<Place> keyPlaces(std::vector<DissectionDistance> distances) const
+  std::string nearestText(const DissectionDistance& one) const
   {
-    constexpr double kNear = 5.0;           // mm: of structures that count
-    constexpr double kGuarded = 15.0;       // mm: of those that the drill is to keep off
-    constexpr double kApart = 2.0;          // mm: of places that differ
-    constexpr std::size_t kStructures = 6U; // room is left for marks
-    std::vector<Place> places;
-    const auto add = [&](const std::string& name, const Vector3d& point)
+    std::string text = shownName(one.name) + ": " +
+                       (*one.distance.value > 0.0 ? textOf(one.distance) : say("reached"));
+    if (one.injured > 0.0)
+      text += ", " + say("Removed from it") + ": " + volumeText(one.injured);
+    return withGuesses(text, one.name);
+  }
+
+  // Hidden ones, too, of those that are reported.
+  scene::Case withShown(const std::vector<DissectionDistance>& reported) const
+  {
+    scene::Case value = m_value;
+    for (const DissectionDistance& one : reported)
     {
-      if (places.size() < kMostPlaces &&
-          std::none_of(places.begin(), places.end(),
-                       [&](const Place& place) { return (place.point - point).norm() < kApart; }))
-        places.push_back({name, point});
-    };
-    std::stable_sort(distances.begin(), distances.end(),
-                     [](const DissectionDistance& a, const DissectionDistance& b)
-                     { return a.injured > b.injured; });
-    for (const DissectionDistance& one : distances)
-      if (*one.distance.value <= (isGuarded(one.name) ? kGuarded : kNear) &&
-          places.size() < kStructures && !isLumen(one.name))
-        add(say("nearest to") + " " + shownName(one.name) + ": " +
-                (*one.distance.value > 0.0 ? textOf(one.distance) : say("reached")),
-            one.place);
-    for (const scene::Measurement& one : m_value.measurements)
-      if (one.kind == scene::Measurement::Kind::Mark)
-        add(say("mark") + " “" + one.name + "”", one.points.front());
-    if (places.empty())
-      add(say("crosshair"),
-          m_value.view.slices ? m_value.view.slices->crosshair : m_value.ct.geometry.center());
-    return places;
+      for (scene::LabelPart& part : value.labels)
+        for (scene::StructurePart& structure : part.structures)
+          structure.look.shown = structure.look.shown || structure.name == one.name;
+      for (scene::MeshPart& mesh : value.meshes)
+        mesh.look.shown = mesh.look.shown || mesh.name == one.name;
+    }
+    return value;
   }
 
-  void addPlaces(const std::vector<DissectionDistance>& distances, const core::Progress& progress)
+  rendering::Picture slicePicture(const SlicePresenter& presenter, const SliceGeometry& slice,
+                                  const char* name) const
   {
-    constexpr double kFieldOfView = 40.0; // mm
-    const auto places = keyPlaces(distances);
+    std::vector<std::string> lines{say(name)};
+    if (showsInterpolated(m_value.ct, slice))
+      lines.push_back(say("interpolated slice: not measured here"));
+    return labelledSlice(presenter.draw(slice, displayOf(m_value).bone), slice, lines);
+  }
+
+  static ReportPicture reportPicture(std::string caption, const rendering::Picture& picture,
+                                     int inRow)
+  {
+    return {std::move(caption), rendering::pngOf(picture), picture.width, picture.height, inRow};
+  }
+
+  // The three slices through a place, which a cross marks.
+  void addSlices(ReportSection& section, const SlicePresenter& presenter, const Vector3d& place,
+                 double fieldOfView, int inRow) const
+  {
+    const int width = m_options.sliceWidth;
+    for (const SliceOrientation orientation :
+         {SliceOrientation::Axial, SliceOrientation::Coronal, SliceOrientation::Sagittal})
+    {
+      const SliceGeometry slice(orientation, place, fieldOfView / width, width, width);
+      rendering::Picture picture = slicePicture(presenter, slice, nameOf(orientation));
+      addCross(picture, slice.pixelFromPatient(place));
+      section.pictures.push_back(reportPicture(say(nameOf(orientation)), picture, inRow));
+    }
+  }
+
+  // The plane that has the distance in it, turned as little as can be from a standard slice.
+  void addAlong(ReportSection& section, const SlicePresenter& presenter,
+                const DissectionDistance& one, double fieldOfView, int inRow) const
+  {
+    const Vector3d way = (one.onStructure - one.place).normalized();
+    Vector3d normal = Vector3d::Zero();
+    for (const SliceOrientation orientation :
+         {SliceOrientation::Axial, SliceOrientation::Coronal, SliceOrientation::Sagittal})
+    {
+      const Vector3d next = axesOf(orientation).next;
+      if (const Vector3d across = next - next.dot(way) * way; across.norm() > normal.norm())
+        normal = across;
+    }
+    const ObliquePlane plane = planeWithNormal(normal);
+    const int width = m_options.sliceWidth;
+    const SliceGeometry slice(plane.orientation, plane.axes, 0.5 * (one.place + one.onStructure),
+                              fieldOfView / width, width, width);
+    const char* name = "Along the distance";
+    rendering::Picture picture = slicePicture(presenter, slice, name);
+    addLine(picture, slice.pixelFromPatient(one.place), slice.pixelFromPatient(one.onStructure));
+    section.pictures.push_back(reportPicture(say(name), picture, inRow));
+  }
+
+  // Slices where the dissection came nearest to what it must not injure.
+  void addNearest(const std::vector<DissectionDistance>& distances, const core::Progress& progress)
+  {
+    ReportSection& pictures = section("nearest", say("Nearest to structures"));
+    if (m_value.dissection.mask().untouched())
+    {
+      pictures.paragraphs.push_back(say("Nothing was drilled on this approach."));
+      return;
+    }
+    std::vector<DissectionDistance> near;
+    std::string far, others;
+    for (DissectionDistance& one : critical(distances))
+    {
+      std::string* left = *one.distance.value > kTooFar    ? &far
+                          : near.size() == kMostStructures ? &others
+                                                           : nullptr;
+      if (left)
+        *left += (left->empty() ? "" : ", ") + shownName(one.name);
+      else
+        near.push_back(std::move(one));
+    }
+    pictures.paragraphs.push_back(
+        say(near.empty() ? "The dissection comes near no structure that is warned of."
+                         : "Each row has slices through the place of the cavity, marked by the "
+                           "cross, that is nearest to a structure. Structures are tinted and "
+                           "outlined, what was drilled is red and hatched; the line is the "
+                           "distance, in a plane that contains it."));
+    if (!far.empty())
+      pictures.paragraphs.push_back(
+          filled(say("Farther than %1 mm, and without slices: %2."), number(kTooFar, 0), far));
+    if (!others.empty())
+      pictures.paragraphs.push_back(filled(say("Only the first %1 have slices; without are: %2."),
+                                           std::to_string(kMostStructures), others));
+    const SlicePresenter presenter(withShown(near));
+    std::size_t done = 0;
+    for (const DissectionDistance& one : near)
+    {
+      progress.report(static_cast<double>(done++) / static_cast<double>(near.size()),
+                      "drawing slices");
+      constexpr double kLeast = 40.0; // mm
+      constexpr int kInRow = 4;
+      const double fieldOfView = std::max(kLeast, 3.0 * *one.distance.value);
+      const std::size_t first = pictures.pictures.size();
+      addSlices(pictures, presenter, one.place, fieldOfView, kInRow);
+      if (*one.distance.value > 0.0)
+        addAlong(pictures, presenter, one, fieldOfView, kInRow);
+      pictures.pictures[first].heading = nearestText(one);
+    }
+  }
+
+  // The marks; of a case that has neither marks nor a cavity the crosshair.
+  void addPlaces(const core::Progress& progress)
+  {
+    struct Place
+    {
+      std::string name;
+      Vector3d point;
+    };
+    std::vector<Place> places;
+    std::size_t marks = 0;
+    for (const scene::Measurement& one : m_value.measurements)
+      if (one.kind == scene::Measurement::Kind::Mark && marks++ < kMostPlaces)
+        places.push_back({say("mark") + " “" + one.name + "”", one.points.front()});
+    if (places.empty() && !m_report.sections.back().pictures.empty())
+      return;
+    if (places.empty())
+      places.push_back({say("crosshair"), m_value.view.slices ? m_value.view.slices->crosshair
+                                                              : m_value.ct.geometry.center()});
     ReportSection& pictures = section("places", say("Key places"));
     pictures.paragraphs.push_back(
         say("Each row has the three slices through a place, which the yellow cross marks."));
+    if (marks > kMostPlaces)
+      pictures.remarks.push_back(filled(say("Only the first %1 of %2 are listed."),
+                                        std::to_string(kMostPlaces), std::to_string(marks)));
     const SlicePresenter presenter(m_value);
-    const GreyWindow window = displayOf(m_value).bone;
-    const int width = m_options.sliceWidth;
-    std::size_t drawn = 0;
+    std::size_t done = 0;
     for (const Place& place : places)
-      for (const SliceOrientation orientation :
-           {SliceOrientation::Axial, SliceOrientation::Coronal, SliceOrientation::Sagittal})
-      {
-        progress.report(static_cast<double>(drawn++) / static_cast<double>(3 * places.size()),
-                        "drawing slices");
-        const SliceGeometry slice(orientation, place.point, kFieldOfView / width, width, width);
-        std::vector<std::string> lines{say(nameOf(orientation))};
-        if (showsInterpolated(m_value.ct, slice))
-          lines.push_back(say("interpolated slice: not measured here"));
-        rendering::Picture picture = labelledSlice(presenter.draw(slice, window), slice, lines);
-        addCross(picture, slice.pixelFromPatient(place.point));
-        pictures.pictures.push_back({say(nameOf(orientation)) + ", " + place.name,
-                                     rendering::pngOf(picture), width, width, 3});
-      }
+    {
+      constexpr double kFieldOfView = 40.0; // mm
+      progress.report(static_cast<double>(done++) / static_cast<double>(places.size()),
+                      "drawing slices");
+      const std::size_t first = pictures.pictures.size();
+      addSlices(pictures, presenter, place.point, kFieldOfView, 3);
+      pictures.pictures[first].heading = place.name;
+    }
   }
 
   std::string touchedText(const std::vector<dissection::TouchedStructure>& touched)
@@ -783,15 +1054,14 @@ private:
         const bool isMark = one.kind == scene::Measurement::Kind::Mark;
         table.table.rows.push_back(
             {textCell(one.name), textCell((isMark ? say("mark") + ", " : "") + say(quantity.name)),
-             cellOf(quantity), textCell(say(quantity.remark))});
+             cellOf(quantity), textCell(withGuesses(say(quantity.remark), one.structure))});
       }
   }
 
   void addStructures(const core::Progress& progress)
   {
     ReportSection& table = section("structures", say("Structures"));
-    const auto occupancies = scene::structureOccupancies(m_value);
-    if (occupancies.empty() && m_absent.empty())
+    if (m_known.empty() && m_absent.empty())
     {
       table.paragraphs.push_back(say("The case has no structures."));
       return;
@@ -799,9 +1069,9 @@ private:
     table.table.columns = {say("Structure"),  say("Volume"),   say("Thickness"),
                            say("Voxel edge"), say("Resolved"), say("Drawn on")};
     std::size_t done = 0;
-    for (const scene::StructureOccupancy& known : occupancies)
+    for (const scene::StructureOccupancy& known : m_known)
     {
-      const double share = static_cast<double>(done++) / static_cast<double>(occupancies.size());
+      const double share = static_cast<double>(done++) / static_cast<double>(m_known.size());
       progress.report(share, "measuring structures");
       std::vector<ReportCell> row{structureCell(known.name)};
       const Vector3d voxel = known.grid.spacing();
@@ -811,7 +1081,7 @@ private:
         for (const Quantity& one :
              dimensionsOf(m_value, known.name,
                           progress.part(share, static_cast<double>(done) /
-                                                   static_cast<double>(occupancies.size()))))
+                                                   static_cast<double>(m_known.size()))))
           if (one.name == "volume")
             volume = one;
           else if ((one.name == "largest thickness" || one.name == "smallest diameter") &&
@@ -844,6 +1114,7 @@ private:
       row.back().isWarning = isOutdated;
       table.table.rows.push_back(std::move(row));
     }
+    addGuesses(table);
     addAbsent(table);
     table.remarks.push_back(
         say("Thickness: of the largest ball that fits inside, or of a tube at its narrowest. "
@@ -908,8 +1179,7 @@ private:
     }
   }
 
-  std::vector<std::string> assumptionsOf(const volume::ImageProvenance& provenance,
-                                         int slices) const
+  std::vector<std::string> repairsOf(const volume::ImageProvenance& provenance, int slices) const
   {
     std::vector<std::string> texts;
     if (!provenance.interpolated.empty())
@@ -921,6 +1191,13 @@ private:
     else if (provenance.shift != 0.0)
       texts.push_back(
           filled(say("slices shifted sideways by up to %1 mm"), number(provenance.shift, 2)));
+    return texts;
+  }
+
+  std::vector<std::string> assumptionsOf(const volume::ImageProvenance& provenance,
+                                         int slices) const
+  {
+    std::vector<std::string> texts = repairsOf(provenance, slices);
     if (provenance.isFaceMasked)
       texts.push_back(say(provenance.areEarsMasked ? "face and auricles masked" : "face masked"));
     if (provenance.isCropped)
@@ -944,6 +1221,17 @@ private:
     return filled(say("left and right taken as %1 axes, as the file does not say which side of the "
                       "patient is left"),
                   assumedRas ? "RAS" : "LPS");
+  }
+
+  std::vector<std::string> placeGuessesOf(const scene::LabelPart& part) const
+  {
+    std::vector<std::string> texts;
+    if (part.provenance.assumedRas)
+      texts.push_back(sidesText(*part.provenance.assumedRas));
+    if (part.provenance.isFrameAssumed)
+      texts.push_back(say("not known to be in the frame of reference of the image on which it is "
+                          "shown"));
+    return texts;
   }
 
   void addAssumptions()
@@ -972,16 +1260,10 @@ private:
       addImage(mr.name, mr);
     for (const scene::LabelPart& part : m_value.labels)
     {
-      std::vector<std::string> texts;
-      if (part.provenance.assumedRas)
-        texts.push_back(sidesText(*part.provenance.assumedRas));
-      if (part.provenance.isFrameAssumed)
-        texts.push_back(say("not known to be in the frame of reference of the image on which it is "
-                            "shown"));
       std::string names;
       for (const scene::StructurePart& one : part.structures)
         names += (names.empty() ? "" : ", ") + one.name;
-      add(names, texts);
+      add(names, placeGuessesOf(part));
       add(names, notesOf(part.notes));
     }
     for (const scene::MeshPart& mesh : m_value.meshes)
@@ -1010,6 +1292,7 @@ private:
   const ReportOptions& m_options;
   Withheld m_withheld;
   std::string m_approach;
+  std::vector<scene::StructureOccupancy> m_known;
   std::vector<Absent> m_absent;
   PlanReport m_report;
 };

@@ -30,6 +30,7 @@ dt { color: #5a6875; }
 dd { margin: 0; white-space: pre-wrap; }
 h2 { font-size: 13pt; color: #14506e; margin: 7mm 0 2mm; border-bottom: .6pt solid #b9c6d0;
      padding-bottom: 1mm; break-after: avoid; }
+h3 { font-size: 10.5pt; margin: 3mm 0 1mm; break-after: avoid; }
 p { margin: 0 0 2mm; }
 .warning { color: #a03410; font-weight: 600; }
 .remark { color: #5a6875; font-size: 9pt; }
@@ -97,10 +98,18 @@ void addPictures(std::string& html, const std::vector<ReportPicture>& pictures)
 {
   if (pictures.empty())
     return;
-  html += "<div class=\"pictures\" style=\"grid-template-columns:repeat(" +
-          std::to_string(pictures.front().inRow) + ",1fr)\">\n";
   for (const ReportPicture& picture : pictures)
   {
+    const bool isFirst = &picture == &pictures.front();
+    if (isFirst || !picture.heading.empty())
+    {
+      if (!isFirst)
+        html += "</div>\n";
+      if (!picture.heading.empty())
+        html += "<h3>" + escapedHtml(picture.heading) + "</h3>\n";
+      html += "<div class=\"pictures\" style=\"grid-template-columns:repeat(" +
+              std::to_string(picture.inRow) + ",1fr)\">\n";
+    }
     const std::string caption = escapedHtml(picture.caption);
     html += "<figure><img alt=\"" + caption + "\" width=\"" + std::to_string(picture.width) +
             "\" height=\"" + std::to_string(picture.height) +

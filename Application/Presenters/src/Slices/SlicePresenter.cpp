@@ -39,6 +39,20 @@ void forEachPixel(const SliceGeometry& slice, const core::GridGeometry& grid, co
     for (int column = 0; column < slice.width(); ++column, ++pixel)
       body(pixel, Eigen::Vector3d(origin + column * across + row * down));
 }
+
+// Whether a neighbour of the pixel has another index. The picture's edge is no border.
+bool isBorder(const std::vector<std::uint16_t>& found, const SliceGeometry& slice,
+              std::size_t pixel)
+{
+  const auto width = static_cast<std::size_t>(slice.width());
+  const std::size_t column = pixel % width;
+  const std::uint16_t index = found[pixel];
+  return (column > 0 && found[pixel - 1] != index) ||
+         (column + 1 < width && found[pixel + 1] != index) ||
+         (pixel >= width && found[pixel - width] != index) ||
+         (pixel + width < found.size() && found[pixel + width] != index);
+}
+
 // Tints the voxels for which indexAt(voxel) is not 0, with an outline in their full colour; those
 // of `hatched` with lines in it, too.
 template <class IndexAt>
@@ -70,14 +84,9 @@ void tint(const SliceGeometry& slice, const core::GridGeometry& grid, const Inde
       const std::uint16_t index = found[pixel];
       if (index == 0)
         continue;
-      const bool border =
-          (column > 0 && found[pixel - 1] != index) ||
-          (column + 1 < width && found[pixel + 1] != index) ||
-          (row > 0 && found[pixel - static_cast<std::size_t>(width)] != index) ||
-          (row + 1 < slice.height() && found[pixel + static_cast<std::size_t>(width)] != index);
       const bool line = index == hatched && (column + row) % kHatchPeriod < kHatchWidth;
       blend(&pixels.rgb[3 * pixel], colors[index],
-            border || line ? kStructureOutline : kStructureTint);
+            line || isBorder(found, slice, pixel) ? kStructureOutline : kStructureTint);
     }
 }
 } // namespace
@@ -197,17 +206,21 @@ void DraftLayer::paint(const SliceGeometry& slice, SlicePixels& pixels) const
 void SlicePresenter::drawCut(const SliceGeometry& slice, SlicePixels& pixels) const
 {
   const core::GridGeometry& grid = m_mask->geometry();
-  forEachPixel(
-      slice, grid,
-      [&](std::size_t pixel, const Eigen::Vector3d& voxel)
-      {
-        if (!grid.hullContains(voxel) || m_mask->sample(voxel) >= 0.5)
-          return;
-        const int column = static_cast<int>(pixel % static_cast<std::size_t>(slice.width()));
-        const int row = static_cast<int>(pixel / static_cast<std::size_t>(slice.width()));
-        const bool hatch = (column + row) % kHatchPeriod < kHatchWidth;
-        blend(&pixels.rgb[3 * pixel], hatch ? kHatchColor : kCutColor, hatch ? 0.8F : kCutTint);
-      });
+  std::vector<std::uint16_t> cut(pixels.rgb.size() / 3, 0);
+  forEachPixel(slice, grid,
+               [&](std::size_t pixel, const Eigen::Vector3d& voxel)
+               { cut[pixel] = grid.hullContains(voxel) && m_mask->sample(voxel) < 0.5; });
+  const auto width = static_cast<std::size_t>(slice.width());
+  for (std::size_t pixel = 0; pixel < cut.size(); ++pixel)
+  {
+    if (cut[pixel] == 0)
+      continue;
+    const bool hatch = static_cast<int>(pixel % width + pixel / width) % kHatchPeriod < kHatchWidth;
+    if (isBorder(cut, slice, pixel))
+      blend(&pixels.rgb[3 * pixel], kHatchColor, kStructureOutline);
+    else
+      blend(&pixels.rgb[3 * pixel], hatch ? kHatchColor : kCutColor, hatch ? 0.8F : kCutTint);
+  }
 }
 
 } // namespace petrous::presenters

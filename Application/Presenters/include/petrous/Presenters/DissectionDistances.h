@@ -23,6 +23,9 @@ struct DissectionDistance
   Quantity distance;                    ///< mm; 0: reached
   double injured = 0.0;                 ///< mm^3 removed from it; of a lumen, which is opened, 0
   Eigen::Vector3d place{0.0, 0.0, 0.0}; ///< of the tissue removed, patient LPS mm
+  /// The point of the structure's surface that is nearest to `place`; where it was reached,
+  /// `place`.
+  Eigen::Vector3d onStructure{0.0, 0.0, 0.0};
 };
 
 /// Half-width of the distance of what was drilled from a structure: of its surface, and of half the

@@ -31,6 +31,9 @@ void addLines(rendering::Picture& picture, const std::vector<std::string>& lines
 /// A cross with a gap in its middle at a place; pixels.
 void addCross(rendering::Picture& picture, const Eigen::Vector2d& place);
 
+/// A straight line between two places; pixels.
+void addLine(rendering::Picture& picture, const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+
 /// A slice with orientation letters, a scale bar and lines.
 rendering::Picture labelledSlice(SlicePixels pixels, const SliceGeometry& slice,
                                  const std::vector<std::string>& lines);

@@ -6,6 +6,7 @@
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Core/RigidTransform.h"
+#include "petrous/Scene/Case.h"
 #include "petrous/Segmentation/TubeTrace.h"
 #include "petrous/Volume/IntensityVolume.h"
 
@@ -32,6 +33,10 @@ segmentation::Tube traceOnCt(const volume::IntensityVolume& image,
 /// The numbers of the points, from 1, in segmentation::likelyOrder: "1, 3, 2, 4". Empty if their
 /// own order is as likely.
 std::string likelyOrderText(const std::vector<Eigen::Vector3d>& points);
+
+/// How much of a tube's label is a guess.
+scene::TracedTubes tracedTubes(const segmentation::Tube& tube,
+                               const segmentation::TubeLabel& label);
 
 /// That the voxels are too wide for a tube along part of it; empty if they are not.
 std::string bridgingText(const segmentation::TubeLabel& label);

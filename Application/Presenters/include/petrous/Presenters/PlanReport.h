@@ -69,6 +69,9 @@ struct ReportPicture
   int width = 0; ///< pixels
   int height = 0;
   int inRow = 2; ///< pictures side by side
+  /// Above the row that begins with this picture; empty: it goes on in the row before, if there is
+  /// room.
+  std::string heading = {};
 };
 
 /// In this order: text, pictures, table.

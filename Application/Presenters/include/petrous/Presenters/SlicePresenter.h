@@ -28,7 +28,7 @@ struct SliceSamples
 /// The CT is grey, sampled trilinearly; nothing is drawn outside the hull of its voxel centres.
 /// Visible structures are tinted, with an outline in their full colour; of a mesh its exact section
 /// (MeshSection.h), unless a label has its name. Where less than half is left the picture is red
-/// and hatched.
+/// and hatched, with an outline.
 class SlicePresenter
 {
 public:

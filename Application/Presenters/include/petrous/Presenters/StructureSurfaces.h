@@ -64,6 +64,9 @@ public:
   /// to ±`most`.
   double distance(std::size_t structure, const Eigen::Vector3d& patient, double most);
 
+  /// The point of the structure's surface that is nearest to a patient point, LPS mm.
+  Eigen::Vector3d nearestPoint(std::size_t structure, const Eigen::Vector3d& patient);
+
   /// At most that, and cheaper (volume::SurfaceDistance::bound).
   double bound(std::size_t structure, const Eigen::Vector3d& patient, double most);
 

@@ -29,6 +29,27 @@ namespace petrous::scene
 {
 
 /// A segmented structure of a label map.
+/// Tubes of a structure that were traced through points (segmentation::traceTube), all together:
+/// how much of them is a guess.
+struct TracedTubes
+{
+  double length = 0.0;        ///< mm
+  double unresolved = 0.0;    ///< mm of it, where path and radius follow the points alone
+  std::uint64_t bridging = 0; ///< voxels that bridge gaps where a tube is thinner than they are
+
+  bool operator==(const TracedTubes& other) const
+  {
+    return length == other.length && unresolved == other.unresolved && bridging == other.bridging;
+  }
+  TracedTubes& operator+=(const TracedTubes& other)
+  {
+    length += other.length;
+    unresolved += other.unresolved;
+    bridging += other.bridging;
+    return *this;
+  }
+};
+
 struct StructurePart
 {
   std::string name;
@@ -40,6 +61,7 @@ struct StructurePart
   /// The MRs that it was made from in this program, on the primary image's grid; of one from a file
   /// none is known (LabelPart::drawnOn).
   MrReadings readings = {};
+  TracedTubes tubes = {}; ///< of one from a file not known
 };
 
 /// What of the place of structures was assumed when their file was read.

@@ -840,6 +840,10 @@
         <translation>Kann den Patienten erkennen lassen</translation>
     </message>
     <message>
+        <source>Counted as such</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Goes along</source>
         <translation>Geht mit</translation>
     </message>

@@ -840,8 +840,8 @@
         <translation>Kann den Patienten erkennen lassen</translation>
     </message>
     <message>
-        <source>Counted as such</source>
-        <translation type="unfinished"></translation>
+        <source>Look at these</source>
+        <translation>Sehen Sie diese an</translation>
     </message>
     <message>
         <source>Goes along</source>
@@ -858,6 +858,10 @@
     <message>
         <source>%~1: %#2 of %#3 may be a patient's name, number or date; change what is one before you send</source>
         <translation>%~1: %#2 von %#3 kann Name, Nummer oder Datum eines Patienten sein; ändern Sie solche vor dem Senden</translation>
+    </message>
+    <message>
+        <source>%~1, which may be a patient's: %2</source>
+        <translation>%~1, vielleicht von einem Patienten: %2</translation>
     </message>
     <message>
         <source>MR '%1'</source>

@@ -1,17 +1,18 @@
 #include "petrous/Presenters/CaseTransfer.h"
-#include "petrous/Core/NumberText.h"
 #include "petrous/Library/LibraryFiles.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 
 #include "petrous/Core/InputFile.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/CasePatient.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Library/Archive.h"

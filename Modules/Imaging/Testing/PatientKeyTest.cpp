@@ -171,7 +171,12 @@ TEST(PatientKey, FoldsTheSpellingsOfAPart)
   EXPECT_NE(foldedPartKey("Li"), patientKey("Li", "", "", "").id);
   EXPECT_EQ(patientKey("", "", "van der Meer^Jan", "").joinedName,
             patientKey("", "", "VANDERMEER^JAN", "").joinedName);
-  EXPECT_EQ(patientKey("", "", "Anonymous", "").joinedName, 0U);
+  for (const char* nobody : {"Anonymous", "Phantom^Petrous", "Phantom^17"})
+  {
+    const PatientKey key = patientKey("", "", nobody, "");
+    EXPECT_EQ(key.joinedName, 0U) << nobody;
+    EXPECT_EQ(key.foldedParts, PatientKey().foldedParts) << nobody;
+  }
 }
 
 TEST(PatientKey, IdsOfTwoIssuersAreNotCompared)

@@ -132,7 +132,7 @@ std::string spellingHash(std::vector<std::size_t> parts)
 // With the ID, which is equal where the name is spelled otherwise.
 std::string birthHash(const imaging::PatientKey& key)
 {
-  return key.id == 0 || key.name == 0 || key.birthDate == 0
+  return key.id == 0 || key.joinedName == 0 || key.birthDate == 0
              ? std::string()
              : withoutIdentity(key.birthDate, key.id);
 }

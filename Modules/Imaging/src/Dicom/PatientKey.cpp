@@ -312,11 +312,18 @@ PatientKey patientKey(const std::string& id, const std::string& issuer, const st
   {
     const std::vector<std::string> words = wordsOfName(first);
     key.nameParts = keysOf<6>(words, namePartKey);
-    key.foldedParts = keysOf<8>(words, foldedPartKey);
-    std::string all = "^";
+    std::string all = "^"; // so that it is of no text
+    bool isNamed = false;  // not by a number, as phantoms are
     for (const std::string& word : words)
+    {
       all += folded(plain(word));
-    key.joinedName = fingerprintOf(all);
+      isNamed = isNamed || (foldedPartKey(word) != 0 && !isNumber(word));
+    }
+    if (isNamed)
+    {
+      key.foldedParts = keysOf<8>(words, foldedPartKey);
+      key.joinedName = fingerprintOf(all);
+    }
   }
   return key;
 }

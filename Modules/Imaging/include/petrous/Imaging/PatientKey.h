@@ -18,9 +18,10 @@ struct PatientKey
   std::size_t birthDate = 0;
   /// namePartKey of the words of the name, by which a surname is known in a text; 0: none.
   std::array<std::size_t, 6> nameParts{};
-  /// foldedPartKey of the words of the name; 0: none.
+  /// foldedPartKey of the words of the name; 0: none. A name of none but numbers and words as
+  /// "Phantom" has none of these, and no joinedName.
   std::array<std::size_t, 8> foldedParts{};
-  /// Of all of these words joined, particles too: "vanderMeer" is "van der Meer". 0: no name.
+  /// Of all of these words joined, particles too: "vanderMeer" is "van der Meer".
   std::size_t joinedName = 0;
 
   bool empty() const { return id == 0 && name == 0 && birthDate == 0; }

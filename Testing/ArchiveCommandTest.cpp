@@ -96,6 +96,8 @@ TEST_F(ArchiveCommand, WarnsOfWhatMayIdentifyBeforeItWrites)
   const auto quiet = run("archive ear " + file());
   EXPECT_EQ(quiet.code, 0) << quiet.err;
   EXPECT_NE(quiet.err.find("tags: 1 of 1 may be"), std::string::npos) << quiet.err;
+  EXPECT_NE(quiet.err.find("tags, which may be a patient's: 'mrn 4711471'"), std::string::npos)
+      << quiet.err;
   EXPECT_EQ(quiet.err.find("whole head"), std::string::npos) << "64 mm";
 
   makeSample(m_folder / "wide", "--dims 80,80,20 --spacing 2.0");

@@ -58,6 +58,8 @@ void archive(const Context& context, const ArchiveCommandOptions& options)
     return printIdentityReport(context, report);
   for (const std::string& warning : report.warnings) // before anything is written
     context.warn(warning);
+  for (const std::string& names : report.counted)
+    context.warn("  " + names);
   const library::ArchiveSummary done =
       library::archiveCase(library, options.caseName, options.file, how, context.progress());
   for (const std::string& note : done.notes)

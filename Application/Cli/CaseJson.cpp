@@ -523,8 +523,10 @@ void printIdentityReport(const Context& context, const presenters::IdentityRepor
   if (!text.empty() && text.back() == '\n')
     text.pop_back();
   context.print(text);
-  context.printJson(
-      {{"leaves", report.leaves}, {"stays", report.stays}, {"may_identify", report.warnings}});
+  context.printJson({{"leaves", report.leaves},
+                     {"stays", report.stays},
+                     {"may_identify", report.warnings},
+                     {"counted", report.counted}});
 }
 
 } // namespace petrous::cli

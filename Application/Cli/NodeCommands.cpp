@@ -160,6 +160,8 @@ void send(const Context& context, const SendOptions& options)
     return printIdentityReport(context, report);
   for (const std::string& warning : report.warnings) // before anything leaves
     context.warn(warning);
+  for (const std::string& names : report.counted)
+    context.warn("  " + names);
   const auto done =
       presenters::sendCase(library, options.caseName, node, parts, context.progress());
   for (const std::string& note : done.notes)

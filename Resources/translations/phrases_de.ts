@@ -852,6 +852,10 @@
         <translation>Kann den Patienten erkennen lassen</translation>
     </message>
     <message>
+        <source>Look at these</source>
+        <translation>Sehen Sie diese an</translation>
+    </message>
+    <message>
         <source>Goes along</source>
         <translation>Geht mit</translation>
     </message>
@@ -866,6 +870,10 @@
     <message>
         <source>%~1: %#2 of %#3 may be a patient's name, number or date; change what is one before you send</source>
         <translation>%~1: %#2 von %#3 kann Name, Nummer oder Datum eines Patienten sein; ändern Sie solche vor dem Senden</translation>
+    </message>
+    <message>
+        <source>%~1, which may be a patient's: %2</source>
+        <translation>%~1, vielleicht von einem Patienten: %2</translation>
     </message>
     <message>
         <source>MR '%1'</source>

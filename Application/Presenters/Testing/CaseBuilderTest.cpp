@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <iterator>
 #include <locale>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -17,6 +19,7 @@
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/IdentityText.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Manifest.h"
 #include "petrous/Scene/Placement.h"
@@ -325,6 +328,148 @@ TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPseudonymJoins)
       parts.mr[0].name = "again";
       EXPECT_NO_THROW(presenters::addParts(value, parts, {})) << what;
     }
+}
+
+TEST_F(CaseBuilder, KeepsWhatKnowsThePatientsNameWithoutAccentsAndJoined)
+{
+  const auto salted = [](const std::string& hash) { return "salt " + hash; };
+  const std::pair<std::string, std::vector<std::string>> patients[] = {
+      {"M\u00fcller-K\u00f6nigsmark^Hildegunde",
+       {"Muller", "Konigsmark", "K\u00f6nigsmark", "Mueller 2"}},
+      {"\u0141ukasiewicz^\u017baneta", {"Lukasiewicz", "ear of zaneta"}},
+      {"van der Meer^Jan-Willem", {"vanderMeer", "JanWillem", "Meer"}},
+      {"MUELLER^HANS", {"MuellerHans", "M\u00fcller"}}};
+  for (const auto& [patient, texts] : patients)
+  {
+    m_sources.ct = writeSeriesOf("ct", "4711", patient).path;
+    auto value = presenters::buildCase("ear", m_sources, {});
+    EXPECT_LE(value.ct.patient.nameParts.size(), 17u) << "6 words, 8 folded ones, 3 of the whole";
+    for (const bool isSaved : {false, true})
+    {
+      if (isSaved)
+      {
+        scene::saltIdentity(value.ct, salted);
+        value = scene::fromManifest(scene::toManifest(value), "case");
+      }
+      const presenters::IdentityText identity(value, salted);
+      EXPECT_TRUE(identity.knowsName());
+      for (const std::string& text : texts)
+        EXPECT_TRUE(identity.mayIdentify(text)) << patient << ": " << text;
+      for (const char* text : {"Kowalski", "left ear", "van"})
+        EXPECT_FALSE(identity.mayIdentify(text)) << patient << ": " << text;
+    }
+  }
+}
+
+// A scanner that writes capitals without accents, and one that has a second given name.
+TEST_F(CaseBuilder, JoinsAnMrWhoseScannerSpellsTheNameOtherwise)
+{
+  const auto write = [&](const std::string& file, const std::string& id, const std::string& name,
+                         const std::string& birth)
+  {
+    std::filesystem::remove_all(m_folder / file);
+    const PartSource source = writeSeriesOf(file, id, name);
+    for (const auto& entry : std::filesystem::directory_iterator(source.path))
+    {
+      std::ifstream in(entry.path(), std::ios::binary);
+      std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+      const std::string none("\x10\0\x30\0DA\0\0", 8); // (0010,0030) without a value
+      const std::size_t at = bytes.find(none);
+      if (at == std::string::npos || birth.size() != 8)
+        throw std::logic_error("no date of birth to write");
+      bytes[at + 6] = 8;
+      bytes.insert(at + none.size(), birth);
+      std::ofstream(entry.path(), std::ios::binary) << bytes;
+    }
+    return source;
+  };
+  struct Mr
+  {
+    std::string id, name, birth;
+    std::string differing; // empty: it joins
+  };
+  const auto salted = [](const std::string& hash) { return "salt " + hash; };
+  const std::string born = "19610412";
+  const auto check = [&](const std::string& patient, const std::vector<Mr>& mrs)
+  {
+    m_sources.ct = write("ct", "4711", patient, born).path;
+    auto value = presenters::buildCase("ear", m_sources, {});
+    for (const bool isSaved : {false, true})
+    {
+      presenters::PartSources parts;
+      if (isSaved)
+      {
+        scene::saltIdentity(value.ct, salted);
+        value = scene::fromManifest(scene::toManifest(value), "case");
+        parts.salted = salted;
+      }
+      for (const Mr& mr : mrs)
+      {
+        auto copy = value;
+        parts.mr = {write("mr", mr.id, mr.name, mr.birth)};
+        const auto failures = presenters::addSoundParts(copy, parts, {});
+        const std::string found = failures.empty() ? "" : failures[0].differing;
+        EXPECT_EQ(failures.empty(), mr.differing.empty()) << patient << ", " << mr.name;
+        EXPECT_EQ(found, mr.differing) << patient << ", " << mr.name << ", " << mr.birth;
+        EXPECT_EQ(copy.mr.size(), mr.differing.empty() ? 1u : 0u);
+      }
+    }
+  };
+  check("Lef\u00e8vre^H\u00e9l\u00e8ne",
+        {{"4711", "LEFEVRE^HELENE", born, ""},
+         {"4711", "LEFEVRE^HELENE MARIE", born, ""},
+         {"4711", "LEFEVRE", born, ""},
+         {"4711", "LEFEVRE^MARIE", born, "patient name"},
+         {"4711", "LEFEVRE^HELENE", "19610413", "patient name"},
+         {"4712", "LEFEVRE^HELENE", born, "patient ID and patient name"}});
+  check("LEFEVRE^HELENE MARIE", {{"4711", "Lef\u00e8vre^H\u00e9l\u00e8ne", born, ""},
+                                 {"4711", "Lef\u00e8vre^Marie Anne", born, "patient name"}});
+  check("van der Meer^Jan-Willem", {{"4711", "VANDERMEER^JANWILLEM", born, ""},
+                                    {"4711", "MEER^JAN", born, ""},
+                                    {"4711", "MEYER^JAN", born, "patient name"}});
+}
+
+TEST_F(CaseBuilder, NamesNoMaskOfAFolderByThePatient)
+{
+  const core::GridGeometry grid({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero());
+  const auto write = [&](const std::string& folder, const std::vector<std::string>& names)
+  {
+    std::filesystem::create_directory(m_folder / folder);
+    for (const std::string& name : names)
+    {
+      auto voxels = volume::makeZeroVolume<std::uint16_t>(grid);
+      voxels->at(3, 3, 3) = 1;
+      imaging::writeLabelFile(m_folder / folder / (name + ".nii"),
+                              volume::makeLabelMap(voxels, {}));
+    }
+    m_sources.parts.labels = {{"", m_folder / folder}};
+  };
+  const auto built = [&]
+  {
+    std::pair<std::set<std::string>, std::string> result;
+    const auto value = presenters::buildCase("ear", m_sources, {});
+    for (const auto& part : value.labels)
+      for (const auto& structure : part.structures)
+        result.first.insert(structure.name);
+    result.second = scene::toManifest(value);
+    return result;
+  };
+  m_sources.ct = writeSeriesOf("ct", "AB471108", "M\u00fcller^Hans").path;
+  write("masks", {"facial_nerve", "Muller_Hans_cochlea", "stapes_19610412", "malleus_muellerhans",
+                  "incus_AB471108", "Gyrus_Frobnicus"});
+  const auto [names, manifest] = built();
+  EXPECT_EQ(names, (std::set<std::string>{"facial_nerve", "cochlea", "stapes", "malleus", "incus",
+                                          "Gyrus_Frobnicus"}));
+  for (const char* secret : {"Muller", "muellerhans", "19610412", "471108"})
+    EXPECT_EQ(manifest.find(secret), std::string::npos) << secret;
+  EXPECT_NE(manifest.find("5 words of the files' names"), std::string::npos);
+
+  // Where nothing is known of the name, its form is all there is.
+  m_sources.ct = m_folder / "ct.nrrd";
+  write("others", {"facial_nerve", "cochlea", "stapes", "Muller_Hans"});
+  const auto [unknown, text] = built();
+  EXPECT_EQ(unknown, (std::set<std::string>{"facial_nerve", "cochlea", "stapes", "structure"}));
+  EXPECT_EQ(text.find("Muller"), std::string::npos);
 }
 
 TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPatientJoins)

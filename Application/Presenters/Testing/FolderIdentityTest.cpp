@@ -159,6 +159,21 @@ TEST(IdentityOfACase, EveryNameThatLeavesIsLookedAt)
   EXPECT_TRUE(mentions(identityReport(value, parts).warnings, "attachments: 1 of 2"));
 }
 
+// Beside the warnings, which a batch keeps in its report.
+TEST(IdentityOfACase, SaysWhichNamesAreCounted)
+{
+  scene::Case value = describedCase();
+  value.description.tags = {"teaching", "mrn 4711471", "nr. 4711472"};
+  SendParts parts;
+  parts.scene = true;
+  const IdentityReport report = identityReport(value, parts);
+  EXPECT_TRUE(mentions(report.warnings, "tags: 2 of 3"));
+  EXPECT_FALSE(mentions(report.warnings, "4711471"));
+  ASSERT_EQ(report.counted.size(), 1U);
+  EXPECT_EQ(report.counted[0], "tags, which may be a patient's: 'mrn 4711471', 'nr. 4711472'");
+  EXPECT_NE(report.text().find(report.counted[0]), std::string::npos);
+}
+
 TEST(IdentityOfACase, OrdinaryNamesAndNumbersAreFound)
 {
   const scene::Case value = describedCase();

@@ -105,6 +105,80 @@ TEST(PatientKey, KnowsEachWordOfTheNameAlone)
   EXPECT_FALSE(has(patientKey("", "", "Phantom^Petrous", ""), "petrous"));
 }
 
+// As keyboards without these letters write names, and file names joined ones.
+TEST(PatientKey, KnowsNamesWithoutAccentsAndJoined)
+{
+  const auto has = [](const std::string& name, const std::string& word)
+  {
+    const PatientKey key = patientKey("", "", name, "");
+    const auto isIn = [](const auto& parts, std::size_t part)
+    { return std::find(parts.begin(), parts.end(), part) != parts.end(); };
+    return isOfName(word,
+                    [&](std::size_t part)
+                    {
+                      EXPECT_NE(part, 0U);
+                      return isIn(key.nameParts, part) || isIn(key.foldedParts, part);
+                    });
+  };
+  for (const auto& [name, word] : {
+           std::pair("M\u00fcller-K\u00f6nigsmark^Hildegunde", "Muller"),
+           {"M\u00fcller-K\u00f6nigsmark^Hildegunde", "konigsmark"},
+           {"M\u00fcller-K\u00f6nigsmark^Hildegunde", "MuellerKoenigsmark"},
+           {"Lef\u00e8vre^H\u00e9l\u00e8ne", "Lefevre"},
+           {"LEFEVRE^HELENE", "Lef\u00e8vre"},
+           {"Mu\u00f1oz Garc\u00eda^Jos\u00e9", "Munoz"},
+           {"Mu\u00f1oz Garc\u00eda^Jos\u00e9", "JoseGarcia"},
+           {"\u0141ukasiewicz^\u017baneta", "Lukasiewicz"},
+           {"\u0141ukasiewicz^\u017baneta", "\u0142ukasiewicz"},
+           {"\u00c5str\u00f6m^G\u00f6ran", "Astrom"},
+           {"\u00c5str\u00f6m^G\u00f6ran", "Goran"},
+           {"van der Meer^Jan-Willem", "vanderMeer"},
+           {"van der Meer^Jan-Willem", "JanWillem"},
+           {"MUELLER^HANS", "MuellerHans"},
+           {"MUELLER^HANS", "HansM\u00fcller"},
+           {"MUELLER^HANS", "Muller"},
+           {"Muller^Hans", "Mu\u0308ller"}, // decomposed, as of file names
+           {"Nguy\u1ec5n^\u00c1nh", "Nguyen"},
+           {"S\u00f8rensen^\u00d0uro", "Sorensen"},
+           {"Stra\u00dfmann^\u00de\u00f3r", "Strassmann"},
+           {"Stra\u00dfmann^\u00de\u00f3r", "Thor"},
+           {"O'Brien^Pat", "OBrien"},
+           {"Li^Wei", "LiWei"},
+       })
+    EXPECT_TRUE(has(name, word)) << name << ": " << word;
+  for (const auto& [name, word] : {
+           std::pair("M\u00fcller^Jane", "janet"),
+           {"M\u00fcller^Jane T", "janet"}, // an initial behind says nothing
+           {"M\u00fcller^Jane", "m\u00fchle"},
+           {"M\u00fcller^Jane", "Mull"},
+           {"M\u00fcller^Jane", ""},
+           {"van der Meer^Jan", "vander"}, // particles alone
+           {"A B^C", "abc"},
+           {"Li^Wei", "li"},
+       })
+    EXPECT_FALSE(has(name, word)) << name << ": " << word;
+}
+
+// Particles do not count, and no text has the key of a part that is no name by itself.
+TEST(PatientKey, FoldsTheSpellingsOfAPart)
+{
+  EXPECT_EQ(foldedPartKey("M\u00fcller"), foldedPartKey("MUELLER"));
+  EXPECT_EQ(foldedPartKey("M\u00fcller"), foldedPartKey("muller"));
+  EXPECT_NE(foldedPartKey("M\u00fcller"), foldedPartKey("Moller"));
+  EXPECT_EQ(foldedPartKey("van"), 0U);
+  EXPECT_EQ(foldedPartKey(""), 0U);
+  EXPECT_NE(foldedPartKey("Li"), 0U);
+  EXPECT_NE(foldedPartKey("Li"), patientKey("Li", "", "", "").id);
+  EXPECT_EQ(patientKey("", "", "van der Meer^Jan", "").joinedName,
+            patientKey("", "", "VANDERMEER^JAN", "").joinedName);
+  for (const char* nobody : {"Anonymous", "Phantom^Petrous", "Phantom^17"})
+  {
+    const PatientKey key = patientKey("", "", nobody, "");
+    EXPECT_EQ(key.joinedName, 0U) << nobody;
+    EXPECT_EQ(key.foldedParts, PatientKey().foldedParts) << nobody;
+  }
+}
+
 TEST(PatientKey, IdsOfTwoIssuersAreNotCompared)
 {
   const PatientKey key = patientKey("17", "CLINIC", "Doe^Jane", "19630412");

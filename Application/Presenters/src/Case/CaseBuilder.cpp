@@ -4,8 +4,10 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include <Eigen/Geometry>
 
@@ -26,7 +28,9 @@
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Presenters/IdentityText.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Scene/Description.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Scene/PlainText.h"
@@ -99,6 +103,40 @@ std::string withoutIdentity(std::size_t key, std::size_t with = 0)
              : withoutIdentity(std::to_string(key) + (with == 0 ? "" : " " + std::to_string(with)));
 }
 
+std::vector<std::size_t> foldedPartsOf(const imaging::PatientKey& key)
+{
+  std::vector<std::size_t> parts;
+  std::copy_if(key.foldedParts.begin(), key.foldedParts.end(), std::back_inserter(parts),
+               [](std::size_t part) { return part != 0; });
+  return parts;
+}
+
+std::vector<std::string> foldedHashes(const imaging::PatientKey& key)
+{
+  std::vector<std::string> hashes;
+  for (const std::size_t part : foldedPartsOf(key))
+    hashes.push_back(withoutIdentity(part));
+  return hashes;
+}
+
+// Of all of these parts, in any order. Empty: there are none.
+std::string spellingHash(std::vector<std::size_t> parts)
+{
+  std::sort(parts.begin(), parts.end());
+  std::string text = "name";
+  for (const std::size_t part : parts)
+    text += " " + std::to_string(part);
+  return parts.empty() ? std::string() : withoutIdentity(text);
+}
+
+// With the ID, which is equal where the name is spelled otherwise.
+std::string birthHash(const imaging::PatientKey& key)
+{
+  return key.id == 0 || key.joinedName == 0 || key.birthDate == 0
+             ? std::string()
+             : withoutIdentity(key.birthDate, key.id);
+}
+
 } // namespace
 
 scene::PatientHash patientHash(const imaging::PatientKey& key)
@@ -110,6 +148,17 @@ scene::PatientHash patientHash(const imaging::PatientKey& key)
   for (const std::size_t part : key.nameParts)
     if (part != 0)
       hash.nameParts.push_back(withoutIdentity(part));
+  const auto add = [&hash](const std::string& one)
+  {
+    if (!one.empty() &&
+        std::find(hash.nameParts.begin(), hash.nameParts.end(), one) == hash.nameParts.end())
+      hash.nameParts.push_back(one);
+  };
+  for (const std::string& part : foldedHashes(key))
+    add(part);
+  add(spellingHash(foldedPartsOf(key)));
+  add(withoutIdentity(key.joinedName));
+  add(birthHash(key));
   return hash;
 }
 
@@ -117,7 +166,7 @@ namespace
 {
 
 // What its slices state of the patient, all the same where they do (imaging::assess).
-scene::PatientHash patientOf(const imaging::DicomSeries& series)
+imaging::PatientKey patientOf(const imaging::DicomSeries& series)
 {
   imaging::PatientKey all;
   const auto take = [](std::size_t& key, std::size_t stated) { key = key == 0 ? stated : key; };
@@ -127,11 +176,15 @@ scene::PatientHash patientOf(const imaging::DicomSeries& series)
       all.issuer = slice.patient.issuer;
     take(all.id, slice.patient.id);
     if (all.name == 0)
+    {
       all.nameParts = slice.patient.nameParts;
+      all.foldedParts = slice.patient.foldedParts;
+      all.joinedName = slice.patient.joinedName;
+    }
     take(all.name, slice.patient.name);
     take(all.birthDate, slice.patient.birthDate);
   }
-  return patientHash(all);
+  return all;
 }
 
 // Of an image that states but the pseudonym of a case (imaging/CasePatient.h).
@@ -140,19 +193,57 @@ bool isOfCase(const scene::PatientHash& patient)
   return patient.id.empty() && patient.name.empty() && patient.nameParts.size() == 1;
 }
 
+// Whether two names of one ID and date of birth are spellings of one: equal without accents, or one
+// has words that the other has not. Not known of a case that an earlier version imported.
+bool isRespelled(const scene::ImagePart& image, const imaging::PatientKey& added,
+                 const scene::IdentitySalt& salted)
+{
+  const std::vector<std::string>& all = image.patient.nameParts;
+  const auto isKept = [&](const std::string& hash)
+  {
+    return !hash.empty() && std::find(all.begin(), all.end(),
+                                      image.isFrameSalted ? salted(hash) : hash) != all.end();
+  };
+  if (!isKept(birthHash(added)))
+    return false;
+  if (isKept(withoutIdentity(added.joinedName)))
+    return true;
+  const std::vector<std::string> hashes = foldedHashes(added);
+  if (!hashes.empty() && std::all_of(hashes.begin(), hashes.end(), isKept))
+    return true;
+  const std::vector<std::size_t> parts = foldedPartsOf(added);
+  for (std::size_t chosen = 1; chosen < std::size_t{1} << parts.size(); ++chosen)
+  {
+    std::vector<std::size_t> some;
+    for (std::size_t n = 0; n < parts.size(); ++n)
+      if ((chosen >> n & 1) != 0)
+        some.push_back(parts[n]);
+    if (isKept(spellingHash(std::move(some))))
+      return true;
+  }
+  return false;
+}
+
 // In what the patients that the images state differ; in nothing if that cannot be told.
-imaging::PatientDifferences differencesOf(const scene::ImagePart& image, scene::ImagePart added,
+imaging::PatientDifferences differencesOf(const scene::ImagePart& image,
+                                          const imaging::PatientKey& key,
                                           const scene::IdentitySalt& salted)
 {
   imaging::PatientDifferences differing;
   if (!scene::isComparable(image, salted))
     return differing;
+  scene::ImagePart added;
+  added.patient = patientHash(key);
   if (image.isFrameSalted)
     scene::saltIdentity(added, salted);
   if (isOfCase(image.patient) && isOfCase(added.patient))
     differing.name = image.patient.nameParts != added.patient.nameParts;
   else
     differing = imaging::differencesOf(image.patient, added.patient);
+  const auto& [one, other] = std::tie(image.patient, added.patient);
+  const bool isOneIssuer = one.issuer.empty() || other.issuer.empty() || one.issuer == other.issuer;
+  if (differing.name && one.id == other.id && isOneIssuer && isRespelled(image, key, salted))
+    differing = {};
   return differing;
 }
 
@@ -171,13 +262,11 @@ std::string differenceText(const imaging::PatientDifferences& differing)
 // Whether what is added states another patient than an image of the case; refused unless its source
 // allows it.
 bool isOfOtherPatient(const scene::Case& value, const PartSource& source,
-                      const scene::PatientHash& patient, const scene::IdentitySalt& salted)
+                      const imaging::PatientKey& patient, const scene::IdentitySalt& salted)
 {
-  scene::ImagePart added;
-  added.patient = patient;
-  imaging::PatientDifferences differing = differencesOf(value.ct, added, salted);
+  imaging::PatientDifferences differing = differencesOf(value.ct, patient, salted);
   for (const scene::ImagePart& mr : value.mr)
-    differing.join(differencesOf(mr, added, salted));
+    differing.join(differencesOf(mr, patient, salted));
   if (differing.any() && !source.isOtherPatient)
     throw OtherPatient(source.path, differing);
   return differing.any();
@@ -289,6 +378,7 @@ OtherQuantity otherQuantity(const imaging::DicomSeries& series)
 struct ReadImage
 {
   scene::ImagePart part;
+  imaging::PatientKey patient; // whose it is, before it is hashed
   OtherQuantity otherQuantity;
 };
 
@@ -366,7 +456,8 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
         readNamed(path, series, options, progress.part(0.2, 0.9), notes, part.provenance));
     part.notes = std::move(notes);
     part.frameOfReference = withoutIdentity(series.frameOfReferenceUid);
-    part.patient = patientOf(series);
+    read.patient = patientOf(series);
+    part.patient = patientHash(read.patient);
     read.otherQuantity = otherQuantity(series);
     part.modality = series.modality == "MR"   ? scene::Modality::Mr
                     : series.modality == "CT" ? scene::Modality::Ct
@@ -614,7 +705,7 @@ void addMr(scene::Case& value, const PartSource& source, const scene::IdentitySa
                          "image lie on it only as FILE@" +
                          name + ".");
   noteLostSalt(value, part.patient, salted, part.notes);
-  if (isOfOtherPatient(value, source, part.patient, salted))
+  if (isOfOtherPatient(value, source, read.patient, salted))
     part.notes.push_back("Its files state another patient's ID, name or date of birth than those "
                          "of the case's other images; it was added as asked.");
   // A CT angiogram may be wanted beside the CT: said, not refused.
@@ -878,7 +969,7 @@ imaging::LoadedLabels loadStructureSet(const scene::Case& value, PartSource& sou
                                        const core::Progress& progress, bool& isFrameAssumed)
 {
   const imaging::StructureSet set = imaging::readStructureSet(source.path, progress.part(0.0, 0.3));
-  isOfOtherPatient(value, source, patientHash(set.patient), salted); // before it is computed
+  isOfOtherPatient(value, source, set.patient, salted); // before it is computed
   std::vector<std::string> notes;
   isFrameAssumed = settleFrame(value, source, set.frameOfReferenceUid, nullptr, salted, notes);
   const scene::ImagePart* mr = nullptr;
@@ -898,9 +989,10 @@ struct FolderNames
   std::set<std::string> leftOut;            ///< words
 };
 
-// A word that most of the files of a folder share and that is of no structure and no side may be
-// the patient's name, and is left out of the structures' names.
-FolderNames namesInFolder(const imaging::LoadedLabels& loaded)
+// A word of no structure and no side may be the patient's name, and is left out of the structures'
+// names, if most of the files of a folder share it or the name of its file may identify the
+// patient.
+FolderNames namesInFolder(const imaging::LoadedLabels& loaded, const IdentityText& identity)
 {
   const auto presets = appearance::StructurePresets::builtIn();
   const auto isWordChar = [](unsigned char c) { return c >= 0x80 || std::isalnum(c) != 0; };
@@ -933,12 +1025,15 @@ FolderNames namesInFolder(const imaging::LoadedLabels& loaded)
     {
       std::string kept;
       bool isWhole = true;
+      // Where the patient's name is known, capitals alone say nothing.
+      const bool mayIdentify = identity.mayIdentify(
+          identity.knowsName() ? scene::lowerCase(segment.name) : segment.name);
       for (const std::string& word : wordsOf(segment.name))
       {
         // "left" alone names nothing, so it is asked beside a word that does.
         const bool isKnown = !presets.knownWords(word + " nerve").empty() &&
                              presets.knownWords(word + " nerve") != "nerve";
-        if (isKnown || (files >= kTelling && 2 * counts[word] <= files))
+        if (isKnown || (files >= kTelling && 2 * counts[word] <= files && !mayIdentify))
           kept += (kept.empty() ? "" : "_") + word;
         else
         {
@@ -1029,12 +1124,13 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
   }
   std::vector<std::string> notes = std::move(loaded.notes);
   noteLostSalt(value, patientHash(loaded.patient), salted, notes);
-  if (isOfOtherPatient(value, source, patientHash(loaded.patient), salted))
+  if (isOfOtherPatient(value, source, loaded.patient, salted))
     notes.push_back("states another patient's ID, name or date of birth than the case's images; it "
                     "was added as asked");
   std::vector<std::string> empty;
   const bool isFolder = fs::is_directory(source.path);
-  const FolderNames folder = isFolder ? namesInFolder(loaded) : FolderNames();
+  const FolderNames folder =
+      isFolder ? namesInFolder(loaded, IdentityText(value, salted)) : FolderNames();
   const auto& ofFolder = folder.names;
   if (const std::size_t count = folder.leftOut.size(); count > 0)
     notes.push_back(std::to_string(count) + (count == 1 ? " word" : " words") +
@@ -1432,7 +1528,7 @@ FileName fileName(const fs::path& path)
 
 std::vector<std::string> maskNames(const imaging::LoadedLabels& folder)
 {
-  const FolderNames all = namesInFolder(folder);
+  const FolderNames all = namesInFolder(folder, IdentityText(scene::Case()));
   std::vector<std::string> names;
   for (const volume::LabelMap& map : folder.maps)
     for (const volume::Segment& segment : map.segments)

@@ -5,12 +5,14 @@
 #include <array>
 #include <cstdlib>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 
 #include "petrous/Core/InputFile.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/CasePatient.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Library/Archive.h"
@@ -655,6 +657,7 @@ std::string IdentityReport::text() const
       all += "  - " + line + "\n";
   };
   add("May identify the patient:", warnings);
+  add("Look at these:", counted);
   add("Goes along:", leaves);
   add("Stays here:", stays);
   return all;
@@ -702,15 +705,28 @@ bool anyShowsHead(const std::vector<scene::ImagePart>& images, const scene::Imag
 }
 
 void warnOfIdentities(const IdentityText& identity, const std::string& what,
-                      const std::vector<std::string>& texts, std::vector<std::string>& warnings)
+                      const std::vector<std::string>& texts, std::vector<std::string>& warnings,
+                      std::vector<std::string>* counted = nullptr)
 {
-  const auto count =
-      std::count_if(texts.begin(), texts.end(),
-                    [&identity](const std::string& text) { return identity.mayIdentify(text); });
-  if (count > 0)
-    warnings.push_back(what + ": " + std::to_string(count) + " of " + std::to_string(texts.size()) +
-                       " may be a patient's name, number or date; change what is one before you "
-                       "send");
+  constexpr std::size_t kMostShown = 20;
+  constexpr std::size_t kLongestShown = 80; // bytes
+  std::vector<std::string> found;
+  std::copy_if(texts.begin(), texts.end(), std::back_inserter(found),
+               [&identity](const std::string& text) { return identity.mayIdentify(text); });
+  if (found.empty())
+    return;
+  const std::size_t count = found.size();
+  warnings.push_back(what + ": " + std::to_string(count) + " of " + std::to_string(texts.size()) +
+                     " may be a patient's name, number or date; change what is one before you "
+                     "send");
+  if (!counted)
+    return;
+  std::string names;
+  for (std::size_t n = 0; n < std::min(count, kMostShown); ++n)
+    names += (n == 0 ? "'" : ", '") + shownName(core::utf8Prefix(found[n], kLongestShown)) + "'";
+  if (count > kMostShown)
+    names += ", ...";
+  counted->push_back(what + ", which may be a patient's: " + names);
 }
 
 /// Text in the pixels of images that leave: the primary one, the MRs.
@@ -792,7 +808,7 @@ IdentityReport reportOf(scene::Case value, const SendParts& parts,
   const std::size_t noted = notesOf(value).size();
   scene::forgetGoneNames(value); // as the archive does
   const auto warn = [&](const std::string& what, const std::vector<std::string>& texts)
-  { warnOfIdentities(identity, what, texts, report.warnings); };
+  { warnOfIdentities(identity, what, texts, report.warnings, &report.counted); };
   const bool planOnly = options.planOnly;
   const bool keepIdentity = options.keepIdentity;
   const bool isCt = value.ct.modality != scene::Modality::Mr;

@@ -181,12 +181,11 @@ bool IdentityText::isOfPatient(const std::string& text) const
   for (const std::string& words : candidatesIn(text))
     if (isHis(imaging::patientKey(words, {}, {}, {}).id))
       return true;
-  // A surname alone, also with a number behind it.
+  // A surname alone, also with a number behind it, or names joined, with or without accents.
   const auto words =
       wordsOf(text, [](unsigned char c) { return std::isalpha(c) != 0 || c >= 0x80; });
   return std::any_of(words.begin(), words.end(),
-                     [&isHis](const std::string& word)
-                     { return isHis(imaging::namePartKey(word)); });
+                     [&isHis](const std::string& word) { return imaging::isOfName(word, isHis); });
 }
 
 bool IdentityText::isOfField(const std::string& text) const

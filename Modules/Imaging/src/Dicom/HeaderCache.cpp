@@ -20,7 +20,7 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr const char* kMethod = "dicom headers 10"; // increment with the fields below
+constexpr const char* kMethod = "dicom headers 11"; // increment with the fields below
 constexpr std::int64_t kCoarsest = 2'000'000'000;   // ns; FAT
 constexpr std::size_t kSampled = 8;                 // files
 constexpr std::size_t kSample = 4096;               // bytes
@@ -214,9 +214,11 @@ void pass(Archive& archive, FileStamp& value)
 template <class Archive>
 void pass(Archive& archive, PatientKey& value)
 {
-  auto& [id, issuer, name, birthDate, nameParts] = value;
-  passAll(archive, id, issuer, name, birthDate);
+  auto& [id, issuer, name, birthDate, nameParts, foldedParts, joinedName] = value;
+  passAll(archive, id, issuer, name, birthDate, joinedName);
   for (std::size_t& part : nameParts)
+    pass(archive, part);
+  for (std::size_t& part : foldedParts)
     pass(archive, part);
 }
 

@@ -42,6 +42,8 @@ struct IdentityReport
   std::vector<std::string> leaves;
   std::vector<std::string> stays;
   std::vector<std::string> warnings; ///< what may identify the patient all the same
+  /// Which names the warnings count: to show, and never to be kept or logged.
+  std::vector<std::string> counted;
 
   std::string text() const;
 };

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <type_traits>
 
@@ -17,6 +18,11 @@ struct PatientKey
   std::size_t birthDate = 0;
   /// namePartKey of the words of the name, by which a surname is known in a text; 0: none.
   std::array<std::size_t, 6> nameParts{};
+  /// foldedPartKey of the words of the name; 0: none. A name of none but numbers and words as
+  /// "Phantom" has none of these, and no joinedName.
+  std::array<std::size_t, 8> foldedParts{};
+  /// Of all of these words joined, particles too: "vanderMeer" is "van der Meer".
+  std::size_t joinedName = 0;
 
   bool empty() const { return id == 0 && name == 0 && birthDate == 0; }
 };
@@ -31,6 +37,16 @@ PatientKey patientKey(const std::string& id, const std::string& issuer, const st
 /// The key of one word of a name, or of a text; 0 for what is no name by itself: of less than three
 /// letters, "von", "Phantom" and the like. Umlauts and their transcriptions (ue) are equal.
 std::size_t namePartKey(const std::string& word);
+
+/// The same without accents, and with ae, oe and ue as one letter: "Müller", "Mueller" and "Muller"
+/// are equal, and "Łukasiewicz" is "Lukasiewicz". Words of one or two letters have one too, which
+/// is no namePartKey and no patientKey of any text.
+std::size_t foldedPartKey(const std::string& word);
+
+/// Whether a word of a text, in UTF-8, is a part of a name or several of them joined, in any order,
+/// with or without particles ("van") and accents. `isPart`: of the namePartKey or foldedPartKey of
+/// a part of the word, whether it is one of the name's; never called with 0.
+bool isOfName(const std::string& word, const std::function<bool(std::size_t)>& isPart);
 
 /// In what two identities differ.
 struct PatientDifferences

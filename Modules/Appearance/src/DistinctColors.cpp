@@ -173,7 +173,9 @@ DistinctColors::DistinctColors(const std::vector<Color>& taken)
 void DistinctColors::offer(const Color& color)
 {
   const Seen sights = seen(color);
-  if (!isOffered(sights))
+  if (!isOffered(sights) ||
+      std::any_of(m_offered.begin(), m_offered.end(),
+                  [&color](const Offered& each) { return each.color == color; }))
     return;
   m_offered.push_back({color, sights, std::numeric_limits<double>::infinity(), 0});
   for (const Seen& taken : m_taken)

@@ -316,7 +316,7 @@ volume::TissueField regionalTissueField(const Case& value, const core::Progress&
 namespace
 {
 
-constexpr int kMeshVoxelsVersion = 1; // of volume::planMeshSolid and solidOf
+constexpr int kMeshVoxelsVersion = 2; // of volume::planMeshSolid and solidOf
 
 std::optional<std::string> rigidKey(const Case& value, const Wanted& wanted)
 {

@@ -339,6 +339,94 @@ TEST(MeshSolid, MeasuresItsVolumeOrItsOpenEdges)
   EXPECT_FALSE(volume::measure(turned).volume);
 }
 
+TEST(MeshSolid, MeasuresPartsWhicheverWayTheyAreWound)
+{
+  const auto small = box({0, 0, 0}, {1, 2, 3}); // 6 mm^3
+  const auto large = box({5, 0, 0}, {8, 4, 2}); // 24 mm^3
+  const auto mesh = joined(turned(small), large);
+  const auto measured = volume::measure(mesh);
+  EXPECT_NEAR(measured.volume.value(), 30.0, 1e-5);
+  EXPECT_EQ(measured.parts, 2U);
+  EXPECT_EQ(measured.reversedParts, 1U);
+  EXPECT_FALSE(measured.isOverlapping);
+  const auto straight = volume::oriented(mesh);
+  EXPECT_NEAR(straight.signedVolume(), 30.0, 1e-5);
+  EXPECT_EQ(volume::measure(straight).reversedParts, 0U);
+  // Inside out as a whole: nothing differs from the rest.
+  const auto inwards = turned(joined(small, large));
+  EXPECT_EQ(volume::measure(inwards).reversedParts, 0U);
+  EXPECT_NEAR(volume::oriented(inwards).signedVolume(), 30.0, 1e-5);
+}
+
+TEST(MeshSolid, MeasuresNestedPartsAsTheyAreFelt)
+{
+  const auto outer = box({0, 0, 0}, {4, 4, 4});
+  const auto inner = box({1, 1, 1}, {3, 3, 3});
+  const auto hollow = volume::measure(joined(outer, turned(inner)));
+  EXPECT_NEAR(hollow.volume.value(), 64.0 - 8.0, 1e-5);
+  EXPECT_EQ(hollow.cavities, 1U);
+  EXPECT_EQ(hollow.reversedParts, 0U);
+  const auto filled = volume::measure(joined(outer, inner));
+  EXPECT_NEAR(filled.volume.value(), 64.0, 1e-5);
+  EXPECT_EQ(filled.innerParts, 1U);
+  // The other way round as a whole, and with something in the cavity.
+  const auto core = box({1.5, 1.5, 1.5}, {2.5, 2.5, 2.5});
+  const auto inwards = joined(turned(joined(outer, core)), inner);
+  EXPECT_NEAR(volume::measure(inwards).volume.value(), 64.0 - 8.0 + 1.0, 1e-5);
+  EXPECT_NEAR(volume::oriented(inwards).signedVolume(), 64.0 - 8.0 + 1.0, 1e-5);
+}
+
+TEST(MeshSolid, CountsATriangleThatIsThereTwiceOnce)
+{
+  const auto once = box({1, 1, 1}, {4, 5, 6});
+  for (const bool isOpposite : {false, true})
+  {
+    const auto twice = joined(once, isOpposite ? turned(once) : once);
+    const auto measured = volume::measure(twice);
+    EXPECT_NEAR(measured.volume.value(), 60.0, 1e-5) << isOpposite;
+    EXPECT_EQ(measured.doubled, 12U);
+    EXPECT_EQ(volume::oriented(twice).triangles.size(), 12U);
+    EXPECT_NEAR(volume::oriented(twice).signedVolume(), 60.0, 1e-5);
+    EXPECT_TRUE(planned(twice)) << planned(twice).refusal;
+  }
+  auto stray = once;
+  stray.triangles.push_back(stray.triangles.front());
+  EXPECT_EQ(volume::measure(stray).openEdges, 0U);
+  EXPECT_EQ(volume::measure(stray).doubled, 1U);
+  // The wall between two boxes that touch is no doubled surface.
+  const auto touching =
+      volume::measure(joined(box({0, 0, 0}, {2, 2, 2}), box({2, 0, 0}, {4, 2, 2})));
+  EXPECT_EQ(touching.doubled, 0U);
+  EXPECT_EQ(touching.openEdges, 0U);
+  EXPECT_NEAR(touching.volume.value(), 16.0, 0.016);
+  EXPECT_FALSE(touching.isOverlapping);
+}
+
+TEST(MeshSolid, MeasuresTheUnionOfPartsThatOverlap)
+{
+  const auto boxes = volume::measure(joined(box({0, 0, 0}, {3, 2, 2}), box({2, 1, 1}, {5, 4, 4})));
+  EXPECT_NEAR(boxes.volume.value(), 12.0 + 27.0 - 1.0, 0.04);
+  EXPECT_TRUE(boxes.isOverlapping);
+  EXPECT_FALSE(boxes.isOverlapHollow);
+  // Bars that cross, of which neither has a corner in the other.
+  const auto bars =
+      volume::measure(joined(box({-5, 0, 0}, {5, 1, 1}), box({0, -5, 0.2}, {1, 5, 1.4})));
+  EXPECT_NEAR(bars.volume.value(), 10.0 + 12.0 - 0.8, 0.03);
+  EXPECT_TRUE(bars.isOverlapping);
+  // Two balls of radius r, their centers r apart, have a lens of 5/12 pi r^3 in common.
+  const double r = 2.0;
+  const auto one = sphere({0, 0, 0}, r, 48);
+  const auto other = sphere({0.6 * r, 0.8 * r, 0.0}, r, 48);
+  const double ball = one.signedVolume();
+  const auto balls = volume::measure(joined(one, other));
+  EXPECT_NEAR(balls.volume.value(), 2.0 * ball - 5.0 / 12.0 * kPi * r * r * r, 0.003 * ball);
+  EXPECT_TRUE(balls.isOverlapping);
+  // Wound opposite ways, what both enclose is not inside (MeshInside.h).
+  const auto hollow = volume::measure(joined(one, turned(other)));
+  EXPECT_NEAR(hollow.volume.value(), 2.0 * ball - 5.0 / 6.0 * kPi * r * r * r, 0.006 * ball);
+  EXPECT_TRUE(hollow.isOverlapHollow);
+}
+
 TEST(MeshSolid, RefusesWhatHasNoInsideAndSaysWhy)
 {
   auto open = sphere({0, 0, 0}, 2.0, 16);

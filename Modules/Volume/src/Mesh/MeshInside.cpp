@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include <tbb/parallel_for.h>
+
+#include "MeshTopology.h"
 
 namespace petrous::volume
 {
 
 namespace
 {
-
-constexpr double kLatticeSteps = 1 << 23; // so that products of differences stay far below 2^63
 
 // Twice the signed area of (a, b, p).
 std::int64_t orientation(const std::array<std::int64_t, 2>& a, const std::array<std::int64_t, 2>& b,
@@ -63,35 +62,27 @@ std::vector<Triangle> clipped(const Triangle& triangle, const Eigen::AlignedBox3
 
 MeshInside::MeshInside(const core::TriangleMesh& mesh)
 {
-  mesh.validate();
-  const auto bounds = mesh.bounds();
-  m_base = bounds[0].cast<double>();
-  const double size = (bounds[1] - bounds[0]).cast<double>().maxCoeff();
-  m_unit = size > 0.0 ? size / kLatticeSteps : 1.0;
-
-  std::vector<std::array<std::int64_t, 3>> corners;
-  for (const auto& indices : mesh.triangles)
+  const MeshLattice lattice(mesh);
+  const MeshTopology topology(mesh, lattice);
+  m_base = lattice.base;
+  m_unit = lattice.unit;
+  m_openEdges = topology.openEdges;
+  m_facesAlike = topology.facesAlike;
+  m_triangles.reserve(topology.triangles.size());
+  m_lattice.reserve(topology.triangles.size());
+  for (const std::uint32_t t : topology.triangles)
   {
     Triangle triangle;
-    std::array<std::array<std::int64_t, 3>, 3> lattice;
+    std::array<Lattice, 3> projected;
     for (std::size_t c = 0; c < 3; ++c)
     {
-      triangle[c] = mesh.vertices[indices[c]].cast<double>();
-      for (std::size_t a = 0; a < 3; ++a)
-      {
-        const auto axis = static_cast<Eigen::Index>(a);
-        lattice[c][a] = 2 * std::llround((triangle[c][axis] - m_base[axis]) / m_unit);
-      }
+      const std::uint32_t vertex = mesh.triangles[t][c];
+      triangle[c] = mesh.vertices[vertex].cast<double>();
+      projected[c] = {lattice.corners[vertex][1], lattice.corners[vertex][2]};
     }
-    if (lattice[0] == lattice[1] || lattice[1] == lattice[2] || lattice[2] == lattice[0])
-      continue;
     m_triangles.push_back(triangle);
-    corners.insert(corners.end(), lattice.begin(), lattice.end());
-    m_lattice.push_back({Lattice{lattice[0][1], lattice[0][2]},
-                         Lattice{lattice[1][1], lattice[1][2]},
-                         Lattice{lattice[2][1], lattice[2][2]}});
+    m_lattice.push_back(projected);
   }
-  measureEdges(corners);
   fillCells();
 }
 
@@ -134,7 +125,7 @@ void MeshInside::fillCells()
         visit(static_cast<std::size_t>(y + m_cells[0] * z));
   };
   const double along = std::sqrt(static_cast<double>(m_lattice.size()) + 1.0);
-  m_shift = std::max(0, static_cast<int>(std::log2(2.0 * kLatticeSteps / along)));
+  m_shift = std::max(0, static_cast<int>(std::log2(2.0 * kMeshLatticeSteps / along)));
   while (m_shift < 25 && places() > kMaxPlaces * m_lattice.size())
     ++m_shift;
   m_cells = {(last[0] >> m_shift) + 1, (last[1] >> m_shift) + 1};
@@ -148,51 +139,6 @@ void MeshInside::fillCells()
   for (std::size_t t = 0; t < m_lattice.size(); ++t)
     forCells(m_lattice[t],
              [&](std::size_t cell) { m_ofCell[next[cell]++] = static_cast<std::uint32_t>(t); });
-}
-
-void MeshInside::measureEdges(const std::vector<std::array<std::int64_t, 3>>& corners)
-{
-  std::vector<std::array<std::int64_t, 3>> points = corners;
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  const auto number = [&points](const auto& corner)
-  {
-    return static_cast<std::uint32_t>(std::lower_bound(points.begin(), points.end(), corner) -
-                                      points.begin());
-  };
-  struct Edge
-  {
-    std::uint32_t low;
-    std::uint32_t high;
-    int sense;
-  };
-  std::vector<Edge> edges;
-  edges.reserve(corners.size());
-  for (std::size_t t = 0; t < corners.size(); t += 3)
-  {
-    const std::array<std::uint32_t, 3> ids{number(corners[t]), number(corners[t + 1]),
-                                           number(corners[t + 2])};
-    for (std::size_t e = 0; e < 3; ++e)
-    {
-      const std::uint32_t from = ids[e];
-      const std::uint32_t to = ids[(e + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
-    }
-  }
-  std::sort(edges.begin(), edges.end(),
-            [](const Edge& a, const Edge& b)
-            { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
-  for (std::size_t i = 0; i < edges.size();)
-  {
-    std::size_t end = i;
-    int sum = 0;
-    for (; end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high;
-         ++end)
-      sum += edges[end].sense;
-    m_openEdges += (end - i) % 2;
-    m_facesAlike = m_facesAlike && sum == 0;
-    i = end;
-  }
 }
 
 // Lines are at odd coordinates, vertices at even ones: a line never meets a vertex.

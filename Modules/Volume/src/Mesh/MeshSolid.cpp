@@ -10,7 +10,6 @@
 
 #include "petrous/Core/NumberText.h"
 #include "petrous/Volume/MeshInside.h"
-#include "petrous/Volume/MeshMeasure.h"
 #include "petrous/Volume/Sampling.h"
 
 namespace petrous::volume
@@ -201,26 +200,6 @@ double reachBeyond(const core::TriangleMesh& mesh, const core::PatientBox& regio
   const Eigen::Vector3d below = region.min() - bounds[0].cast<double>();
   const Eigen::Vector3d above = bounds[1].cast<double>() - region.max();
   return std::max({0.0, below.maxCoeff(), above.maxCoeff()});
-}
-
-MeshMeasure measure(const core::TriangleMesh& mesh)
-{
-  const MeshInside inside(mesh);
-  MeshMeasure result{inside.openEdges(), {}};
-  if (result.openEdges > 0)
-    return result;
-  if (inside.facesAlike())
-  {
-    result.volume = std::abs(mesh.signedVolume());
-    return result;
-  }
-  const auto bounds = mesh.bounds();
-  const Eigen::AlignedBox3d box(bounds[0].cast<double>(), bounds[1].cast<double>());
-  double sixfold = 0.0;
-  for (const Triangle& t : inside.surface(box.diagonal().norm() / 256.0, box))
-    sixfold += (t[0] - box.min()).dot((t[1] - box.min()).cross(t[2] - box.min()));
-  result.volume = std::abs(sixfold) / 6.0;
-  return result;
 }
 
 MeshSolidPlan planMeshSolid(const core::TriangleMesh& mesh, const MeshSolidLimits& limits,

@@ -14,7 +14,10 @@ namespace petrous::volume
 ///
 /// Vertices are snapped to a lattice of 2^-23 of the mesh's size, and lines run between its points,
 /// so that the side of an edge on which a line passes is an integer and all triangles agree on it:
-/// the count is exact for every closed mesh, whatever its shape. Immutable and thread-safe.
+/// the count is exact for every closed mesh, whatever its shape. Inside is what the winding number
+/// about is not 0, so a part wound the other way is as solid as the others; where the triangles of
+/// a part do not face alike, what an odd number of walls encloses. A surface whose triangles are
+/// all there repeatedly counts once. Immutable and thread-safe.
 class MeshInside
 {
 public:
@@ -53,7 +56,6 @@ private:
   int facing(const Triangle& triangle, const Eigen::Vector3d& point) const;
   void addSurface(const Triangle& triangle, double resolution, std::vector<Triangle>& result) const;
   void fillCells();
-  void measureEdges(const std::vector<std::array<std::int64_t, 3>>& corners);
   Lattice latticeOf(double y, double z) const;
   int turnAt(const std::array<Lattice, 3>& triangle, const Lattice& line,
              std::array<double, 3>& weights) const;

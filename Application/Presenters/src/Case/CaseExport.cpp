@@ -538,15 +538,15 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
     const bool closed = mesh.isClosed();
     // Of a mesh from a file, parts may overlap; surfaces that are extracted have none that do.
     const bool isFromFile = options.what == "structure" && !summary.voxelsVolume;
-    std::optional<double> volume;
+    std::optional<double> enclosed; // mm^3
     if (closed)
-      volume = isFromFile ? volume::measure(mesh).volume : mesh.signedVolume();
+      enclosed = isFromFile ? volume::measure(mesh).volume : mesh.signedVolume();
     summary.triangles = mesh.triangles.size();
     summary.closed = closed;
     summary.words = ", " + std::to_string(mesh.triangles.size()) + " triangles, " + decimation +
                     ", " +
-                    (volume ? "closed, " + core::fixedText(*volume, 2) + " mm3" : "not closed");
-    summary.volume = volume;
+                    (enclosed ? "closed, " + core::fixedText(*enclosed, 2) + " mm3" : "not closed");
+    summary.volume = enclosed;
     imaging::writeMesh(options.out, mesh, color);
   };
   if (options.what == "ct")

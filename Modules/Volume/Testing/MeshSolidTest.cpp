@@ -358,6 +358,22 @@ TEST(MeshSolid, MeasuresPartsWhicheverWayTheyAreWound)
   EXPECT_NEAR(volume::oriented(inwards).signedVolume(), 30.0, 1e-5);
 }
 
+TEST(MeshSolid, KeepsADegenerateTriangleWhenOriented)
+{
+  auto mesh = turned(box({0, 0, 0}, {1, 2, 3}));
+  // Vertex 0 twice, and a triangle of no area between both.
+  const auto copy = static_cast<std::uint32_t>(mesh.vertices.size());
+  const Eigen::Vector3f corner = mesh.vertices[0];
+  mesh.vertices.push_back(corner);
+  const auto other = mesh.triangles[0][0] == 0 ? mesh.triangles[0][1] : mesh.triangles[0][0];
+  for (std::uint32_t& vertex : mesh.triangles[0])
+    vertex = vertex == 0 ? copy : vertex;
+  mesh.triangles.push_back({0, copy, other});
+  const auto straight = volume::oriented(mesh);
+  EXPECT_EQ(straight.triangles.size(), mesh.triangles.size());
+  EXPECT_NEAR(straight.signedVolume(), 6.0, 1e-5);
+}
+
 TEST(MeshSolid, MeasuresNestedPartsAsTheyAreFelt)
 {
   const auto outer = box({0, 0, 0}, {4, 4, 4});

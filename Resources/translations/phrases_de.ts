@@ -1204,6 +1204,58 @@
         <translation>Strukturen werden geladen</translation>
     </message>
     <message>
+        <source>holds %#1 objects, taken as one structure; to have a structure of each, save each as a file of its own</source>
+        <translation>enthält %#1 Objekte, als eine Struktur genommen; speichern Sie jedes in einer eigenen Datei, um je eine Struktur zu haben</translation>
+    </message>
+    <message>
+        <source>holds %#1 objects: %~2, taken as one structure; to have a structure of each, save each as a file of its own</source>
+        <translation>enthält %#1 Objekte: %~2, als eine Struktur genommen; speichern Sie jedes in einer eigenen Datei, um je eine Struktur zu haben</translation>
+    </message>
+    <message>
+        <source>holds %#1 objects, among them %~2, taken as one structure; to have a structure of each, save each as a file of its own</source>
+        <translation>enthält %#1 Objekte, darunter %~2, als eine Struktur genommen; speichern Sie jedes in einer eigenen Datei, um je eine Struktur zu haben</translation>
+    </message>
+    <message>
+        <source>has %#1 parts, of which %#2 is wound the other way; it counts as solid all the same</source>
+        <translation>hat %#1 Teile, von denen %#2 andersherum orientiert ist; er gilt trotzdem als massiv</translation>
+    </message>
+    <message>
+        <source>has %#1 parts, of which %#2 are wound the other way; they count as solid all the same</source>
+        <translation>hat %#1 Teile, von denen %#2 andersherum orientiert sind; sie gelten trotzdem als massiv</translation>
+    </message>
+    <message>
+        <source>has %#1 part in another that faces the other way; it counts as a cavity</source>
+        <translation>hat %#1 Teil in einem anderen, der andersherum orientiert ist; er gilt als Hohlraum</translation>
+    </message>
+    <message>
+        <source>has %#1 parts in another that face the other way; they count as cavities</source>
+        <translation>hat %#1 Teile in einem anderen, die andersherum orientiert sind; sie gelten als Hohlräume</translation>
+    </message>
+    <message>
+        <source>has %#1 part in another that faces the same way; it bounds nothing</source>
+        <translation>hat %#1 Teil in einem anderen, der ebenso orientiert ist; er begrenzt nichts</translation>
+    </message>
+    <message>
+        <source>has %#1 parts in another that face the same way; they bound nothing</source>
+        <translation>hat %#1 Teile in einem anderen, die ebenso orientiert sind; sie begrenzen nichts</translation>
+    </message>
+    <message>
+        <source>has each triangle twice; it counts once</source>
+        <translation>hat jedes Dreieck doppelt; es zählt einmal</translation>
+    </message>
+    <message>
+        <source>has %#1 triangles that are there already; they count once</source>
+        <translation>hat %#1 Dreiecke, die schon vorhanden sind; sie zählen einmal</translation>
+    </message>
+    <message>
+        <source>has parts that overlap and are wound opposite ways: where they do counts as outside; make one surface of them where it comes from</source>
+        <translation>hat Teile, die sich überlappen und gegensinnig orientiert sind: wo sie sich überlappen, gilt als außen; machen Sie im Herkunftsprogramm eine Oberfläche daraus</translation>
+    </message>
+    <message>
+        <source>has parts that overlap: the volume is that of their union</source>
+        <translation>hat Teile, die sich überlappen: das Volumen ist das ihrer Vereinigung</translation>
+    </message>
+    <message>
         <source>as %1, as it states</source>
         <translation>als %1, wie angegeben</translation>
     </message>
@@ -1220,12 +1272,20 @@
         <translation>geben Sie Koordinatensystem und Einheit an</translation>
     </message>
     <message>
+        <source>as %1 it would reach %#2 mm beyond it</source>
+        <translation>als %1 würde es %#2 mm darüber hinausreichen</translation>
+    </message>
+    <message>
         <source>reaches %#1 mm beyond %2</source>
         <translation>reicht %#1 mm über %2 hinaus</translation>
     </message>
     <message>
         <source>is %#1 mm large</source>
         <translation>ist %#1 mm groß</translation>
+    </message>
+    <message>
+        <source>%1 it %~2, and in no other space would it lie inside as a whole%~3</source>
+        <translation>%1 würde es %~2, und als nichts anderes läge es ganz innerhalb%~3</translation>
     </message>
     <message>
         <source>%1 it %~2, as %~3 it would lie inside%~4</source>
@@ -1238,6 +1298,10 @@
     <message>
         <source>follows %#1 of the edges of %2 as %3, and %#4 as %5, as it was taken; look whether it lies where it belongs</source>
         <translation>folgt %#1 der Kanten von %2 als %3, und %#4 als %5, wie es genommen wurde; sehen Sie nach, ob die Lage stimmt</translation>
+    </message>
+    <message>
+        <source>does not state its coordinate system and unit, and as %1 would reach only %#2 mm beyond %3; it was taken as %4, so look whether it lies where it belongs</source>
+        <translation>nennt weder Koordinatensystem noch Einheit und würde als %1 nur %#2 mm über %3 hinausreichen; genommen als %4, sehen Sie daher nach, ob die Lage stimmt</translation>
     </message>
     <message>
         <source>does not state its coordinate system and unit, and would lie inside %1 also as %2; it was taken as %3, so look whether it lies where it belongs</source>

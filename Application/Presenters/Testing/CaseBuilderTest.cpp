@@ -23,6 +23,7 @@
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Manifest.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Volume/MeshMeasure.h"
 
 using namespace petrous;
 using Eigen::Vector3d;
@@ -1867,6 +1868,12 @@ TEST_F(CaseBuilder, AsksHowAMeshCountsWhereItWouldLieElsewhere)
     EXPECT_EQ(unclear.likely[1].mm, 1.0);
   }
 
+  // What would be cut in the other frame is not said to lie inside.
+  writeBall({-94.5, 25, 40}, ras, "");
+  EXPECT_NE(refusal().find("as RAS mm it would reach 6.0 mm beyond it"), std::string::npos)
+      << refusal();
+  EXPECT_EQ(refusal().find("it would lie inside"), std::string::npos) << refusal();
+
   // A ball cut by the first sagittal voxels' outer face, 6 mm from its centre: a cap of height
   // 6 mm is a quarter of the surface.
   writeBall({-94.5, 25, 40}, lps, "# SPACE=LPS, unit mm\n");
@@ -1888,6 +1895,111 @@ TEST_F(CaseBuilder, AsksHowAMeshCountsWhereItWouldLieElsewhere)
   writeBall(center, lps, "");
   ASSERT_FALSE(add().notes.empty());
   EXPECT_NE(add().notes.back().find("also as RAS mm"), std::string::npos) << add().notes.back();
+}
+
+TEST_F(CaseBuilder, NotesWhatIsOddInTheFormOfAMesh)
+{
+  // Boxes of edge 1, 2 and 0.5 mm in the CT.
+  const Vector3d center =
+      presenters::buildCase("ear", m_sources, {}).ct.geometry.patientBounds().center();
+  const auto box = [&](core::TriangleMesh& mesh, double x, double edge, bool isReversed)
+  {
+    const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int n = 0; n < 8; ++n)
+      mesh.vertices.push_back(
+          (center + Vector3d(x + ((n & 1) != 0 ? edge : 0.0), (n & 2) != 0 ? edge : 0.0,
+                             (n & 4) != 0 ? edge : 0.0))
+              .cast<float>());
+    for (std::array<std::uint32_t, 3> t : std::vector<std::array<std::uint32_t, 3>>{{0, 2, 3},
+                                                                                    {0, 3, 1},
+                                                                                    {4, 5, 7},
+                                                                                    {4, 7, 6},
+                                                                                    {0, 1, 5},
+                                                                                    {0, 5, 4},
+                                                                                    {2, 6, 7},
+                                                                                    {2, 7, 3},
+                                                                                    {0, 4, 6},
+                                                                                    {0, 6, 2},
+                                                                                    {1, 3, 7},
+                                                                                    {1, 7, 5}})
+    {
+      if (isReversed)
+        std::swap(t[0], t[1]);
+      mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+    }
+  };
+  const auto added = [&](const core::TriangleMesh& mesh)
+  {
+    imaging::writeMesh(m_folder / "incus.ply", mesh);
+    auto value = presenters::buildCase("ear", m_sources, {});
+    presenters::PartSources more;
+    more.meshes = {{"", m_folder / "incus.ply"}};
+    more.meshes[0].isRas = false;
+    more.meshes[0].unit = 1.0;
+    presenters::addParts(value, more, {});
+    return value;
+  };
+  const auto notes = [](const scene::Case& value)
+  {
+    std::string all;
+    for (const std::string& note : value.meshes.at(0).notes)
+      all += note + "\n";
+    return all;
+  };
+  core::TriangleMesh mesh;
+  box(mesh, -2.0, 1.0, true);
+  box(mesh, 0.0, 2.0, false);
+  const auto reversed = added(mesh);
+  EXPECT_NE(notes(reversed).find("has 2 parts, of which 1 is wound the other way"),
+            std::string::npos)
+      << notes(reversed);
+  EXPECT_NEAR(volume::measure(*reversed.meshes[0].mesh.get()).volume.value(), 9.0, 1e-3);
+  EXPECT_EQ(reversed.meshes[0].mesh.get()->triangles.size(), 24U) << "stays as in the file";
+  mesh = {};
+  box(mesh, 0.0, 2.0, false);
+  const core::TriangleMesh once = mesh;
+  EXPECT_EQ(notes(added(once)).find("has "), std::string::npos) << notes(added(once));
+  mesh.triangles.insert(mesh.triangles.end(), once.triangles.begin(), once.triangles.end());
+  const auto twice = added(mesh);
+  EXPECT_NE(notes(twice).find("has each triangle twice"), std::string::npos) << notes(twice);
+  EXPECT_NEAR(volume::measure(*twice.meshes[0].mesh.get()).volume.value(), 8.0, 1e-3);
+
+  mesh = once;
+  box(mesh, 1.5, 1.0, false); // half of it in the other
+  const auto overlapping = added(mesh);
+  EXPECT_NE(notes(overlapping).find("the volume is that of their union"), std::string::npos)
+      << notes(overlapping);
+  EXPECT_NEAR(volume::measure(*overlapping.meshes[0].mesh.get()).volume.value(), 8.5, 0.03);
+}
+
+TEST_F(CaseBuilder, NotesTheObjectsOfAMeshFileButNoPatientsName)
+{
+  auto value = presenters::buildCase("ear", m_sources, {});
+  const Vector3d center = value.ct.geometry.patientBounds().center();
+  std::ofstream file(m_folder / "incus.obj");
+  file.imbue(std::locale::classic());
+  for (const double x : {0.0, 3.0})
+    for (const Vector3d& corner :
+         {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)})
+    {
+      const Vector3d p = center + Vector3d(x, 0, 0) + corner;
+      file << "v " << p[0] << " " << p[1] << " " << p[2] << "\n";
+    }
+  file << "g facial_nerve\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+       << "g Mustermann_Erika\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";
+  file.close();
+  presenters::PartSources more;
+  more.meshes = {{"", m_folder / "incus.obj"}};
+  more.meshes[0].isRas = false;
+  more.meshes[0].unit = 1.0;
+  presenters::addParts(value, more, {});
+  std::string all;
+  for (const std::string& note : value.meshes.at(0).notes)
+    all += note + "\n";
+  EXPECT_NE(all.find("holds 2 objects, among them 'facial_nerve', taken as one structure"),
+            std::string::npos)
+      << all;
+  EXPECT_EQ(all.find("ustermann"), std::string::npos) << all;
 }
 
 TEST_F(CaseBuilder, RefusesAMeshWithAFarVertex)

@@ -16,6 +16,7 @@
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/MeshFile.h"
 #include "petrous/Presenters/CaseExport.h"
 #include "petrous/Presenters/LeavingImages.h"
 
@@ -387,6 +388,30 @@ TEST_F(CaseExport, SaysWhatTheCtsGridLosesOfAStructure)
 }
 
 // One grid of both would fill the memory.
+TEST_F(CaseExport, WritesAMeshFacingOutwardsWithItsVolume)
+{
+  // Tetrahedra of 8/6 and 1/6 mm^3, the smaller one inside out.
+  core::TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2},
+                   {5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3},
+                    {4, 5, 6}, {4, 7, 5}, {4, 6, 7}, {5, 7, 6}};
+  scene::MeshPart part;
+  part.name = "incus";
+  part.triangles = mesh.triangles.size();
+  part.mesh = std::make_shared<const core::TriangleMesh>(mesh);
+  m_case.meshes.push_back(part);
+  ExportOptions options;
+  options.what = "structure";
+  options.part = "incus";
+  options.out = (m_folder / "incus.stl").string();
+  const ExportSummary summary =
+      exportCase(m_library, m_case, options, {}, [](const std::string&) {}, {});
+  EXPECT_TRUE(summary.closed);
+  EXPECT_NEAR(summary.volume.value(), 1.5, 1e-5);
+  EXPECT_NEAR(imaging::readMesh(options.out).signedVolume(), 1.5, 1e-5);
+}
+
 TEST_F(CaseExport, RefusesLabelsThatLieTooFarApartForOneGrid)
 {
   add("nerve", m_case.ct.geometry, {{1, 1, 1}, {9, 9, 9}});

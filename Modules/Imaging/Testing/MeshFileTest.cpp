@@ -46,6 +46,26 @@ void expectBox(const core::TriangleMesh& mesh)
   EXPECT_EQ(mesh.bounds()[1], Eigen::Vector3f(12.0F, 23.0F, 34.0F));
 }
 
+TEST(MeshFile, NamesTheObjectsThatHaveTriangles)
+{
+  const TestFolder folder;
+  const auto objects = [&folder](const char* name, const std::string& text)
+  { return loadMesh(putFile(folder / name, text)).objects; };
+  using Names = std::vector<std::string>;
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  EXPECT_EQ(objects("a.obj", corners + "g sinus\nf 1 2 3\ng empty\ng facial nerve\nf 1 3 2\n"
+                                       "g sinus\nf 2 3 1\n"),
+            (Names{"sinus", "facial nerve"}));
+  EXPECT_EQ(objects("b.obj", "o one\ng left\n" + corners + "f 1 2 3\no two\nf 1 3 2\n"),
+            (Names{"one", "two"}));
+  EXPECT_EQ(objects("c.obj", corners + "f 1 2 3\n").size(), 1U);
+  const std::string facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                            "vertex 0 1 0\nendloop\nendfacet\n";
+  EXPECT_EQ(objects("a.stl", "solid malleus\n" + facet + facet + "endsolid malleus\nsolid incus\n" +
+                                 facet + "endsolid incus\n"),
+            (Names{"malleus", "incus"}));
+}
+
 TEST(MeshFile, ReadsObjPolygonsAndEveryFormOfCorner)
 {
   const TestFolder folder;

@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include "MeshForm.h"
 #include "MeshSpace.h"
 #include "PatientHashes.h"
 #include "petrous/Appearance/DistinctColors.h"
@@ -1354,6 +1355,8 @@ void addMesh(scene::Case& value, const PartSource& source, const core::Progress&
   const core::GridGeometry& grid = mr ? mr->geometry : value.ct.geometry;
   requireNear(source.path, loaded.mesh, grid, image);
   if (std::string note = outsideImage(loaded.mesh, grid, image); !note.empty())
+    notes.push_back(std::move(note));
+  for (std::string& note : formNotes(loaded))
     notes.push_back(std::move(note));
   part.notes = std::move(loaded.notes);
   part.notes.insert(part.notes.begin(), notes.begin(), notes.end());

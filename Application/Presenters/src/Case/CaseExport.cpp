@@ -28,6 +28,7 @@
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Volume/MeshDecimation.h"
+#include "petrous/Volume/MeshMeasure.h"
 #include "petrous/Volume/Rounded.h"
 
 namespace petrous::presenters
@@ -425,7 +426,7 @@ structureMesh(const Warn& warn, const scene::Case& value, const std::string& nam
       if (!placed)
         warn("'" + name + "' is written where its MR has it, not on the CT: " +
              scene::missingPlace(value, name));
-      return {*(placed ? placed : part.mesh.get()), part.look.color};
+      return {volume::oriented(*(placed ? placed : part.mesh.get())), part.look.color};
     }
   throw core::InvalidParameter("case '" + value.name + "' has no structure '" + name + "'");
 }
@@ -543,13 +544,17 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
                    core::generalText(fewer.mean, 3) + " mm)";
     }
     const bool closed = mesh.isClosed();
+    // Of a mesh from a file, parts may overlap; surfaces that are extracted have none that do.
+    const bool isFromFile = options.what == "structure" && !summary.voxelsVolume;
+    std::optional<double> enclosed; // mm^3
+    if (closed)
+      enclosed = isFromFile ? volume::measure(mesh).volume : mesh.signedVolume();
     summary.triangles = mesh.triangles.size();
     summary.closed = closed;
-    summary.words =
-        ", " + std::to_string(mesh.triangles.size()) + " triangles, " + decimation + ", " +
-        (closed ? "closed, " + core::fixedText(mesh.signedVolume(), 2) + " mm3" : "not closed");
-    if (closed)
-      summary.volume = mesh.signedVolume();
+    summary.words = ", " + std::to_string(mesh.triangles.size()) + " triangles, " + decimation +
+                    ", " +
+                    (enclosed ? "closed, " + core::fixedText(*enclosed, 2) + " mm3" : "not closed");
+    summary.volume = enclosed;
     imaging::writeMesh(options.out, mesh, color);
   };
   if (options.what == "ct")

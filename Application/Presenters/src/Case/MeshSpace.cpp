@@ -60,6 +60,27 @@ double insideOf(const core::TriangleMesh& mesh, const MeshSpace& space,
   return static_cast<double>(inside) / static_cast<double>(all);
 }
 
+// mm by which a point is beyond the image.
+double beyond(const core::GridGeometry& grid, const Vector3d& patient)
+{
+  Vector3d last;
+  for (int a = 0; a < 3; ++a)
+    last[a] = grid.dims()[static_cast<std::size_t>(a)] - 0.5;
+  const Vector3d voxel = grid.voxelFromPatient(patient);
+  const Vector3d nearest = voxel.cwiseMax(Vector3d::Constant(-0.5)).cwiseMin(last);
+  return (voxel - nearest).cwiseProduct(grid.spacing()).norm();
+}
+
+// mm by which the surface would reach beyond the image; less than half a voxel does not count.
+double beyond(const core::TriangleMesh& mesh, const MeshSpace& space,
+              const core::GridGeometry& grid)
+{
+  double farthest = 0.0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    farthest = std::max(farthest, beyond(grid, placed(mesh, v, space)));
+  return farthest > grid.spacing().minCoeff() / 2.0 ? farthest : 0.0;
+}
+
 // The gradient's component along the surface's normal over its magnitude, both summed.
 double edgesOf(const core::TriangleMesh& mesh, const MeshSpace& space,
                const volume::IntensityVolume& image)
@@ -176,14 +197,25 @@ std::string judgeMeshSpace(const std::filesystem::path& path, const imaging::Loa
   if (given.inside < kMostlyInside || given.size < kSmallest || given.size > largest)
   {
     std::string others;
+    std::string partly;
     for (auto one = candidates.begin() + 1; one != candidates.end(); ++one)
-      others += (others.empty() ? "" : " or ") + asRead(one->space);
+      if (const double farthest = beyond(mesh, one->space, grid); farthest > 0.0)
+        partly += ", as " + asRead(one->space) + " it would reach " + core::fixedText(farthest, 1) +
+                  " mm beyond it";
+      else
+        others += (others.empty() ? "" : " or ") + asRead(one->space);
     const double reach = volume::reachBeyond(mesh, box);
     const std::string problem =
         reach > 0.0 ? "reaches " + core::fixedText(reach, 0) + " mm beyond " + imageName
                     : "is " + core::fixedText(given.size, 2) + " mm large";
+    if (others.empty())
+      throw MeshSpaceUnclear(path,
+                             asGiven + " it " + problem +
+                                 ", and in no other space would it lie inside as a whole" + partly +
+                                 say,
+                             spacesOf());
     throw MeshSpaceUnclear(
-        path, asGiven + " it " + problem + ", as " + others + " it would lie inside" + say,
+        path, asGiven + " it " + problem + ", as " + others + " it would lie inside" + partly + say,
         spacesOf());
   }
   const auto voxels = image.volume.get();
@@ -210,6 +242,11 @@ std::string judgeMeshSpace(const std::filesystem::path& path, const imaging::Loa
            ", as it was taken; look whether it lies where it belongs";
   if (given.edges >= kFollows || other == candidates.end())
     return {};
+  if (const double farthest = beyond(mesh, other->space, grid); farthest > 0.0)
+    return "does not state its coordinate system and unit, and as " + asRead(other->space) +
+           " would reach only " + core::fixedText(farthest, 1) + " mm beyond " + imageName +
+           "; it was taken as " + asRead(given.space) +
+           ", so look whether it lies where it belongs";
   return "does not state its coordinate system and unit, and would lie inside " + imageName +
          " also as " + asRead(other->space) + "; it was taken as " + asRead(given.space) +
          ", so look whether it lies where it belongs";
@@ -218,15 +255,6 @@ std::string judgeMeshSpace(const std::filesystem::path& path, const imaging::Loa
 std::string outsideImage(const core::TriangleMesh& mesh, const core::GridGeometry& grid,
                          const std::string& imageName)
 {
-  Vector3d last;
-  for (int a = 0; a < 3; ++a)
-    last[a] = grid.dims()[static_cast<std::size_t>(a)] - 0.5;
-  const auto beyond = [&](std::uint32_t vertex) // mm
-  {
-    const Vector3d voxel = grid.voxelFromPatient(mesh.vertices[vertex].cast<double>());
-    const Vector3d nearest = voxel.cwiseMax(Vector3d::Constant(-0.5)).cwiseMin(last);
-    return (voxel - nearest).cwiseProduct(grid.spacing()).norm();
-  };
   double farthest = 0.0;
   double outside = 0.0;
   double area = 0.0;
@@ -238,7 +266,7 @@ std::string outsideImage(const core::TriangleMesh& mesh, const core::GridGeometr
                            .norm();
     area += one;
     for (const std::uint32_t corner : triangle)
-      if (const double reach = beyond(corner); reach > 0.0)
+      if (const double reach = beyond(grid, mesh.vertices[corner].cast<double>()); reach > 0.0)
       {
         farthest = std::max(farthest, reach);
         outside += one / 3.0;

@@ -193,6 +193,10 @@ LoadedMesh loadMesh(const std::filesystem::path& path, const std::optional<bool>
   progress.report(0.4, "reading mesh");
   LoadedMesh loaded;
   loaded.mesh = format->parseMesh(path, bytes, progress);
+  if (format->parseMesh == parseObj)
+    loaded.objects = objObjects(bytes);
+  else if (format->parseMesh == parseStl)
+    loaded.objects = stlObjects(bytes);
   const std::string_view start = std::string_view(bytes).substr(0, kFrameWithin);
   const bool saysRas = start.find("SPACE=RAS") != start.npos;
   const bool saysFrame = saysRas || start.find("SPACE=LPS") != start.npos;

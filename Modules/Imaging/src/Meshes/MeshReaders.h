@@ -55,6 +55,11 @@ core::TriangleMesh parsePly(const std::filesystem::path& path, std::string_view 
                             const core::Progress& progress);
 core::TriangleMesh parseVtp(const std::filesystem::path& path, std::string_view bytes,
                             const core::Progress& progress);
+
+/// Of a file that parses: names of the objects that have triangles, each once.
+std::vector<std::string> objObjects(std::string_view bytes);
+std::vector<std::string> stlObjects(std::string_view bytes); // of a binary one none
+
 std::string objText(const core::TriangleMesh& mesh, const MeshColor& color);
 std::string stlBytes(const core::TriangleMesh& mesh, const MeshColor& color);
 std::string plyBytes(const core::TriangleMesh& mesh, const MeshColor& color);

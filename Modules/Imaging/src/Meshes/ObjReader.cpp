@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <string>
+#include <utility>
 
 #include "FileHelpers.h"
 
@@ -88,6 +89,45 @@ core::TriangleMesh parseObj(const std::filesystem::path& path, std::string_view 
       builder.failUnreadable("a line is not an OBJ record");
   }
   return builder.take();
+}
+
+std::vector<std::string> objObjects(std::string_view bytes)
+{
+  std::vector<std::string> objects;
+  std::vector<std::string> groups;
+  std::string object;
+  std::string group;
+  bool isObjectNew = true; // since the last face
+  bool isGroupNew = true;
+  const auto add = [](std::vector<std::string>& names, const std::string& name)
+  {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  };
+  std::string joined;
+  while (!bytes.empty())
+  {
+    std::string_view line = takeRecord(bytes, joined);
+    const std::string_view keyword = takeWord(line);
+    if (keyword == "o")
+    {
+      object = trimmed(line);
+      isObjectNew = true;
+    }
+    else if (keyword == "g")
+    {
+      group = trimmed(line);
+      isGroupNew = true;
+    }
+    else if (keyword == "f")
+    {
+      if (std::exchange(isObjectNew, false))
+        add(objects, object);
+      if (std::exchange(isGroupNew, false))
+        add(groups, group);
+    }
+  }
+  return objects.size() > 1 ? objects : groups;
 }
 
 } // namespace petrous::imaging

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "FileHelpers.h"
 
@@ -56,6 +57,16 @@ private:
   MeshBuilder& m_builder;
   std::unordered_map<Point, std::int64_t, PointHash> m_known;
 };
+
+// Some writers start the binary header with "solid" too, so the size decides.
+bool isBinary(std::string_view bytes)
+{
+  std::uint32_t facets = 0;
+  if (bytes.size() < kPrefixBytes)
+    return false;
+  std::memcpy(&facets, bytes.data() + kHeaderBytes, sizeof facets);
+  return bytes.size() == kPrefixBytes + std::uint64_t{facets} * kFacetBytes;
+}
 
 core::TriangleMesh parseBinary(const std::filesystem::path& path, std::string_view bytes,
                                std::size_t facets, const core::Progress& progress)
@@ -121,14 +132,11 @@ core::TriangleMesh parseText(const std::filesystem::path& path, std::string_view
 core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view bytes,
                             const core::Progress& progress)
 {
-  // Some writers start the binary header with "solid" too, so the size decides first.
   std::uint32_t facets = 0;
   if (bytes.size() >= kPrefixBytes)
-  {
     std::memcpy(&facets, bytes.data() + kHeaderBytes, sizeof facets);
-    if (bytes.size() == kPrefixBytes + std::uint64_t{facets} * kFacetBytes)
-      return parseBinary(path, bytes, facets, progress);
-  }
+  if (isBinary(bytes))
+    return parseBinary(path, bytes, facets, progress);
   std::string_view rest = bytes;
   if (takeWord(rest) == "solid")
     return parseText(path, bytes, progress);
@@ -137,6 +145,28 @@ core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view 
            std::to_string(facets) + " triangles that it counts has " +
            std::to_string(kPrefixBytes + std::uint64_t{facets} * kFacetBytes) +
            "; copy it again from where it came");
+}
+
+std::vector<std::string> stlObjects(std::string_view bytes)
+{
+  std::vector<std::string> objects;
+  if (isBinary(bytes))
+    return objects;
+  std::string name;
+  bool isNew = false; // since the last facet
+  while (!bytes.empty())
+  {
+    std::string_view line = takeLine(bytes);
+    const std::string_view word = takeWord(line);
+    if (word == "solid")
+    {
+      name = trimmed(line);
+      isNew = true;
+    }
+    else if (word == "facet" && std::exchange(isNew, false))
+      objects.push_back(name); // solids are apart even if they share a name
+  }
+  return objects;
 }
 
 } // namespace petrous::imaging

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -354,13 +355,40 @@ MeshMeasure measure(const core::TriangleMesh& mesh)
 
 core::TriangleMesh oriented(const core::TriangleMesh& mesh)
 {
-  const MeshTopology topology(mesh, MeshLattice(mesh));
-  core::TriangleMesh result = extracted(mesh, topology.triangles);
-  if (topology.openEdges > 0 || !topology.facesAlike)
-    return result;
-  const Arrangement all = arrange(mesh, topology);
-  for (std::size_t n = 0; n < result.triangles.size(); ++n)
-    if (all.isReversed[all.cluster[topology.part[n]]])
+  const MeshLattice lattice(mesh);
+  const MeshTopology topology(mesh, lattice);
+  constexpr std::uint32_t kNone = ~0U;
+  std::vector<std::uint32_t> partOf(mesh.triangles.size(), kNone);
+  std::vector<std::uint32_t> partAt(mesh.vertices.size(), kNone); // of coincident vertices
+  for (std::size_t n = 0; n < topology.triangles.size(); ++n)
+  {
+    partOf[topology.triangles[n]] = topology.part[n];
+    for (const std::uint32_t vertex : mesh.triangles[topology.triangles[n]])
+      partAt[lattice.ids[vertex]] = topology.part[n];
+  }
+  std::optional<Arrangement> all;
+  if (topology.openEdges == 0 && topology.facesAlike)
+    all = arrange(mesh, topology);
+  std::vector<std::uint32_t> kept;
+  std::vector<char> isTurned;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    const auto& [a, b, c] = mesh.triangles[t];
+    std::uint32_t part = partOf[t];
+    if (part == kNone)
+    {
+      // A degenerate triangle stays, as others may be connected by its vertices.
+      if (lattice.ids[a] != lattice.ids[b] && lattice.ids[b] != lattice.ids[c] &&
+          lattice.ids[c] != lattice.ids[a])
+        continue;
+      part = partAt[lattice.ids[a]];
+    }
+    kept.push_back(t);
+    isTurned.push_back(all && part != kNone && all->isReversed[all->cluster[part]]);
+  }
+  core::TriangleMesh result = extracted(mesh, kept);
+  for (std::size_t n = 0; n < kept.size(); ++n)
+    if (isTurned[n])
       std::swap(result.triangles[n][1], result.triangles[n][2]);
   return result;
 }

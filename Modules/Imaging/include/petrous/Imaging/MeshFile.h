@@ -29,6 +29,9 @@ struct LoadedMesh
   bool isFrameGiven = false;      ///< by the caller, whatever the file states
   bool isUnitGiven = false;       ///< the same
   MeshSpace space;                ///< how it counts, as stated or given
+  /// Names of the objects (OBJ: o, or else g; text STL: solid) that have triangles, in the order of
+  /// the file; an object without a name has an empty one. They may identify the patient.
+  std::vector<std::string> objects;
 };
 
 /// Reads a surface from OBJ, STL (text or binary), PLY (text or binary) or VTP (VTK XML PolyData:

@@ -1,19 +1,27 @@
 #include "petrous/Presenters/PlanReport.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
 
 #include <gtest/gtest.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
 
 #include "../src/Share/ReportWords.h"
 #include "ShapeCase.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Presenters/DissectionDistances.h"
 #include "petrous/Presenters/IdentityText.h"
+#include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/LabelledPicture.h"
 #include "petrous/Presenters/Measuring.h"
 #include "petrous/Presenters/Phrasebook.h"
+#include "petrous/Presenters/SlicePresenter.h"
 #include "petrous/Scene/Branches.h"
 
 using namespace petrous;
@@ -64,6 +72,22 @@ ReportOptions small()
   options.sliceWidth = 96;
   options.mayIdentify = [](const std::string&) { return false; };
   return options;
+}
+
+rendering::Picture pictureOf(const std::vector<std::uint8_t>& png)
+{
+  vtkNew<vtkPNGReader> reader;
+  reader->SetMemoryBuffer(png.data());
+  reader->SetMemoryBufferLength(static_cast<vtkIdType>(png.size()));
+  reader->Update();
+  vtkImageData& image = *reader->GetOutput();
+  rendering::Picture picture{image.GetDimensions()[0], image.GetDimensions()[1], {}};
+  for (int row = picture.height - 1; row >= 0; --row) // VTK's first one is the lowest
+    for (int column = 0; column < picture.width; ++column)
+      for (int c = 0; c < 3; ++c)
+        picture.rgb.push_back(
+            static_cast<std::uint8_t>(image.GetScalarComponentAsDouble(column, row, 0, c)));
+  return picture;
 }
 
 const ReportSection* find(const PlanReport& report, const std::string& id)
@@ -310,6 +334,115 @@ TEST(PlanReport, HasEachViewWithTranslucentBoneBesideTheOpaqueOne)
   }
 }
 
+// A nerve that lies all within bone, also of a transfer function of one's own.
+TEST(PlanReport, ShowsWhatOpaqueBoneHidesInTheTranslucentViews)
+{
+  scene::Case value = planned();
+  value.labels.front().structures.front().look.color = {0.0F, 1.0F, 0.0F};
+  ReportOptions options = small();
+  for (const bool isOwn : {false, true})
+  {
+    if (isOwn)
+    {
+      options.keepIdentity = true; // else an own function does not count
+      value.boneLook.relative = false;
+      value.boneLook.transfer = appearance::TransferFunction::constant({0.9F, 0.8F, 0.7F}, 0.95F);
+    }
+    const PlanReport report = planReport(value, options);
+    const auto& pictures = find(report, "views")->pictures;
+    ASSERT_EQ(pictures.size(), 4U);
+    for (std::size_t n = 0; n < 4; ++n)
+    {
+      const rendering::Picture picture = pictureOf(pictures[n].png);
+      int green = 0;
+      for (std::size_t at = 0; at < picture.rgb.size(); at += 3)
+        green += picture.rgb[at + 1] > picture.rgb[at] + 25 ? 1 : 0;
+      if (n % 2 == 0)
+        EXPECT_EQ(green, 0) << pictures[n].caption;
+      else
+        EXPECT_GT(green, 50) << pictures[n].caption;
+    }
+  }
+}
+
+TEST(PlanReport, LettersThePatientsDirectionsIn3D)
+{
+  ReportOptions options = small();
+  options.pictureWidth = 400;
+  const PlanReport report = planReport(planned(), options);
+  const auto& views = find(report, "views")->pictures;
+  ASSERT_EQ(views.size(), 4U);
+  for (const ReportPicture& view : views)
+  {
+    const rendering::Picture picture = pictureOf(view.png);
+    ASSERT_EQ(picture.width, 400);
+    ASSERT_EQ(picture.height, 300);
+    // White, as neither bone nor structures are.
+    const auto inkAround = [&picture](int column, int row)
+    {
+      int ink = 0;
+      for (int y = std::max(row - 15, 0); y < std::min(row + 15, picture.height); ++y)
+        for (int x = std::max(column - 15, 0); x < std::min(column + 15, picture.width); ++x)
+        {
+          const std::uint8_t* pixel = picture.pixel(x, y);
+          ink += pixel[0] > 150 && pixel[2] >= pixel[0] ? 1 : 0;
+        }
+      return ink;
+    };
+    for (const auto& [column, row] :
+         {std::pair(10, 150), std::pair(390, 150), std::pair(200, 10), std::pair(200, 290)})
+      EXPECT_GT(inkAround(column, row), 5) << view.caption << ": " << column << ", " << row;
+  }
+}
+
+// As `petrous slice` writes them, with letters and scale bar, and a cross in the middle.
+TEST(PlanReport, LabelsSlicesAsOtherPicturesOfSlicesAre)
+{
+  const scene::Case value = planned();
+  const PlanReport report = planReport(value, small());
+  const auto& pictures = find(report, "nearest")->pictures;
+  const auto distances = dissectionDistances(value);
+  ASSERT_FALSE(distances.empty());
+  ASSERT_EQ(distances.front().name, "facial nerve");
+  ASSERT_GE(pictures.size(), 3U);
+  const std::array<SliceOrientation, 3> orientations{
+      SliceOrientation::Axial, SliceOrientation::Coronal, SliceOrientation::Sagittal};
+  for (std::size_t n = 0; n < 3; ++n)
+  {
+    const SliceGeometry slice(orientations[n], distances.front().place, 40.0 / 96.0, 96, 96);
+    rendering::Picture expected = labelledSlice(
+        SlicePresenter(value).draw(slice, displayOf(value).bone), slice, {nameOf(orientations[n])});
+    addCross(expected, {47.5, 47.5});
+    EXPECT_EQ(pictureOf(pictures[n].png).rgb, expected.rgb) << nameOf(orientations[n]);
+  }
+}
+
+// One that the drill keeps off is shown as far as one that is warned of.
+TEST(PlanReport, HasSlicesOfWhatTheDrillIsKeptFrom)
+{
+  const core::GridGeometry grid({48, 24, 24}, Vector3d::Constant(0.5), {0.0, 0.0, 0.0});
+  scene::Case value =
+      shapes::shapeCase(grid, {{"part", shapes::ball({17.0, 6.0, 6.0}, 1.0)}}); // 8 mm away
+  value.dissection.beginStroke({});
+  value.dissection.cut({{6.0, 6.0, 6.0}, {6.0, 6.0, 6.0}, 2.0});
+  value.dissection.endStroke();
+  auto& look = value.labels.front().structures.front().look;
+  const auto count = [&]
+  {
+    const PlanReport report = planReport(value, small());
+    return find(report, "nearest")->pictures.size();
+  };
+  look.warning = 0.0;
+  look.drillable = true;
+  EXPECT_EQ(count(), 0U);
+  look.drillable = false;
+  EXPECT_EQ(count(), 4U);
+  look.solid = false; // opened, and no danger
+  EXPECT_EQ(count(), 0U);
+  look.warning = 1.0;
+  EXPECT_EQ(count(), 4U);
+}
+
 TEST(PlanReport, HasSlicesWhereTheCavityIsNearestToStructures)
 {
   const PlanReport report = planReport(planned(), small());
@@ -399,7 +532,7 @@ TEST(PlanReport, SaysWhyNoStructureHasSlices)
     structure.look.solid = false; // lumens, not warned of
   const PlanReport lumens = planReport(value, small());
   EXPECT_EQ(find(lumens, "nearest")->paragraphs.at(0),
-            "The dissection comes near no structure that is warned of.");
+            "The dissection comes near no structure that is warned of or kept from the drill.");
   EXPECT_TRUE(find(lumens, "nearest")->pictures.empty());
   ASSERT_TRUE(find(lumens, "places")) << "the crosshair instead";
   EXPECT_EQ(find(lumens, "places")->pictures.size(), 3U);

@@ -566,7 +566,11 @@ private:
       }
       std::optional<rendering::SceneContents> translucent;
       if (m_value.ct.modality != scene::Modality::Mr)
+      {
+        constexpr double kEdges = 0.7; // by which translucent bone keeps its shape
         translucent = lit(sceneContents(translucentCase(), progress.part(0.2, 0.4)));
+        translucent->light.edges = std::max(translucent->light.edges, kEdges);
+      }
       const auto add = [&](const std::string& caption, const core::CameraPose& camera,
                            const scene::ViewState::Clipping& clipping, const core::Progress& part)
       {
@@ -761,18 +765,18 @@ private:
     }
   }
 
-  // Those of which slices are drawn, injured ones first, then those that are warned of, each
-  // nearest first. A lumen that is not warned of is opened, and no danger.
+  // Those of which slices are drawn, injured ones first, then guarded ones, each nearest first. A
+  // lumen that is not warned of is opened, and no danger.
   std::vector<DissectionDistance> critical(const std::vector<DissectionDistance>& distances) const
   {
-    constexpr double kNear = 5.0; // mm: of structures without a warning
+    constexpr double kNear = 5.0; // mm: of structures that are not guarded
     std::vector<DissectionDistance> found;
     for (const DissectionDistance& one : distances)
-      if (one.injured > 0.0 || isWarnedOf(one.name) ||
+      if (one.injured > 0.0 || isGuarded(one.name) ||
           (*one.distance.value <= kNear && !isLumen(one.name)))
         found.push_back(one);
     const auto rank = [this](const DissectionDistance& one) {
-      return one.injured > 0.0 ? 0 : isWarnedOf(one.name) ? 1 : 2;
+      return one.injured > 0.0 ? 0 : isGuarded(one.name) ? 1 : 2;
     };
     std::stable_sort(found.begin(), found.end(),
                      [&rank](const DissectionDistance& a, const DissectionDistance& b)
@@ -780,10 +784,11 @@ private:
     return found;
   }
 
-  bool isWarnedOf(const std::string& structure) const
+  // Whether a burr is warned of it or kept from it.
+  bool isGuarded(const std::string& structure) const
   {
     const auto* look = lookOf(structure);
-    return look && look->warning > 0.0;
+    return look && (look->warning > 0.0 || (look->solid && !look->drillable));
   }
 
   std::string nearestText(const DissectionDistance& one) const
@@ -885,7 +890,8 @@ private:
         near.push_back(std::move(one));
     }
     pictures.paragraphs.push_back(
-        say(near.empty() ? "The dissection comes near no structure that is warned of."
+        say(near.empty() ? "The dissection comes near no structure that is warned of or kept from "
+                           "the drill."
                          : "Each row has slices through the place of the cavity, marked by the "
                            "cross, that is nearest to a structure. Structures are tinted and "
                            "outlined, what was drilled is red and hatched; the line is the "

@@ -78,8 +78,9 @@ const std::map<std::string, std::string>& germanTexts()
       {"unknown", "unbekannt"},
       {"nothing", "nichts"},
       {"Nearest to structures", "Nächste Stellen an Strukturen"},
-      {"The dissection comes near no structure that is warned of.",
-       "Die Präparation kommt keiner Struktur nahe, vor der gewarnt wird."},
+      {"The dissection comes near no structure that is warned of or kept from the drill.",
+       "Die Präparation kommt keiner Struktur nahe, vor der gewarnt wird oder die vor der Fräse "
+       "geschützt ist."},
       {"Each row has slices through the place of the cavity, marked by the cross, that is nearest "
        "to a structure. Structures are tinted and outlined, what was drilled is red and hatched; "
        "the line is the distance, in a plane that contains it.",

@@ -601,6 +601,27 @@ TEST(PlanReport, SaysWhatIsGuessedWhereTheNumbersStand)
     EXPECT_NE(guess.find("frame of reference"), std::string::npos) << guess;
 }
 
+TEST(PlanReport, SaysTheNotesOfAStructureBeneathItsNumbers)
+{
+  scene::Case value = planned();
+  value.labels.front().notes = {"'chorda': voxels of 50 % and more were taken",
+                                "states no unit of length; taken as mm"};
+  const auto notes = [&value](const char* id)
+  {
+    const PlanReport report = planReport(value, small());
+    std::vector<std::string> found = find(report, id)->remarks;
+    found.erase(found.begin()); // what the table has
+    return found;
+  };
+  for (const char* id : {"distances", "structures"})
+    EXPECT_EQ(notes(id), std::vector<std::string>{"'chorda': voxels of 50 % and more were taken"})
+        << id << ": what is of the whole file is of none alone";
+  value.labels.front().structures.resize(1); // all of its file
+  value.labels.front().notes = {"states no unit of length; taken as mm"};
+  EXPECT_EQ(notes("distances"),
+            std::vector<std::string>{"facial nerve: states no unit of length; taken as mm"});
+}
+
 TEST(PlanReport, WithholdsNamesThatTellWhoThePatientIs)
 {
   scene::Case value = planned();

@@ -650,6 +650,7 @@ private:
         say("Shortest distance between what was removed and the surface of each "
             "structure, nearest first. ± is a half-width: half a voxel of structure and wall, and "
             "the error of the registration where a structure was drawn on an MR."));
+    addOwnNotes(table);
   }
 
   // What of the structure's geometry nobody measured or drew, a phrase each.
@@ -762,6 +763,41 @@ private:
     {
       table.table.rows[n].push_back(textCell(texts[n]));
       table.table.rows[n].back().isWarning = !texts[n].empty();
+    }
+  }
+
+  // The notes of the import that are of a structure alone, as they name it, or with its name. What
+  // a file's note says of all that it has stands with what was assumed.
+  std::vector<std::string> ownNotes(const std::string& structure) const
+  {
+    std::vector<std::string> texts;
+    const auto add = [&](const std::string& note, bool isAlone)
+    {
+      const bool isNamed = m_withheld.sentence(note).find("'" + structure + "'") != note.npos;
+      if (isNamed || isAlone)
+        texts.push_back((isNamed ? "" : shownName(structure) + ": ") + noteText(note));
+    };
+    for (const scene::LabelPart& part : m_value.labels)
+      for (const scene::StructurePart& one : part.structures)
+        if (one.name == structure)
+        {
+          for (const std::string& note : part.notes)
+            add(note, part.structures.size() == 1);
+          return texts;
+        }
+    for (const scene::MeshPart& mesh : m_value.meshes)
+      if (mesh.name == structure)
+        for (const std::string& note : mesh.notes)
+          add(note, true);
+    return texts;
+  }
+
+  void addOwnNotes(ReportSection& table) const
+  {
+    for (const auto& row : table.table.rows)
+    {
+      const auto notes = ownNotes(row.front().text);
+      table.remarks.insert(table.remarks.end(), notes.begin(), notes.end());
     }
   }
 
@@ -1126,6 +1162,7 @@ private:
         say("Thickness: of the largest ball that fits inside, or of a tube at its narrowest. "
             "Resolved: this is two voxels or more, and its volume is known to a half. Of what is "
             "not, volume and distances say little; thin parts of what is may be missing."));
+    addOwnNotes(table);
   }
 
   std::string methodText(const scene::Registration& how) const
@@ -1240,6 +1277,12 @@ private:
     return texts;
   }
 
+  std::string noteText(const std::string& note) const
+  {
+    return note.empty() ? say("a note") + " (" + say("withheld") + ")"
+                        : say(m_withheld.sentence(note));
+  }
+
   void addAssumptions()
   {
     ReportSection& table = section("import", say("Assumed at import"));
@@ -1252,8 +1295,7 @@ private:
     {
       std::vector<std::string> texts;
       for (const std::string& note : notes)
-        texts.push_back(note.empty() ? say("a note") + " (" + say("withheld") + ")"
-                                     : say(m_withheld.sentence(note)));
+        texts.push_back(noteText(note));
       return texts;
     };
     const auto addImage = [&](const std::string& name, const scene::ImagePart& image)

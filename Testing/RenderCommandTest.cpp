@@ -275,7 +275,7 @@ TEST_F(RenderCommand, SoftTissueOfOnePictureLeavesTheCase)
   {
     const auto outcome = run(render(good));
     EXPECT_EQ(outcome.code, 0) << good;
-    EXPECT_EQ(outcome.err.find("soft tissue"), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("soft tissue is not drawn"), std::string::npos) << outcome.err;
   }
   // One colour would fill air too.
   const auto outcome = run(render("--soft-tissue=other"));

@@ -75,10 +75,10 @@ void printCases(const Context& context, const library::Library& library,
                                            fixed(summary.removed, 1) + " mm3 removed") +
                   (line.empty() ? "" : "  " + line));
   }
-  if (summaries.empty())
-    context.print("no case in " + library.folder().string());
   if (const std::string why = missingFolder(library); !why.empty())
-    context.warn(why);
+    context.print("no case in " + why);
+  else if (summaries.empty())
+    context.print("no case in " + library.folder().string());
   context.printJson({{"library", library.folder().string()}, {"cases", std::move(cases)}});
 }
 

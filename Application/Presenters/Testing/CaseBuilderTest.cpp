@@ -1289,8 +1289,9 @@ TEST_F(CaseBuilder, TellsAnImageFromALabelMapByTheNumberOfItsValues)
   }
   catch (const core::InvalidParameter& error)
   {
-    EXPECT_NE(std::string(error.what()).find("many.nii.gz: has 1001 structures or different values"),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(error.what()).find("many.nii.gz: has 1001 structures or different values"),
+        std::string::npos)
         << error.what();
   }
 }
@@ -1439,7 +1440,8 @@ TEST_F(CaseBuilder, NotesHowMuchOfAStructureLiesOutside)
     imaging::writeLabelFile(m_folder / "part.seg.nrrd", volume::makeLabelMap(voxels, {nerve}));
     m_sources.parts.labels = {{"", m_folder / "part.seg.nrrd"}};
     std::string text;
-    for (const std::string& note : presenters::buildCase("ear", m_sources, {}).labels.at(0).notes)
+    const scene::Case value = presenters::buildCase("ear", m_sources, {});
+    for (const std::string& note : value.labels.at(0).notes)
       text += note;
     return text;
   };

@@ -363,6 +363,7 @@ TEST_F(Approaches, AreComparedUnderTheNamesThatTheUsersLanguageHasForThem)
   EXPECT_EQ(chosen[0][1].toString(), "main");
   EXPECT_TRUE(waitFor([&] { return heading(1) == "above" && heading(2) == "Hauptzugang"; }));
   // The line of the present state.
+  QApplication::setActiveWindow(&window());
   openPanel();
   line().setValue(1);
   EXPECT_TRUE(waitFor(

@@ -265,7 +265,8 @@ TEST_F(InputDevices, TheForceStaysWithinTheUsersLimit)
   EXPECT_EQ(limit->maximum(), 3.0);
   EXPECT_FALSE(window().findChild<QDoubleSpinBox*>("thrust")->isEnabled());
 
-  // 1 mm in front of the bone, then 2 mm of the tool into it: 1 N/mm there, 0.5 N/mm at the device.
+  // 1 mm in front of the bone, then 2 mm of the tool into it: 0.4 N/mm there, 0.2 N/mm at the
+  // device, which nobody has tested.
   const auto feels = [&](double newtons)
   {
     return waitFor(
@@ -273,7 +274,7 @@ TEST_F(InputDevices, TheForceStaysWithinTheUsersLimit)
   };
   glide(server, Vector3d::Zero(), {0.0, 0.0, -6.0});
   picture();
-  EXPECT_TRUE(feels(2.0)) << forceOf(server.wrench()).transpose();
+  EXPECT_TRUE(feels(0.8)) << forceOf(server.wrench()).transpose();
   // Another limit takes the tool up in place, without force until the device presses on.
   limit->setValue(0.7);
   EXPECT_TRUE(feels(0.0));
@@ -291,7 +292,7 @@ TEST_F(InputDevices, AServerWithoutItsDeviceGivesTheToolBackToTheMouse)
   ASSERT_NO_FATAL_FAILURE(drillByServer());
   FakeServer& server = *served;
   glide(server, Vector3d::Zero(), {0.0, 0.0, -6.0});
-  ASSERT_TRUE(waitFor([&] { return forceOf(server.wrench()).z() > 1.0; }));
+  ASSERT_TRUE(waitFor([&] { return forceOf(server.wrench()).z() > 0.5; }));
   server.say(PETROUS_SERVER_NO_DEVICE, "its plug was pulled");
   EXPECT_TRUE(waitFor([&] { return forceOf(server.wrench()).norm() == 0.0; }));
   EXPECT_TRUE(waitFor([this] { return choice().currentText() == "Mouse"; }));

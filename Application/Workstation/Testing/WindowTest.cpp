@@ -48,7 +48,7 @@ using Window = GuiTest;
 TEST_F(Window, ClosingCancelsWhatRunsAndSaysWhatItWaitsFor)
 {
   openWindow();
-  std::atomic<bool> isReleased{false}, isCancelled{false};
+  std::atomic<bool> isBegun{false}, isReleased{false}, isCancelled{false};
   QString said;
   QTimer poll;
   QObject::connect(&poll, &QTimer::timeout, &poll,
@@ -66,6 +66,7 @@ TEST_F(Window, ClosingCancelsWhatRunsAndSaysWhatItWaitsFor)
       [&](const core::Progress& progress) -> BackgroundWork::Reply
       {
         progress.report(0.5, "saving");
+        isBegun = true;
         for (int n = 0; !isReleased && n < 60000; ++n)
           std::this_thread::sleep_for(std::chrono::milliseconds(1));
         try
@@ -79,6 +80,7 @@ TEST_F(Window, ClosingCancelsWhatRunsAndSaysWhatItWaitsFor)
         }
         return [&isIgnored] { isIgnored = false; };
       });
+  ASSERT_TRUE(waitFor([&] { return isBegun.load(); })); // else it is not even begun
   poll.start(10);
   EXPECT_TRUE(window().close());
   EXPECT_FALSE(slow.busy());

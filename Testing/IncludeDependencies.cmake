@@ -40,6 +40,7 @@ set(known_modules
 # reserved for the application.
 set(toolkits_Imaging ITK GDCM DCMTK)
 set(toolkits_Imaging_Testing VTK) # writes VTP
+set(toolkits_Presenters_Testing VTK) # reads the PNG of a report
 set(toolkits_Devices_Servers Qt) # programs of their own
 set(toolkits_Devices_Testing Qt) # a stand-in, likewise
 set(toolkits_Phantom GDCM)

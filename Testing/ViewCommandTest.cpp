@@ -158,7 +158,8 @@ TEST_F(ViewCommand, ChangesNothingWhereTheSameInstrumentIsTakenUpAgain)
   const std::string object = json("view ear").at("instrument").at("object");
   std::filesystem::remove(m_folder / "library/objects" / object);
   const auto path = m_folder / "path.csv";
-  std::ofstream(path) << "x_mm,y_mm,z_mm\n0,0,0\n1,0,0\n";
+  std::ofstream(path) << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n0,0,0,0,1,0,0,0,1\n"
+                      << "0.1,1,0,0,1,0,0,0,1\n";
   const auto lost = run("drill ear --case-tool --path " + quoted(path));
   EXPECT_EQ(lost.code, 3);
   EXPECT_NE(lost.err.find("the instrument of case 'ear'"), std::string::npos) << lost.err;

@@ -5190,6 +5190,10 @@
         <translation>ist kein gültiges JSON%1</translation>
     </message>
     <message>
+        <source>has a number that is beyond all that is read%1</source>
+        <translation>hat eine Zahl jenseits von allem, was gelesen wird%1</translation>
+    </message>
+    <message>
         <source>is no entry of a table of names%1</source>
         <translation>ist kein Eintrag einer Namenstabelle%1</translation>
     </message>

@@ -190,6 +190,7 @@ TEST(LabelTable, RefusesWithTheLineThatIsWrong)
       {"{\"x\": {\"1\": 1}, \"labels\": {\"incus\": 1,\n\"incus\": 1}}",
        "line 2 gives 'incus' a second time"},
       {"{\"1\": \"incus\",\n\"2\" \"stapes\"}", "line 2 is not valid JSON"},
+      {"{\"1\": \"incus\", \"2\": 1e999}", "a number that is beyond all that is read"},
       {"{\"1\": \"incus\",\n\"x\": \"stapes\"}", "line 2 is no entry of a table"}};
   for (const auto& [text, word] : wrong)
     expectRefused(refused(text), Reason::Unreadable, word);

@@ -653,6 +653,10 @@ void readJson(std::string_view text, Entries& entries)
     const auto line = 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
     return entries.problem(line, std::string("is not valid JSON") + right);
   }
+  catch (const json::exception&) // of a number beyond double
+  {
+    return entries.problem(0, std::string("has a number that is beyond all that is read") + right);
+  }
   const auto inner = document.find("labels");
   const json& map = inner != document.end() && inner->is_object() ? *inner : document;
   std::vector<std::pair<std::int64_t, volume::Segment>> found;

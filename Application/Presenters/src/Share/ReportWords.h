@@ -7,8 +7,8 @@
 namespace petrous::presenters
 {
 
-/// A text of the report in its language: by the report's own words, else as a phrase of the program.
-/// What is neither stays as it is. Its decimal numbers are written as the language does.
+/// A text of the report in its language: by the report's own words, else as a phrase of the
+/// program. What is neither stays as it is. Its decimal numbers are written as the language does.
 std::string reportText(ReportLanguage language, const std::string& english);
 
 /// A number, or a text of numbers and units alone, as the language writes them: "0,25 mm".

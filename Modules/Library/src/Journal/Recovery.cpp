@@ -257,8 +257,7 @@ std::string recoverFrom(JournalFile& file, const fs::path& path, Library& librar
   if (what.strokes == 0 && what.part < 0.0 && !moved)
     return {};
   return "the last session with case '" + value.name + "' ended without saving; " +
-         toString(what, content.leftOver) +
-         " came back" +
+         toString(what, content.leftOver) + " came back" +
          (base ? ", on branch '" + value.dissection.history().branch().name +
                      "', as another program had changed the case"
                : "");

@@ -32,8 +32,8 @@ double millimetresPerPixel(const core::CameraPose& camera, int height);
 /// Draws a scene off-screen at any size up to PrintSize::kMaxEdge, in tiles of at most `tile`
 /// pixels along an edge, between which it can be cancelled. The tiles are parts of one picture:
 /// joined, they are what one window of that size would show; with more than one of up to
-/// kPixelSamples `samples` the mean of as many, with rays through other places of each pixel. Throws
-/// RenderingError, InvalidParameter, CancelledError.
+/// kPixelSamples `samples` the mean of as many, with rays through other places of each pixel.
+/// Throws RenderingError, InvalidParameter, CancelledError.
 Picture renderTiled(ScenePicture& scene, const core::CameraPose& camera, int width, int height,
                     const core::Progress& progress = {}, int tile = 1024, int samples = 1);
 

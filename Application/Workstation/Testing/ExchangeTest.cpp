@@ -73,6 +73,17 @@ protected:
     if (!network::test::Orthanc::installed())
       GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
   }
+  /// A node "pacs" where nobody listens; its port.
+  int addSilentNode()
+  {
+    network::Node node;
+    node.name = "pacs";
+    node.host = "127.0.0.1";
+    node.port = network::test::freePort();
+    node.aeTitle = "PACS";
+    network::NodeList(libraryFolder()).add(node);
+    return node.port;
+  }
   /// Sends the open case, all that is proposed; returns what the box says if it fails, else
   /// nothing.
   QString send()
@@ -544,12 +555,7 @@ TEST_F(Exchange, FaultsAreToldOfImagesThatAreSentAlone)
 TEST_F(Exchange, TheCaseMayBeClosedWhileItIsOfferedToANode)
 {
   saveBall("ball");
-  network::Node node;
-  node.name = "pacs";
-  node.host = "127.0.0.1";
-  node.port = network::test::freePort();
-  node.aeTitle = "PACS";
-  network::NodeList(libraryFolder()).add(node);
+  addSilentNode();
   openWindow("ball");
   bool isShown = false;
   onDialog(
@@ -660,12 +666,7 @@ TEST_F(Exchange, AnArchiveWithFacesThatCannotBeMaskedIsNoDefault)
 TEST_F(Exchange, WhySendingFailsIsTold)
 {
   saveBall("ball");
-  network::Node node;
-  node.name = "pacs";
-  node.host = "127.0.0.1";
-  node.port = network::test::freePort();
-  node.aeTitle = "PACS";
-  network::NodeList(libraryFolder()).add(node);
+  const int port = addSilentNode();
   openWindow("ball");
   QString why;
   onDialog(
@@ -682,8 +683,7 @@ TEST_F(Exchange, WhySendingFailsIsTold)
       });
   menu("sendOpenCase");
   ASSERT_TRUE(waitFor([&] { return !why.isEmpty() && !window().busy(); }));
-  EXPECT_TRUE(why.contains("pacs") && why.contains(QString::number(node.port)))
-      << why.toStdString();
+  EXPECT_TRUE(why.contains("pacs") && why.contains(QString::number(port))) << why.toStdString();
   EXPECT_TRUE(isOpen("ball"));
 }
 

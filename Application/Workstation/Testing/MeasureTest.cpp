@@ -81,6 +81,12 @@ protected:
     QTest::mouseClick(&axial(), Qt::LeftButton, Qt::NoModifier, pixelOf(patient));
     ++m_events;
   }
+  void measureDistance(const Vector3d& from, const Vector3d& to)
+  {
+    key(Qt::Key_D);
+    click(from);
+    click(to);
+  }
   void clickView(const QPoint& at)
   {
     QTest::mouseMove(&view(), at);
@@ -169,9 +175,7 @@ TEST_F(MeasureWindow, ADistanceTakesThreeEvents)
   const Vector3d from = kBallCenter + Vector3d(-8, 0, 0);
   const Vector3d to = kBallCenter + Vector3d(6, 5, 0);
   m_events = 0;
-  key(Qt::Key_D);
-  click(from);
-  click(to);
+  measureDistance(from, to);
   EXPECT_LE(m_events, 3);
   ASSERT_EQ(all().size(), 1U);
   const double expected = (patientOf(pixelOf(to)) - patientOf(pixelOf(from))).norm();
@@ -323,9 +327,7 @@ TEST_F(MeasureWindow, TheListRenamesHidesGoesToAndDeletes)
 {
   openBall();
   const QImage empty = picture();
-  key(Qt::Key_D);
-  click(kBallCenter + Vector3d(-8, 0, 0));
-  click(kBallCenter + Vector3d(8, 0, 0));
+  measureDistance(kBallCenter + Vector3d(-8, 0, 0), kBallCenter + Vector3d(8, 0, 0));
   QTest::keyClick(&axial(), Qt::Key_Escape);
   ASSERT_EQ(list().topLevelItemCount(), 1);
   EXPECT_GT(differentPixels(picture(), empty, 40), 100) << "drawn in the view";
@@ -354,9 +356,7 @@ TEST_F(MeasureWindow, TheListRenamesHidesGoesToAndDeletes)
 TEST_F(MeasureWindow, ExportsATable)
 {
   openBall();
-  key(Qt::Key_D);
-  click(kBallCenter);
-  click(kBallCenter + Vector3d(0, 7, 0));
+  measureDistance(kBallCenter, kBallCenter + Vector3d(0, 7, 0));
   const auto file = folder() / "table.csv";
   onDialog(
       [&](QDialog& dialog)
@@ -382,9 +382,7 @@ TEST_F(MeasureWindow, ExportsATable)
 TEST_F(MeasureWindow, AsksBeforeATableReplacesAFile)
 {
   openBall();
-  key(Qt::Key_D);
-  click(kBallCenter);
-  click(kBallCenter + Vector3d(0, 7, 0));
+  measureDistance(kBallCenter, kBallCenter + Vector3d(0, 7, 0));
   const auto file = folder() / "table.csv";
   std::ofstream(file) << "mine";
   int asked = 0;
@@ -446,9 +444,7 @@ TEST_F(MeasureWindow, StatesTheDimensionsOfAStructure)
 TEST_F(MeasureWindow, ANameIsTypedAndTheCrosshairStays)
 {
   openBall();
-  key(Qt::Key_D);
-  click(kBallCenter + Vector3d(-8, 0, 0));
-  click(kBallCenter + Vector3d(8, 6, 0));
+  measureDistance(kBallCenter + Vector3d(-8, 0, 0), kBallCenter + Vector3d(8, 6, 0));
   QTest::keyClick(&axial(), Qt::Key_Escape);
   model().setCrosshair(kBallCenter + Vector3d(3, 3, 3));
   const Vector3d before = model().crosshair();
@@ -537,9 +533,7 @@ TEST_F(MeasureWindow, MeasuresAlikeInZoomedAndInTurnedSlices)
   for (int n = 0; n < 8; ++n)
     QTest::keyClick(&axial(), Qt::Key_Plus);
   ASSERT_GT(axial().plane().zoom, 4.0);
-  key(Qt::Key_D);
-  click(from);
-  click(to);
+  measureDistance(from, to);
   ASSERT_EQ(all().size(), 1U);
   EXPECT_NEAR(value(0), (to - from).norm(), 3.0 * axial().slice().mmPerPixel());
   EXPECT_LT((all()[0].points[0] - from).norm(), 2.0 * axial().slice().mmPerPixel());

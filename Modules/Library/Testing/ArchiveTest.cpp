@@ -112,6 +112,15 @@ std::string bytesOf(const fs::path& path)
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// An instrument of 60 mm along x, its tip at the origin.
+std::shared_ptr<const core::TriangleMesh> pickMesh()
+{
+  auto mesh = std::make_shared<core::TriangleMesh>();
+  mesh->vertices = {{0, 0, 0}, {60, 1.25F, 0}, {60, -1, 1}, {60, 0, -1}};
+  mesh->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  return mesh;
+}
+
 class Archives : public ::testing::Test
 {
 protected:
@@ -457,13 +466,11 @@ TEST_F(Archives, CanBeCancelled)
 TEST_F(Archives, BringTheInstrumentWithoutTheNameOfItsFile)
 {
   scene::Case value = m_library.open("ear");
-  auto pick = std::make_shared<core::TriangleMesh>();
-  pick->vertices = {{0, 0, 0}, {60, 1.25F, 0}, {60, -1, 1}, {60, 0, -1}};
-  pick->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  const auto pick = pickMesh();
   value.view.instrument.emplace();
   value.view.instrument->name = "Quincy pick.stl";
   value.view.instrument->axis = "x+";
-  value.view.instrument->mesh = std::shared_ptr<const core::TriangleMesh>(pick);
+  value.view.instrument->mesh = pick;
   m_library.save(value);
   const std::string object = value.view.instrument->object;
   EXPECT_EQ(m_library.open("ear").view.instrument->name, "Quincy pick.stl");
@@ -528,15 +535,13 @@ TEST_F(Archives, BringTheInstrumentWithoutTheNameOfItsFile)
 TEST_F(Archives, HaveAMeshThatIsTheInstrumentTooAmongTheMeshes)
 {
   scene::Case value = m_library.open("ear");
-  auto probe = std::make_shared<core::TriangleMesh>();
-  probe->vertices = {{0, 0, 0}, {60, 1.25F, 0}, {60, -1, 1}, {60, 0, -1}};
-  probe->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  const auto probe = pickMesh();
   value.view.instrument.emplace();
-  value.view.instrument->mesh = std::shared_ptr<const core::TriangleMesh>(probe);
+  value.view.instrument->mesh = probe;
   scene::MeshPart part;
   part.name = "probe";
   part.triangles = probe->triangles.size();
-  part.mesh = std::shared_ptr<const core::TriangleMesh>(probe);
+  part.mesh = probe;
   value.meshes.push_back(part);
   m_library.save(value);
   const std::string object = value.view.instrument->object;

@@ -129,21 +129,19 @@ void setImages(Measurement& measurement, std::vector<std::string> images)
 void setReadings(const Case& value, Measurement& measurement, std::optional<std::size_t> point)
 {
   const std::size_t count = measurement.points.size();
-  const auto isUsed = [&](const std::string& mr, bool beforeAlone)
-  {
-    for (std::size_t n = 0; n < count; ++n)
-      if (imageOf(measurement, n) == mr && !(beforeAlone && (!point || n == *point)))
-        return true;
-    return false;
-  };
+  const auto isSetNow = [&point](std::size_t n) { return !point || n == *point; };
+  std::vector<std::string> before, now; // images of the points that were set before, and now
+  for (std::size_t n = 0; n < count; ++n)
+    (isSetNow(n) ? now : before).push_back(imageOf(measurement, n));
   MrReadings& readings = measurement.readings;
-  readings.erase(std::remove_if(readings.begin(), readings.end(),
-                                [&](const MrReading& one) { return !isUsed(one.mr, true); }),
-                 readings.end());
-  for (std::size_t n = point.value_or(0); n < (point ? std::min(*point + 1, count) : count); ++n)
-    if (const std::string& image = imageOf(measurement, n); !image.empty())
-      if (const ImagePart* mr = findMr(value, image))
-        addReadings(readings, {readingOf(*mr)});
+  readings.erase(
+      std::remove_if(readings.begin(), readings.end(),
+                     [&before](const MrReading& one)
+                     { return std::find(before.begin(), before.end(), one.mr) == before.end(); }),
+      readings.end());
+  for (const std::string& image : now)
+    if (const ImagePart* mr = findMr(value, image))
+      addReadings(readings, {readingOf(*mr)});
 }
 
 std::string outdatedPoints(const Case& value, const Measurement& measurement, const std::string& mr)

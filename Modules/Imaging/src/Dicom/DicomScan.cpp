@@ -599,20 +599,28 @@ std::string missingEnds(const SeriesGeometry& geometry, const Numbering& numberi
                 "skull base that is needed is there.");
 }
 
-constexpr double kThicker = 1.5; // by which slices without a gap may stand apart
+/// Thickness of the slices, mm, if they stand farther apart than that allows without a gap.
+std::optional<double> thicknessWithGaps(const SeriesGeometry& geometry)
+{
+  constexpr double kThicker = 1.5; // by which slices without a gap may stand apart
+  if (!geometry.grid || geometry.slices.empty())
+    return std::nullopt;
+  const auto& thickness = geometry.slices.front().thickness;
+  if (!thickness || !(*thickness > 0.0) || geometry.grid->spacing()[2] <= kThicker * *thickness)
+    return std::nullopt;
+  return thickness;
+}
 
 /// What was not measured between the slices of a stack without a gap in its numbers, as those of an
 /// MR and of sets that were thinned out and numbered anew. Empty: nothing.
 std::string unmeasuredBetween(const SeriesGeometry& geometry)
 {
-  if (!geometry.grid || geometry.slices.empty() || !geometry.slices.front().thickness)
+  const auto thickness = thicknessWithGaps(geometry);
+  if (!thickness)
     return {};
   const double spacing = geometry.grid->spacing()[2];
-  const double thickness = *geometry.slices.front().thickness;
-  if (!(thickness > 0.0) || spacing <= kThicker * thickness)
-    return {};
-  return "The slices are " + decimals(thickness, 2) + " mm thick and stand " +
-         decimals(spacing, 2) + " mm apart: " + decimals(spacing - thickness, 2) +
+  return "The slices are " + decimals(*thickness, 2) + " mm thick and stand " +
+         decimals(spacing, 2) + " mm apart: " + decimals(spacing - *thickness, 2) +
          " mm from each to the next were not measured.";
 }
 
@@ -632,10 +640,10 @@ std::string numbersBetween(const SeriesGeometry& geometry)
   for (std::size_t k = 2; k < numbers.size(); ++k)
     if (numbers[k] - numbers[k - 1] != step)
       return {};
-  const double spacing = geometry.grid->spacing()[2];
-  const auto& thickness = slices.front().thickness;
-  if (std::abs(step) < 2.0 || !thickness || !(*thickness > 0.0) || spacing <= kThicker * *thickness)
+  const auto thickness = thicknessWithGaps(geometry);
+  if (std::abs(step) < 2.0 || !thickness)
     return {};
+  const double spacing = geometry.grid->spacing()[2];
   return "The slices are numbered in steps of " + decimals(std::abs(step), 0) + " and are " +
          decimals(*thickness, 2) + " mm thick, but stand " + decimals(spacing, 2) +
          " mm apart: those between them may be missing, and " + decimals(spacing - *thickness, 2) +

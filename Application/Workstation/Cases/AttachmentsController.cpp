@@ -68,8 +68,8 @@ bool AttachmentsController::attach()
   dialog.setFileMode(QFileDialog::ExistingFile);
   dialog.setNameFilters({embedded, linked, tr("All files (*)")});
   dialog.setDirectory(QDir::homePath());
-  return dialog.exec() == QDialog::Accepted &&
-         take(pathOf(dialog.selectedFiles().first()), dialog.selectedNameFilter() == linked);
+  const QString file = chosenFile(dialog);
+  return !file.isEmpty() && take(pathOf(file), dialog.selectedNameFilter() == linked);
 }
 
 // A link is read as a whole, for its hash: in the background.

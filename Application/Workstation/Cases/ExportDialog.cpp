@@ -288,8 +288,8 @@ void ExportDialog::browse()
             .arg(m_format->currentText().section(" (", 0, 0), m_format->currentData().toString()));
   dialog.setDirectory(QFileInfo(m_path->text()).absolutePath());
   dialog.selectFile(QFileInfo(m_path->text()).fileName());
-  if (dialog.exec() == QDialog::Accepted)
-    m_path->setText(dialog.selectedFiles().first());
+  if (const QString file = chosenFile(dialog); !file.isEmpty())
+    m_path->setText(file);
 }
 
 void ExportDialog::askAndAccept()

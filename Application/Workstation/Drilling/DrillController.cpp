@@ -12,6 +12,7 @@
 
 #include "ActiveDeviceController.h"
 #include "Application.h"
+#include "AskName.h"
 #include "DrillBar.h"
 #include "Theme.h"
 #include "ThreeDView.h"
@@ -274,9 +275,8 @@ void DrillController::chooseInstrument()
   const QString last = m_instrumentFile.isEmpty() ? m_fileRead : m_instrumentFile;
   if (!last.isEmpty())
     dialog.setDirectory(QFileInfo(last).absolutePath());
-  if (dialog.exec() != QDialog::Accepted)
-    return;
-  readSurface(dialog.selectedFiles().first());
+  if (const QString file = chosenFile(dialog); !file.isEmpty())
+    readSurface(file);
 }
 
 void DrillController::readSurface(const QString& file)

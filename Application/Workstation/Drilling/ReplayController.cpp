@@ -165,8 +165,9 @@ void ReplayController::openFile()
   std::error_code error;
   dialog.setDirectory(std::filesystem::is_directory(usual, error) ? QFile::decodeName(usual.c_str())
                                                                   : QDir::homePath());
-  if (dialog.exec() == QDialog::Accepted && m_model.hasCase())
-    open(pathOf(dialog.selectedFiles().first()));
+  const QString file = chosenFile(dialog);
+  if (!file.isEmpty() && m_model.hasCase())
+    open(pathOf(file));
 }
 
 void ReplayController::open(const std::filesystem::path& file)

@@ -490,7 +490,8 @@ void SegmentController::step()
 
 void SegmentController::edit(const std::string& structure)
 {
-  attempt([&] { run(m_editor.edit(structure), true); });
+  if (m_model.hasCase()) // a menu may be open while a case is closed
+    attempt([&] { run(m_editor.edit(structure), true); });
 }
 
 void SegmentController::create()

@@ -1,5 +1,6 @@
 #include "GuiTest.h"
 
+#include <algorithm>
 #include <deque>
 #include <fstream>
 #include <memory>
@@ -447,16 +448,16 @@ protected:
     inHundred(50) ? pressKey(*modal) : clickWithin(*modal);
   }
 
-  void play(int count)
+  /// `step` that many times, in the open window, while dialogs are answered.
+  void play(int count, const std::function<void()>& step)
   {
-    openAny("ball");
     m_actionFor.start();
     auto answers = std::make_unique<QObject>();
     answerSoon(*answers);
     for (m_count = 0; m_count < count; ++m_count)
     {
       m_actionFor.start();
-      act();
+      step();
       QTest::qWait(upTo(12));
       // An exception that nobody expected.
       auto* fault = window().findChild<Banner*>("faultBanner");
@@ -505,5 +506,35 @@ TEST_F(Monkey, NeverCrashesHangsOrFails)
 {
   EventLoopWatchdog watchdog(60.0);
   watchdog.begin("a user without a plan");
-  play(qEnvironmentVariable("PETROUS_MONKEY", "150").toInt());
+  openAny("ball");
+  play(qEnvironmentVariable("PETROUS_MONKEY", "150").toInt(), [this] { act(); });
+}
+
+// A menu or the palette may be open while a job opens another case.
+TEST_F(Monkey, WhatMenusOfferedForACaseDoesNoHarmWithoutIt)
+{
+  openAny("with an MR");
+  ASSERT_TRUE(waitFor([this] { return !window().busy(); }));
+  for (QMenu* menu : window().findChildren<QMenu*>())
+    emit menu->aboutToShow();
+  std::deque<QPointer<QAction>> offered;
+  for (QAction* one : window().findChildren<QAction*>())
+    if (mayBeChosen(*one))
+      offered.push_back(one);
+  action("Close the case")->trigger();
+  ASSERT_TRUE(waitFor([this] { return !action("Save")->isEnabled(); }));
+  std::shuffle(offered.begin(), offered.end(), m_chance);
+  int triggered = 0;
+  play(static_cast<int>(offered.size()),
+       [&]
+       {
+         const QPointer<QAction> one = offered.front();
+         offered.pop_front();
+         if (!one || !mayBeChosen(*one))
+           return;
+         did("action " + one->text());
+         ++triggered;
+         one->trigger();
+       });
+  EXPECT_GT(triggered, 100);
 }

@@ -72,18 +72,21 @@ bool mayReplace(QWidget& parent, const std::vector<std::filesystem::path>& files
   return box.clickedButton() == replace;
 }
 
+QString chosenFile(QFileDialog& dialog)
+{
+  return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().value(0) : QString();
+}
+
 std::filesystem::path askFile(QFileDialog& dialog)
 {
   dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setOption(QFileDialog::DontConfirmOverwrite);
-  while (dialog.exec() == QDialog::Accepted)
-  {
-    const std::filesystem::path file = pathOf(dialog.selectedFiles().value(0));
-    QWidget* parent = dialog.parentWidget();
-    if (mayReplace(parent ? *parent : dialog, {file}))
-      return file;
-  }
-  return {};
+  std::filesystem::path file;
+  QWidget* parent = dialog.parentWidget();
+  do
+    file = pathOf(chosenFile(dialog));
+  while (!file.empty() && !mayReplace(parent ? *parent : dialog, {file}));
+  return file;
 }
 
 } // namespace petrous::workstation

@@ -22,6 +22,10 @@ QString askName(QWidget& parent, const QString& title, const QString& text, cons
 /// Asks whether the files may be replaced that are there already; true if none is.
 bool mayReplace(QWidget& parent, const std::vector<std::filesystem::path>& files);
 
+/// The file or folder that the user names in a dialog; empty: none. A dialog can be accepted with
+/// no file in it.
+QString chosenFile(QFileDialog& dialog);
+
 /// The file to be written that the user names in a dialog, with the dialog's default suffix. Asks
 /// as mayReplace: the dialogs of some desktops ask for the name before the suffix is added. Empty:
 /// none.

@@ -52,6 +52,7 @@ namespace
 {
 
 constexpr int kShowLoading = 300;   // ms
+constexpr int kHeldAgain = 50;      // ms
 constexpr int kLookForDamage = 500; // ms; images are checked against their hash in another thread
 
 QString nameOf(const fs::path& path)
@@ -191,6 +192,14 @@ std::string unusedName(const std::string& wanted, const std::vector<std::string>
 }
 
 // By another program, since it was opened or saved.
+bool isDialogOpen()
+{
+  const QWidgetList all = QApplication::topLevelWidgets();
+  return QApplication::activePopupWidget() ||
+         std::any_of(all.begin(), all.end(),
+                     [](const QWidget* one) { return one->isModal() && one->isVisible(); });
+}
+
 bool isDeleted(const library::Library& library, const scene::Case& value)
 {
   try
@@ -235,6 +244,15 @@ CaseDocumentController::CaseDocumentController(presenters::WorkstationModel& mod
             m_model.notOpened();
             emit statusMessage(tr("Stopped; nothing was changed"));
             reopen();
+          });
+  connect(&m_heldAgain, &QTimer::timeout, this,
+          [this]
+          {
+            if (isDialogOpen())
+              return;
+            m_heldAgain.stop();
+            if (const BackgroundWork::Reply reply = std::exchange(m_held, {}))
+              reply();
           });
   connectBanners();
   watchForDamage();
@@ -341,7 +359,7 @@ void CaseDocumentController::bringBack()
 {
   if (!m_model.hasCase())
     return;
-  if (m_work.busy() || m_asking)
+  if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
   const std::string name = m_model.value().name;
   m_model.beginOpen(name); // else its journal would count as that of another program
@@ -352,7 +370,6 @@ void CaseDocumentController::bringBack()
          library.undelete(name);
          return [this]
          {
-           endWork();
            m_model.notOpened();
            save();
          };
@@ -387,7 +404,7 @@ void CaseDocumentController::open(const QStringList& what, const Purpose& purpos
 {
   if (what.isEmpty())
     return;
-  if (m_work.busy() || m_asking)
+  if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
   try
   {
@@ -416,7 +433,8 @@ void CaseDocumentController::open(const QStringList& what, const Purpose& purpos
   }
 }
 
-// Runs one task with a progress dialog.
+// Runs one task with a progress dialog. What it made is taken when no dialog or menu is open:
+// one may have been opened before the progress was shown, for the case that is open.
 void CaseDocumentController::work(const QString& title, BackgroundWork::Work work)
 {
   endWork();
@@ -450,7 +468,18 @@ void CaseDocumentController::work(const QString& title, BackgroundWork::Work wor
   emit working(title);
   try
   {
-    m_work.start(std::move(work));
+    m_work.start(
+        [this, work = std::move(work)](const core::Progress& progress) -> BackgroundWork::Reply
+        {
+          return [this, reply = work(progress)]
+          {
+            endWork();
+            if (!isDialogOpen())
+              return reply();
+            m_held = reply;
+            m_heldAgain.start(kHeldAgain);
+          };
+        });
   }
   catch (...)
   {
@@ -486,7 +515,7 @@ bool CaseDocumentController::leaveCase()
 
 void CaseDocumentController::openCase(const std::string& name)
 {
-  if (m_work.busy() || m_asking)
+  if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
   if (m_model.library().folder().empty() || !leaveCase())
     return;
@@ -499,7 +528,6 @@ void CaseDocumentController::openCase(const std::string& name)
              presenters::ReadCase::from(library, name, progress));
          return [this, read, name]
          {
-           endWork();
            m_removed.hide();
            m_model.opened(std::move(*read));
            emit statusMessage(
@@ -523,11 +551,7 @@ void CaseDocumentController::lookAt(const std::vector<fs::path>& paths, const Pu
            found.push_back(
                presenters::lookAt(path, progress.part(n / count, (n + 1.0) / count), expected));
          }
-         return [this, found = std::move(found), purpose]
-         {
-           endWork();
-           decide(found, purpose);
-         };
+         return [this, found = std::move(found), purpose] { decide(found, purpose); };
        });
 }
 
@@ -830,11 +854,7 @@ void CaseDocumentController::lookAtChosen(std::vector<Item> items, const Purpose
                                             isMesh ? std::nullopt : std::optional(Content::Labels));
            item.isSeen = true;
          }
-         return [this, items = std::move(items), purpose]
-         {
-           endWork();
-           decide(items, purpose);
-         };
+         return [this, items = std::move(items), purpose] { decide(items, purpose); };
        });
 }
 
@@ -971,7 +991,6 @@ void CaseDocumentController::makeCase(
            // `sources` keeps the folder of what it made until that is read.
            return [this, name, side, sources, from, error]() mutable
            {
-             endWork();
              const auto bits = askBits(error.what(), error.canKeep);
              if (!bits)
                return reopen();
@@ -991,7 +1010,6 @@ void CaseDocumentController::makeCase(
          const QString what = quotedNames(parts.labels);
          return [this, value, failures, report, isPatients, what]() mutable
          {
-           endWork();
            const QString named = words(value->name);
            if (askOutside(report, what) != Outside::Added)
              presenters::leaveOutside(*value, report);
@@ -1047,7 +1065,6 @@ void CaseDocumentController::keepInLibrary(scene::Case value)
          library.save(*kept, progress);
          return [this, kept]
          {
-           endWork();
            emit statusMessage(tr("%1 is in the library; %2 stays open")
                                   .arg(words(kept->name), words(m_model.value().name)));
          };
@@ -1076,7 +1093,6 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
         return [this, value, before, what, labels, shownAs, onlyImages, onlyLabels, isAny, failures,
                 report, earlier]() mutable
         {
-          endWork();
           const Target target{shownAs, words(before.name)};
           const Outside outside = isAny ? askOutside(report, labels) : Outside::Added;
           const bool isLeft = outside == Outside::AllLeft && onlyLabels;
@@ -1546,7 +1562,7 @@ bool CaseDocumentController::changeParts(const std::function<void()>& change)
 {
   if (!m_model.hasCase() || m_model.drilling())
     return false;
-  if (m_work.busy() || m_asking)
+  if (writing())
   {
     emit statusMessage(tr("One at a time: something is being read already"));
     return false;
@@ -1583,7 +1599,7 @@ void CaseDocumentController::restorePart()
 
 void CaseDocumentController::renamePart(const std::string& name)
 {
-  if (!m_model.hasCase() || m_work.busy() || m_asking)
+  if (!m_model.hasCase() || writing())
     return;
   const QScopedValueRollback<bool> asking(m_asking, true);
   const std::string to =
@@ -1734,7 +1750,7 @@ void CaseDocumentController::exportPart(const QString& what, const QString& part
 {
   if (!m_model.hasCase())
     return;
-  if (m_work.busy() || m_asking)
+  if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
   presenters::ExportOptions options;
   {
@@ -1793,7 +1809,6 @@ void CaseDocumentController::write(const presenters::ExportOptions& options)
               progress.part(0.1, 1.0));
           return [this, done, warnings, options]
           {
-            endWork();
             QString text =
                 tr("Written: %1%2").arg(QFile::decodeName(options.out.c_str()), phrase(done.words));
             if (done.voxelsVolume)
@@ -1806,11 +1821,7 @@ void CaseDocumentController::write(const presenters::ExportOptions& options)
         }
         catch (const presenters::ExportGridError& error)
         {
-          return [this, options, why = phrase(error.what())]
-          {
-            endWork();
-            offerCtGrid(options, why);
-          };
+          return [this, options, why = phrase(error.what())] { offerCtGrid(options, why); };
         }
       });
 }
@@ -1833,7 +1844,7 @@ void CaseDocumentController::offerCtGrid(const presenters::ExportOptions& option
   connect(box, &QMessageBox::buttonClicked, this,
           [this, options, onCt](QAbstractButton* clicked)
           {
-            if (clicked != onCt || !m_model.hasCase() || m_work.busy() || m_asking)
+            if (clicked != onCt || !m_model.hasCase() || writing())
               return;
             auto again = options;
             again.onCt = true;
@@ -1932,7 +1943,7 @@ void CaseDocumentController::archive()
 
 void CaseDocumentController::archive(const std::string& which)
 {
-  if (m_work.busy() || m_asking)
+  if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
   const bool isOpen = m_model.hasCase() && m_model.value().name == which;
   fs::path file;
@@ -1977,7 +1988,6 @@ void CaseDocumentController::archive(const std::string& which)
          const QString contents = contentsOf(library.open(name), done.planOnly);
          return [this, done, file, contents]
          {
-           endWork();
            QString text =
                (done.planOnly ? tr("The plan of “%1” is archived.") : tr("“%1” is archived."))
                    .arg(words(done.name));
@@ -2000,7 +2010,7 @@ void CaseDocumentController::restore()
       tr("Case archives (*%1);;All files (*)").arg(library::kArchiveEnding));
   if (file.isEmpty())
     return;
-  if (m_work.busy() || m_asking)
+  if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
   restore(pathOf(file), {});
 }
@@ -2021,7 +2031,6 @@ void CaseDocumentController::restore(const fs::path& file, const std::string& na
                library::restoreCase(library, file, {name, {}}, progress);
            return [this, done]
            {
-             endWork();
              QStringList notes;
              for (const std::string& note : done.notes)
                notes += phrase(note);
@@ -2041,7 +2050,6 @@ void CaseDocumentController::restore(const fs::path& file, const std::string& na
                name.empty() ? library::inspectArchive(file).name : name; // still in this thread
            return [this, file, taken]
            {
-             endWork();
              std::string other;
              {
                const QScopedValueRollback<bool> asking(m_asking, true);
@@ -2062,17 +2070,11 @@ void CaseDocumentController::restore(const fs::path& file, const std::string& na
 
 void CaseDocumentController::run(const QString& title, BackgroundWork::Work task)
 {
-  if (m_work.busy() || m_asking)
+  if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
   work(title,
        [this, task = std::move(task)](const core::Progress& progress) -> BackgroundWork::Reply
-       {
-         return [this, reply = task(progress)]
-         {
-           endWork();
-           reply();
-         };
-       });
+       { return [this, reply = task(progress)] { reply(); }; });
 }
 
 void CaseDocumentController::changeCase(const QString& title, const std::string& name,
@@ -2080,7 +2082,7 @@ void CaseDocumentController::changeCase(const QString& title, const std::string&
                                         std::function<void(library::Library&)> change,
                                         std::function<void()> changed)
 {
-  if (m_work.busy() || m_asking)
+  if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
   if (m_model.hasCase() && m_model.value().name == name && !closeToReopen())
     return;
@@ -2091,7 +2093,6 @@ void CaseDocumentController::changeCase(const QString& title, const std::string&
          change(library);
          return [this, after, changed]
          {
-           endWork();
            if (!m_reopen.empty())
              m_reopen = after;
            changed();
@@ -2104,7 +2105,7 @@ void CaseDocumentController::maintain(
     const QString& title,
     std::function<BackgroundWork::Reply(library::Library&, const core::Progress&)> task)
 {
-  if (m_work.busy() || m_asking)
+  if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
   if (m_model.hasCase() && !closeToReopen())
     return;
@@ -2114,7 +2115,6 @@ void CaseDocumentController::maintain(
        {
          return [this, reply = task(library, progress)]
          {
-           endWork();
            reply();
            reopen();
          };
@@ -2139,7 +2139,7 @@ void CaseDocumentController::reopen()
 
 void CaseDocumentController::makeSample()
 {
-  if (m_work.busy())
+  if (writing())
     return;
   const auto folder = std::make_shared<QTemporaryDir>();
   if (!folder->isValid())
@@ -2203,7 +2203,7 @@ void CaseDocumentController::saveAs()
 
 void CaseDocumentController::closeCase()
 {
-  if (m_work.busy() || m_asking)
+  if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
   if (!m_model.hasCase() || !leaveCase())
     return;
@@ -2225,6 +2225,7 @@ bool CaseDocumentController::mayLeave()
     return false;
   const FinishingNote note(m_window);
   m_work.dropInLoop(); // a cancelled import leaves nothing behind
+  m_held = {};
   endWork();
   m_preparation.dropInLoop();
   m_model.stopTouch();

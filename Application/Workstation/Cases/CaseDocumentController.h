@@ -10,6 +10,7 @@
 
 #include <QObject>
 #include <QStringList>
+#include <QTimer>
 
 #include "BackgroundWork.h"
 #include "ExportDialog.h"
@@ -99,8 +100,9 @@ public:
   /// the window stays open.
   bool mayLeave();
 
-  bool busy() const noexcept { return m_work.busy() || m_preparation.busy(); }
-  bool writing() const noexcept { return m_work.busy() || m_asking; } ///< or reading: one at a time
+  bool busy() const noexcept { return m_work.busy() || m_held || m_preparation.busy(); }
+  /// Or reading: one at a time.
+  bool writing() const noexcept { return m_work.busy() || m_held || m_asking; }
 
 signals:
   void statusMessage(const QString& line); ///< for the status bar
@@ -204,6 +206,8 @@ private:
   Banner& m_damaged;
   Banner& m_removed;
   BackgroundWork m_work;
+  BackgroundWork::Reply m_held; // of m_work, until no dialog is open
+  QTimer m_heldAgain;
   BackgroundWork m_preparation;
   std::unique_ptr<QProgressDialog> m_progress;     // of m_work
   std::optional<ExportDialog::Choices> m_exported; // what was chosen last

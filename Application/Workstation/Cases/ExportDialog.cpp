@@ -18,6 +18,7 @@
 #include <QStorageInfo>
 #include <QVBoxLayout>
 
+#include "Application.h"
 #include "AskName.h"
 #include "Theme.h"
 #include "WindowTexts.h"
@@ -35,6 +36,20 @@ constexpr int kMostTriangles = 100000000;
 
 // The table's data: a format's ending, or this for a folder of DICOM files.
 const QString kSeries = QStringLiteral("/");
+
+/// Of names that are another format's as well ("x.seg.nrrd"); empty: it can be written.
+QString whyNoFile(const presenters::ExportOptions& options)
+{
+  try
+  {
+    presenters::exportedFiles(options);
+    return {};
+  }
+  catch (const core::Error& error)
+  {
+    return toString(error);
+  }
+}
 
 } // namespace
 
@@ -266,6 +281,8 @@ void ExportDialog::check()
     advice = tr("Nothing can be written in %1.").arg(folder.filePath());
   else if (!isSeries() && !path.endsWith(m_format->currentData().toString(), Qt::CaseInsensitive))
     advice = tr("The name must end in %1.").arg(m_format->currentData().toString());
+  else if (const QString why = whyNoFile(options()); !why.isEmpty())
+    advice = why;
   else
   {
     isFine = true;

@@ -114,7 +114,7 @@ void ViewStateController::saveAs()
 {
   if (!m_model.hasCase())
     return;
-  const auto& saved = m_model.value().view.saved;
+  const auto saved = m_model.value().view.saved; // the case may be another one afterwards
   const QString name =
       askName(m_window, tr("Keep this view"),
               tr("Name of the view (camera and slices). One of that name is replaced."), {},
@@ -127,7 +127,7 @@ void ViewStateController::saveAs()
                       " views, and no more; type the name of one to replace it, or remove one "
                       "first");
               });
-  if (name.isEmpty())
+  if (name.isEmpty() || !m_model.hasCase())
     return;
   const bool replaces = saved.count(bytes(name)) > 0;
   const State now = present();

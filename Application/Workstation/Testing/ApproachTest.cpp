@@ -212,6 +212,39 @@ TEST_F(Approaches, BranchRenameAndDeleteAndUndoThem)
   EXPECT_TRUE(rows().contains(QString::fromUtf8("..▶ deeper")));
 }
 
+// Both cases have an approach "main".
+TEST_F(Approaches, AnotherCaseIsNotOpenedUnderADialog)
+{
+  saveApproaches();
+  saveBall("other");
+  openWindow("ball");
+  ASSERT_TRUE(settled());
+  int looks = 0;
+  onDialog(
+      [this, &looks](QDialog& dialog)
+      {
+        auto* ask = qobject_cast<QInputDialog*>(&dialog);
+        if (!ask)
+          return false;
+        EXPECT_EQ(window().model().value().name, "ball");
+        if (++looks < 50) // the other case is read meanwhile
+          return false;
+        ask->findChild<QLineEdit*>()->setText("translabyrinthine");
+        ask->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok)->click();
+        return true;
+      });
+  window().begin("other");
+  ASSERT_TRUE(window().busy());
+  action("Rename the approach…")->trigger();
+  ASSERT_TRUE(waitFor([this] { return window().model().value().name == "other"; }));
+  ASSERT_TRUE(settled());
+  EXPECT_EQ(looks, 50);
+  EXPECT_TRUE(library().open("other").dissection.history().find("main"));
+  const scene::Case ball = library().open("ball");
+  EXPECT_TRUE(ball.dissection.history().find("translabyrinthine"));
+  EXPECT_FALSE(ball.dissection.history().find("main"));
+}
+
 TEST_F(Approaches, ThumbnailsAreDrawnOfTheRowsThatAreSeen)
 {
   saveApproaches();

@@ -2156,6 +2156,8 @@ TEST_F(Import, APartIsExportedForOtherPrograms)
           EXPECT_TRUE(button->isEnabled()) << "what is proposed can be written";
           place->setText(QString::fromStdString((folder() / "nowhere" / "x").string()));
           EXPECT_FALSE(button->isEnabled());
+          place->setText(QString::fromStdString((folder() / "x.seg").string()) + ending);
+          EXPECT_EQ(button->isEnabled(), ending != std::string(".nrrd")) << "is for structures";
           place->setText(QString::fromStdString(path.string()));
           keepPicture(dialog, "export");
           EXPECT_TRUE(button->isEnabled());

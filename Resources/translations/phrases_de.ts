@@ -376,6 +376,22 @@
         <translation>%~1 blieben wie gewünscht weg, da der Fall schon Teile dieser Namen hat</translation>
     </message>
     <message>
+        <source>%~1 has a number, as other files of the folder give names that read the same; if a structure is there twice, remove one</source>
+        <translation>%~1 hat eine Nummer, da andere Dateien des Ordners Namen ergeben, die sich gleich lesen; ist eine Struktur doppelt da, entfernen Sie eine</translation>
+    </message>
+    <message>
+        <source>%~1 has a number, as other structures of the file have names that read the same; if a structure is there twice, remove one</source>
+        <translation>%~1 hat eine Nummer, da andere Strukturen der Datei Namen haben, die sich gleich lesen; ist eine Struktur doppelt da, entfernen Sie eine</translation>
+    </message>
+    <message>
+        <source>%~1 have a number, as other files of the folder give names that read the same; if a structure is there twice, remove one</source>
+        <translation>%~1 haben eine Nummer, da andere Dateien des Ordners Namen ergeben, die sich gleich lesen; ist eine Struktur doppelt da, entfernen Sie eine</translation>
+    </message>
+    <message>
+        <source>%~1 have a number, as other structures of the file have names that read the same; if a structure is there twice, remove one</source>
+        <translation>%~1 haben eine Nummer, da andere Strukturen der Datei Namen haben, die sich gleich lesen; ist eine Struktur doppelt da, entfernen Sie eine</translation>
+    </message>
+    <message>
         <source>%1: reaches %#2 mm beyond %~3, and a surface of this patient at most %#4 mm; look for a coordinate without its decimal point, and give it in mm</source>
         <translation>%1: reicht %#2 mm über %~3 hinaus, eine Oberfläche dieses Patienten höchstens %#4 mm; suchen Sie eine Koordinate ohne Dezimalpunkt, und geben Sie die Datei in mm</translation>
     </message>
@@ -394,6 +410,18 @@
     <message>
         <source>the %~1</source>
         <translation>das %~1</translation>
+    </message>
+    <message>
+        <source>%1: '%2' is the name of what the same file gives, too; leave one of them out, or give one another name with NAME=FILE, or a number with --rename-taken</source>
+        <translation>%1: „%2“ heißt schon, was dieselbe Datei ergibt; lassen Sie eines davon weg, oder geben Sie einem einen anderen Namen</translation>
+    </message>
+    <message>
+        <source>%1: '%2' is the name of what %3 gives, too; leave one of them out, or give one another name with NAME=FILE, or a number with --rename-taken</source>
+        <translation>%1: „%2“ heißt schon, was %3 ergibt; lassen Sie eines davon weg, oder geben Sie einem einen anderen Namen</translation>
+    </message>
+    <message>
+        <source>the same file</source>
+        <translation>dieselbe Datei</translation>
     </message>
     <message>
         <source>%1: does not say which side of the patient is left (NIfTI: qform or sform, NRRD: space, MetaImage: TransformMatrix), so the anatomy could be mirrored; export it again with its geometry, or say %2 ras (NIfTI's own) or lps (DICOM, ITK) if you know it</source>
@@ -6717,8 +6745,8 @@
         <translation>Fälle werden aufgelistet</translation>
     </message>
     <message>
-        <source>case '%1' is open in Petrous elsewhere (%~2); what is changed there is not saved over this: open it there again</source>
-        <translation>Der Fall „%1“ ist anderswo in Petrous geöffnet (%~2); was dort geändert wird, überschreibt dies nicht: Öffnen Sie ihn dort neu</translation>
+        <source>case '%1' is open in Petrous elsewhere (%~2); %~3</source>
+        <translation>Der Fall „%1“ ist anderswo in Petrous geöffnet (%~2); %~3</translation>
     </message>
     <message>
         <source>no case '%1' in %2; the library is empty</source>
@@ -6739,6 +6767,22 @@
     <message>
         <source>searching the notes</source>
         <translation>Notizen werden durchsucht</translation>
+    </message>
+    <message>
+        <source>case '%1' was renamed '%2' and changed by another program since it was opened; open it again and repeat what you did</source>
+        <translation>der Fall „%1“ wurde von einem anderen Programm in „%2“ umbenannt und geändert, seit er geöffnet wurde; öffnen Sie ihn neu, und wiederholen Sie Ihre Arbeit</translation>
+    </message>
+    <message>
+        <source>case '%1' was changed by another program since it was opened; open it again and repeat what you did</source>
+        <translation>der Fall „%1“ wurde von einem anderen Programm geändert, seit er geöffnet wurde; öffnen Sie ihn neu, und wiederholen Sie Ihre Arbeit</translation>
+    </message>
+    <message>
+        <source>case '%1' was deleted by another program since it was opened, and another case has its name; save it under another name</source>
+        <translation>der Fall „%1“ wurde von einem anderen Programm gelöscht, seit er geöffnet wurde, und ein anderer Fall hat seinen Namen; speichern Sie ihn unter einem anderen Namen</translation>
+    </message>
+    <message>
+        <source>case '%1' was deleted by another program since it was opened; bring it back ('petrous library undelete'), or save it under another name</source>
+        <translation>der Fall „%1“ wurde von einem anderen Programm gelöscht, seit er geöffnet wurde; holen Sie ihn zurück („Zurückholen“ in der Bibliothek), oder speichern Sie ihn unter einem anderen Namen</translation>
     </message>
     <message>
         <source>case '%1' is there already in %2; choose another name</source>
@@ -6789,12 +6833,8 @@
         <translation>das MR „%1“ wurde in der Lage des CT aufgenommen, was die Bibliothek, in die es kommt, nicht wissen kann; registrieren Sie es</translation>
     </message>
     <message>
-        <source>case '%1' was changed by another program since it was opened; open it again and repeat what you did</source>
-        <translation>der Fall „%1“ wurde von einem anderen Programm geändert, seit er geöffnet wurde; öffnen Sie ihn neu, und wiederholen Sie Ihre Arbeit</translation>
-    </message>
-    <message>
-        <source>case '%1' was deleted or renamed by another program since it was opened; bring it back ('petrous library undelete'), or save it under another name</source>
-        <translation>der Fall „%1“ wurde von einem anderen Programm gelöscht oder umbenannt, seit er geöffnet wurde; holen Sie ihn zurück („Zurückholen“ in der Bibliothek), oder speichern Sie ihn unter einem anderen Namen</translation>
+        <source>what is changed there is not saved over this: open it there again</source>
+        <translation>was dort geändert wird, überschreibt dies nicht: Öffnen Sie ihn dort neu</translation>
     </message>
     <message>
         <source>case '%1' is as it was</source>
@@ -6803,6 +6843,10 @@
     <message>
         <source>case '%1' is not kept</source>
         <translation>der Fall „%1“ wird nicht behalten</translation>
+    </message>
+    <message>
+        <source>case '%1' was renamed by another program since it was opened, and was saved under its new name, '%2'</source>
+        <translation>der Fall „%1“ wurde von einem anderen Programm umbenannt, seit er geöffnet wurde, und unter seinem neuen Namen gespeichert, „%2“</translation>
     </message>
     <message>
         <source>case '%1' is saved, but the disk reported an error; check the disk</source>
@@ -6831,6 +6875,10 @@
     <message>
         <source>case '%1' is renamed, but the disk reported an error; check the disk</source>
         <translation>der Fall „%1“ ist umbenannt, aber der Datenträger meldete einen Fehler; prüfen Sie ihn</translation>
+    </message>
+    <message>
+        <source>what is changed there is saved under this name</source>
+        <translation>was dort geändert wird, wird unter diesem Namen gespeichert</translation>
     </message>
     <message>
         <source>%1: is a folder; remove it by hand</source>

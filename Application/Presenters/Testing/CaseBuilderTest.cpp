@@ -1197,6 +1197,78 @@ TEST_F(CaseBuilder, NamesAllThatAreTakenAndAddsTheOthersWithoutThem)
   }
 }
 
+// In one layer and, as they overlap, in two: of the case's own names none is in the way.
+TEST_F(CaseBuilder, NumbersTheMasksOfAFolderThatReadTheSame)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  const auto write = [&](const std::filesystem::path& file, int at)
+  {
+    auto voxels = volume::makeZeroVolume<std::uint16_t>(grid);
+    voxels->at(at, 3, 3) = 1;
+    imaging::writeLabelFile(file, volume::makeLabelMap(voxels, {}));
+  };
+  for (const int second : {5, 4})
+  {
+    const auto folder = m_folder / ("masks at " + std::to_string(second));
+    std::filesystem::create_directory(folder);
+    write(folder / "Incus.nii", 4);
+    write(folder / "incus.nii", second);
+    if (std::filesystem::equivalent(folder / "Incus.nii", folder / "incus.nii"))
+      GTEST_SKIP() << "a file system without regard to case";
+    write(folder / "stapes.nii", 7);
+    m_sources.parts.labels = {{"", folder}};
+    const auto value = presenters::buildCase("ear", m_sources, {});
+    std::set<std::string> names;
+    std::string notes;
+    for (const auto& part : value.labels)
+    {
+      for (const auto& structure : part.structures)
+        names.insert(structure.name);
+      for (const std::string& note : part.notes)
+        notes += note + "\n";
+    }
+    EXPECT_EQ(names, (std::set<std::string>{"Incus", "incus 2", "stapes"}));
+    EXPECT_NE(notes.find("'incus 2' has a number, as other files of the folder give names that "
+                         "read the same"),
+              std::string::npos)
+        << notes;
+  }
+}
+
+TEST_F(CaseBuilder, SaysThatANameIsGivenTwiceAndNotThatTheCaseHasIt)
+{
+  std::filesystem::copy_file(m_folder / "incus.obj", m_folder / "anvil.obj");
+  const auto refusal = [&](const PartSource& second)
+  {
+    presenters::PartSources parts;
+    parts.meshes = {{"Incus", m_folder / "incus.obj"}, second};
+    auto value = presenters::buildCase("ear", m_sources, {});
+    std::string text;
+    try
+    {
+      presenters::addParts(value, parts, {});
+    }
+    catch (const presenters::NamesTaken& taken)
+    {
+      text = taken.what();
+    }
+    EXPECT_TRUE(value.meshes.empty());
+    const auto failures = presenters::addSoundParts(value, parts, {});
+    EXPECT_EQ(value.meshes.size(), 1u);
+    EXPECT_EQ(failures.size(), 1u);
+    EXPECT_EQ(failures.empty() ? std::string() : failures[0].why, text);
+    return text;
+  };
+  const std::string incus = (m_folder / "incus.obj").string();
+  const std::string anvil = (m_folder / "anvil.obj").string();
+  EXPECT_EQ(refusal({"incus", anvil})
+                .rfind(anvil + ": 'incus' is the name of what " + incus + " gives, too", 0),
+            0u);
+  EXPECT_EQ(refusal({"Incus", incus})
+                .rfind(incus + ": 'Incus' is the name of what the same file gives, too", 0),
+            0u);
+}
+
 TEST_F(CaseBuilder, RefusesAStructureTwiceAndLeavesTheCase)
 {
   m_sources.parts.labels = {{"", m_folder / "facial_nerve.nii.gz"}};

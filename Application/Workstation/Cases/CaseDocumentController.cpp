@@ -191,7 +191,6 @@ std::string unusedName(const std::string& wanted, const std::vector<std::string>
                          });
 }
 
-// By another program, since it was opened or saved.
 bool isDialogOpen()
 {
   const QWidgetList all = QApplication::topLevelWidgets();
@@ -200,19 +199,16 @@ bool isDialogOpen()
                      [](const QWidget* one) { return one->isModal() && one->isVisible(); });
 }
 
-bool isDeleted(const library::Library& library, const scene::Case& value)
+// The name under which another program deleted it since it was opened or saved; empty: it did not.
+std::string deletedName(const library::Library& library, const scene::Case& value)
 {
   try
   {
-    if (value.revision == 0 || library.contains(value.name))
-      return false;
-    const auto deleted = library.deleted();
-    return std::any_of(deleted.begin(), deleted.end(),
-                       [&value](const auto& one) { return one.name == value.name; });
+    return value.revision == 0 ? std::string() : library.deletedName(value.id);
   }
   catch (const std::exception&) // which is why it is not saved
   {
-    return false;
+    return {};
   }
 }
 
@@ -343,7 +339,8 @@ void CaseDocumentController::notSaved(const QString& why)
 {
   m_sayWhenSaved = false;
   m_whyNamed.clear();
-  const bool wasDeleted = m_model.hasCase() && isDeleted(m_model.library(), m_model.value());
+  const bool wasDeleted =
+      m_model.hasCase() && !deletedName(m_model.library(), m_model.value()).empty();
   m_unsaved.setButtonVisible("retrySave", !wasDeleted);
   m_unsaved.setButtonVisible("bringBack", wasDeleted);
   m_unsaved.setText(
@@ -361,13 +358,15 @@ void CaseDocumentController::bringBack()
     return;
   if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
-  const std::string name = m_model.value().name;
+  const std::string id = m_model.value().id;
+  const std::string deleted = deletedName(m_model.library(), m_model.value());
+  const std::string name = deleted.empty() ? m_model.value().name : deleted;
   m_model.beginOpen(name); // else its journal would count as that of another program
   work(tr("Bringing back %1").arg(words(name)),
-       [this, name,
+       [this, name, id,
         library = m_model.library()](const core::Progress&) mutable -> BackgroundWork::Reply
        {
-         library.undelete(name);
+         library.undelete(name, id);
          return [this]
          {
            m_model.notOpened();

@@ -1991,6 +1991,8 @@ TEST(WindowText, SaysWhatToDoInTheWindow)
        {"structure: named so and not as its file, whose name may be a patient's; NAME=FILE gives "
         "another name",
         "x.nii: structure 'a' is in the case already; give it another name with NAME=FILE",
+        "x.obj: 'a' is the name of what y.obj gives, too; leave one of them out, or give one "
+        "another name with NAME=FILE, or a number with --rename-taken",
         "CT: the surface of bone is put at 5; 'petrous appearance --iso' moves the surface.",
         "MR: The surface is where tissue begins, put at 5 by the image's histogram; what is "
         "drilled is this tissue, not bone. 'petrous appearance --iso' moves the surface.",

@@ -107,6 +107,8 @@ const std::vector<Hint>& hints()
       {"; NAME=FILE gives another name", "; F2 in the list gives it another name"},
       {"; give it another name with NAME=FILE", "; give it another name"},
       {"; give one with NAME=FILE", ""},
+      {", or give one another name with NAME=FILE, or a number with --rename-taken",
+       ", or give one another name"},
       {"; 'petrous scan' says what\\.", "."},
       {"; 'petrous scan' lists them, --series takes one\\.", "."},
       {": series [0-9.]+: ", ": "},

@@ -87,10 +87,77 @@ TEST_F(Maintenance, RenamesWithoutTouchingAnotherCase)
   EXPECT_FALSE(m_library.contains("a"));
   EXPECT_EQ(m_library.open("c").dissection.strokes().size(), 1u);
   EXPECT_EQ(m_library.list().at(1).name, "c");
-  // A program that opened it under its old name gets an error, and does not write a second case.
-  const auto why = refusal([&] { m_library.save(value); });
-  EXPECT_EQ(why.first, LibraryError::Reason::Conflict);
-  EXPECT_NE(why.second.find("save it under another name"), std::string::npos) << why.second;
+}
+
+// A program that opened it under its old name writes no second case, whatever became of that name.
+TEST_F(Maintenance, ARenamedCaseIsSavedUnderItsNewName)
+{
+  std::string told;
+  m_library.onNotice([&told](const std::string& notice) { told = notice; });
+  scene::Case value = make("a");
+  const std::string id = value.id;
+  m_library.rename("a", "b");
+  make("a", 20);
+  m_library.remove("a");
+  EXPECT_EQ(m_library.deletedName(id), "") << "another case was deleted";
+  value.iso = 250;
+  m_library.save(value);
+  EXPECT_EQ(value.name, "b");
+  EXPECT_NE(told.find("its new name, 'b'"), std::string::npos) << told;
+  ASSERT_EQ(m_library.list().size(), 1u);
+  EXPECT_EQ(m_library.open("b").iso, 250);
+
+  // Where another case has the old name.
+  m_library.rename("b", "c");
+  make("b", 20);
+  value.iso = 260;
+  m_library.save(value);
+  EXPECT_EQ(value.name, "c");
+  EXPECT_EQ(m_library.open("c").iso, 260);
+  EXPECT_EQ(m_library.open("b").ct.geometry.dims()[0], 20);
+
+  // A copy is another case.
+  m_library.copy("c", "copy");
+  m_library.remove("c");
+  EXPECT_EQ(refusal([&] { m_library.save(value); }).first, LibraryError::Reason::Conflict);
+  EXPECT_EQ(m_library.deletedName(id), "c");
+}
+
+TEST_F(Maintenance, ACaseThatWasRenamedAndChangedIsNotOverwritten)
+{
+  scene::Case value = make("a");
+  m_library.rename("a", "b");
+  scene::Case theirs = m_library.open("b");
+  theirs.iso = 250;
+  m_library.save(theirs);
+  value.iso = 260;
+  const auto [reason, text] = refusal([&] { m_library.save(value); });
+  EXPECT_EQ(reason, LibraryError::Reason::Conflict);
+  EXPECT_NE(text.find("renamed 'b' and changed"), std::string::npos) << text;
+  EXPECT_EQ(value.name, "a");
+  EXPECT_EQ(m_library.open("b").iso, 250);
+}
+
+TEST_F(Maintenance, OfTwoDeletedCasesOfOneNameTheOneOfTheIdComesBack)
+{
+  scene::Case value = make("a");
+  m_library.remove("a");
+  make("a", 20);
+  const auto [taken, why] = refusal([&] { m_library.save(value); });
+  EXPECT_EQ(taken, LibraryError::Reason::Conflict);
+  EXPECT_NE(why.find("deleted by another program since it was opened, and another case"),
+            std::string::npos)
+      << why;
+  m_library.remove("a");
+  const auto [reason, text] = refusal([&] { m_library.save(value); });
+  EXPECT_EQ(reason, LibraryError::Reason::Conflict);
+  EXPECT_NE(text.find("bring it back"), std::string::npos) << text;
+  EXPECT_EQ(m_library.deletedName(value.id), "a");
+  m_library.undelete("a", value.id);
+  EXPECT_EQ(m_library.deletedName(value.id), "");
+  EXPECT_EQ(m_library.open("a").ct.geometry.dims()[0], 16) << "and not the one deleted last";
+  m_library.save(value);
+  EXPECT_EQ(m_library.open("a").revision, value.revision);
 }
 
 TEST_F(Maintenance, ACopyIsACaseOfItsOwnAndSharesTheObjects)

@@ -226,7 +226,7 @@ TEST(OpenMark, WhoSavesRenamesOrDeletesIsToldOnceHeAsks)
   library.save(value);
   expectTold("ear", "open it there again");
   library.rename("ear", "left");
-  expectTold("left", "open it there again");
+  expectTold("left", "is saved under this name");
   library.copy("left", "another");
   EXPECT_TRUE(notices.empty());
   library.remove("left");

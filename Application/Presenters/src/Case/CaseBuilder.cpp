@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -1170,9 +1171,23 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
   }
   std::size_t layer = 0;
   const std::size_t before = value.labels.size();
+  const std::size_t stated =
+      std::accumulate(loaded.maps.begin(), loaded.maps.end(), std::size_t{0},
+                      [](std::size_t sum, const auto& map) { return sum + map.segments.size(); });
+  std::vector<std::string> numbered;
   for (auto& map : loaded.maps)
   {
     scene::LabelPart part;
+    const auto isOfSource = [&](const std::string& name)
+    {
+      return isAmong(part.structures, name) ||
+             std::any_of(value.labels.begin() + static_cast<std::ptrdiff_t>(before),
+                         value.labels.end(),
+                         [&name](const scene::LabelPart& other)
+                         { return isAmong(other.structures, name); });
+    };
+    const auto isTaken = [&](const std::string& name)
+    { return !scene::partReadAs(value, name).empty() || isAmong(part.structures, name); };
     for (volume::Segment& segment : map.segments)
     {
       progress.check("reading labels");
@@ -1186,27 +1201,19 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
         continue;
       }
       scene::StructurePart structure;
-      structure.name = source.name.empty()        ? segment.name
-                       : map.segments.size() == 1 ? source.name
-                                                  : source.name + " " + segment.name;
+      structure.name = source.name.empty() ? segment.name
+                       : stated == 1       ? source.name
+                                           : source.name + " " + segment.name;
       if (isFolder)
       {
         const std::string& own = ofFolder.at(segment.name);
         structure.name = source.name.empty() ? own : source.name + (own.empty() ? "" : " " + own);
-        const bool isTwice = std::any_of(reports.begin(), reports.end(),
-                                         [&](const StructureReport& one) {
-                                           return one.status == StructureReport::Status::Read &&
-                                                  one.name == structure.name;
-                                         });
+        const bool isTwice = isOfSource(structure.name);
         if (structure.name.empty() || structure.name == source.name || isTwice)
-          structure.name = scene::freeName(
-              structure.name.empty() ? "structure" : structure.name,
-              [&](const std::string& name)
-              {
-                return !scene::partReadAs(value, name).empty() ||
-                       std::any_of(part.structures.begin(), part.structures.end(),
-                                   [&](const auto& one) { return one.name == name; });
-              });
+          structure.name =
+              scene::freeName(structure.name.empty() ? "structure" : structure.name, isTaken);
+        if (isTwice && !own.empty())
+          numbered.push_back(structure.name);
       }
       else if (source.name.empty() && loaded.isNamedAfterFile)
         structure.name = nameFromFile(
@@ -1214,21 +1221,12 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
             [&value](const std::string& name) { return !scene::partReadAs(value, name).empty(); },
             notes);
       else if (source.name.empty())
-        structure.name = validName(
-            structure.name,
-            [&](const std::string& name)
-            {
-              const auto isCalled = [read = scene::asRead(name)](const auto& one)
-              { return scene::asRead(one.name) == read; };
-              return std::any_of(part.structures.begin(), part.structures.end(), isCalled) ||
-                     std::any_of(value.labels.begin() + static_cast<std::ptrdiff_t>(before),
-                                 value.labels.end(),
-                                 [&](const scene::LabelPart& other) {
-                                   return std::any_of(other.structures.begin(),
-                                                      other.structures.end(), isCalled);
-                                 });
-            },
-            notes);
+        structure.name = validName(structure.name, isOfSource, notes);
+      else if (stated > 1 && isOfSource(structure.name))
+      {
+        structure.name = scene::freeName(structure.name, isTaken);
+        numbered.push_back(structure.name);
+      }
       const std::string wanted = structure.name;
       structure.name = askedName(value, source, wanted, part.structures, notes);
       structure.index = segment.index;
@@ -1304,6 +1302,11 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     notes.push_back(scene::listed(taken) + " left out as asked, as the case has " +
                     (taken.size() == 1 ? "a part of this name" : "parts of these names") +
                     " already");
+  if (!numbered.empty())
+    notes.push_back(scene::listed(numbered) + (numbered.size() == 1 ? " has" : " have") +
+                    " a number, as other " +
+                    (isFolder ? "files of the folder give" : "structures of the file have") +
+                    " names that read the same; if a structure is there twice, remove one");
   auto& first = value.labels[before].notes;
   first.insert(first.begin(), notes.begin(), notes.end());
   if (report)
@@ -1369,6 +1372,51 @@ void addMesh(scene::Case& value, const PartSource& source, const core::Progress&
     part.look.color = appearance::DistinctColors(colorsOf(value)).next();
   value.meshes.push_back(std::move(part));
 }
+
+// The names of parts that are given in one go, by what they come from: one that another of them has
+// is not said to be in the case already.
+class GivenNames
+{
+public:
+  /// Adds what `source` gives to `value`.
+  template <class Add>
+  void record(const scene::Case& value, const PartSource& source, const Add& add)
+  {
+    const std::vector<std::string> before = scene::partNames(value);
+    try
+    {
+      add();
+    }
+    catch (const NamesTaken& taken)
+    {
+      refuse(source, taken);
+      throw;
+    }
+    for (const std::string& name : scene::partNames(value))
+      if (std::find(before.begin(), before.end(), name) == before.end())
+        m_files[scene::asRead(name)] = source.path;
+  }
+
+private:
+  void refuse(const PartSource& source, const NamesTaken& taken) const
+  {
+    for (const std::string& name : taken.names)
+      if (const auto file = m_files.find(scene::asRead(name)); file != m_files.end())
+      {
+        NamesTaken twice(source.path.string() + ": '" + name + "' is the name of what " +
+                             (file->second == source.path ? std::string("the same file")
+                                                          : file->second.string()) +
+                             " gives, too; leave one of them out, or give one another name with "
+                             "NAME=FILE, or a number with --rename-taken",
+                         name);
+        twice.names = taken.names;
+        twice.others = taken.others;
+        throw twice;
+      }
+  }
+
+  std::map<std::string, fs::path> m_files; // by asRead
+};
 
 } // namespace
 
@@ -1681,12 +1729,13 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
   };
   if (!parts.mr.empty())
     settleDrawnOn(next);
+  GivenNames given;
   for (const PartSource& source : parts.mr)
-    addMr(next, source, parts.salted, share());
+    given.record(next, source, [&] { addMr(next, source, parts.salted, share()); });
   for (const PartSource& source : parts.labels)
-    addLabels(next, source, parts, share(), &reports);
+    given.record(next, source, [&] { addLabels(next, source, parts, share(), &reports); });
   for (const PartSource& source : parts.meshes)
-    addMesh(next, source, share());
+    given.record(next, source, [&] { addMesh(next, source, share()); });
   for (const auto* kind : {&parts.mr, &parts.labels, &parts.meshes})
     for (const PartSource& source : *kind)
       next.origins.push_back({source.path, fs::file_time_type::clock::now()});
@@ -1753,6 +1802,7 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
   scene::Case next = value;
   const std::size_t count = parts.mr.size() + parts.labels.size() + parts.meshes.size();
   std::size_t done = 0;
+  GivenNames given;
   const auto add = [&](std::vector<PartSource> PartSources::*kind)
   {
     for (const PartSource& source : parts.*kind)
@@ -1767,7 +1817,7 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
       const std::size_t before = failures.size();
       try
       {
-        addParts(next, one, part, report);
+        given.record(next, source, [&] { addParts(next, one, part, report); });
       }
       catch (const core::CancelledError&)
       {

@@ -285,13 +285,13 @@ void Library::noticeOpeners()
   m_state->noticesOpeners = true;
 }
 
-void Library::noticeOpenersOf(const std::string& name, const std::string& id) const
+void Library::noticeOpenersOf(const std::string& name, const std::string& id,
+                              const std::string& advice) const
 {
   if (!m_notice || !m_state->noticesOpeners)
     return;
   if (const std::string openersText = toString(openersOf(m_folder, id)); !openersText.empty())
-    m_notice("case '" + name + "' is open in Petrous elsewhere (" + openersText +
-             "); what is changed there is not saved over this: open it there again");
+    m_notice("case '" + name + "' is open in Petrous elsewhere (" + openersText + "); " + advice);
 }
 
 core::FileLock Library::lockForWriting(const core::Progress& progress) const
@@ -431,6 +431,41 @@ std::vector<CaseSummary> Library::search(const std::string& text) const
   filter.text = text;
   return search(filter);
 }
+
+namespace
+{
+
+// What the case is called now: another program may have renamed it, and given its name to another.
+std::string nameInLibrary(const fs::path& cases, const scene::Case& value)
+{
+  if (idIn(cases / (value.name + ".json"), value.name) == value.id)
+    return value.name;
+  const std::vector<std::string> names = namesOf(cases, value.id);
+  return names.size() == 1 ? names.front() : value.name;
+}
+
+// Why a case is not saved over `present`, which has its name in the library, `name`.
+std::string conflictText(const scene::Case& value, const std::string& name,
+                         const scene::Case& present)
+{
+  if (present.revision > 0 && present.id == value.id && name != value.name)
+    return "case '" + value.name + "' was renamed '" + name +
+           "' and changed by another program since it was opened; open it again and repeat what "
+           "you did";
+  if (present.revision > 0 && present.id == value.id)
+    return "case '" + value.name +
+           "' was changed by another program since it was opened; open it again and repeat what "
+           "you did";
+  if (present.revision > 0)
+    return "case '" + value.name +
+           "' was deleted by another program since it was opened, and another case has its name; "
+           "save it under another name";
+  return "case '" + value.name +
+         "' was deleted by another program since it was opened; bring it back ('petrous library "
+         "undelete'), or save it under another name";
+}
+
+} // namespace
 
 std::string caseLike(const fs::path& library, const std::string& name)
 {
@@ -834,7 +869,8 @@ void Library::save(scene::Case& value, const core::Progress& progress)
       { storeParts(*this, next, store, progress); },
       progress);
   if (!isFirst)
-    noticeOpenersOf(value.name, value.id);
+    noticeOpenersOf(value.name, value.id,
+                    "what is changed there is not saved over this: open it there again");
 }
 
 void Library::saveWith(scene::Case& value,
@@ -846,26 +882,29 @@ void Library::saveWith(scene::Case& value,
   makeFolder(objectFolder());
   const core::FileLock lock = lockForWriting(progress);
 
-  const fs::path path = manifestPath(value.name);
-  const bool there = contains(value.name);
+  const std::string former = value.name;
+  std::string name = former;
   scene::Case present;
   if (value.revision == 0)
-    refuseTakenName(m_folder, value.name);
-  if (value.revision == 0)
-    setOrphanAside(m_folder, value.name);
+  {
+    refuseTakenName(m_folder, name);
+    setOrphanAside(m_folder, name);
+  }
   else
   {
-    if (there)
-      present = readManifest(value.name);
+    if (contains(name))
+      present = readManifest(name);
+    if (present.id != value.id)
+    {
+      name = nameInLibrary(m_folder / "cases", value);
+      if (name != former)
+        present = readManifest(name);
+    }
     if (present.revision != value.revision || present.id != value.id)
-      throw LibraryError(
-          Reason::Conflict,
-          "case '" + value.name +
-              (there ? "' was changed by another program since it was opened; open it again and "
-                       "repeat what you did"
-                     : "' was deleted or renamed by another program since it was opened; bring it "
-                       "back ('petrous library undelete'), or save it under another name"));
+      throw LibraryError(Reason::Conflict, conflictText(value, name, present));
   }
+  const fs::path path = manifestPath(name);
+  const bool there = present.revision > 0;
 
   const auto started = std::chrono::steady_clock::now();
   removeLeftovers(objectFolder());
@@ -876,6 +915,7 @@ void Library::saveWith(scene::Case& value,
   try
   {
     scene::Case next = value;
+    next.name = name;
     storeObjects(next, store);
     refuseMissing(next, present, m_folder / "cases", store);
     if (next.revision == 0)
@@ -906,6 +946,11 @@ void Library::saveWith(scene::Case& value,
   }
   try
   {
+    if (m_notice && name != former)
+      m_notice("case '" + former +
+               "' was renamed by another program since it was opened, and was saved under its new "
+               "name, '" +
+               name + "'");
     if (!onDisk && m_notice)
       m_notice("case '" + value.name +
                "' is saved, but the disk reported an error; check the disk");
@@ -982,12 +1027,13 @@ std::string Library::saveDrilled(scene::Case& value, const SavedState& base,
 std::optional<scene::Case> Library::mergedWithSaved(const scene::Case& value,
                                                     const SavedState& base) const
 {
-  if (!contains(value.name) || value.dissection.strokes().size() < base.strokes.size())
+  if (value.dissection.strokes().size() < base.strokes.size())
     return std::nullopt;
   try
   {
     bool isUnchanged = true;
-    scene::Case now = manifestIn(manifestPath(value.name), value.name, isUnchanged);
+    const std::string name = nameInLibrary(m_folder / "cases", value);
+    scene::Case now = manifestIn(manifestPath(name), name, isUnchanged);
     if (now.id != base.id || !goesOnFrom(now, base))
       return std::nullopt;
     noticeDoubts(now, isUnchanged);

@@ -212,24 +212,6 @@ bool writeName(const fs::path& manifest, const std::string& from, const std::str
 
 } // namespace
 
-namespace
-{
-
-// Of a case that may be damaged.
-std::string idIn(const fs::path& manifest, const std::string& name)
-{
-  try
-  {
-    return manifestIn(manifest, name).id;
-  }
-  catch (const core::Error&)
-  {
-    return {};
-  }
-}
-
-} // namespace
-
 void Library::rename(const std::string& from, const std::string& to)
 {
   scene::checkCaseName(from);
@@ -289,7 +271,7 @@ void Library::rename(const std::string& from, const std::string& to)
   }
   if (!onDisk && m_notice)
     m_notice("case '" + to + "' is renamed, but the disk reported an error; check the disk");
-  noticeOpenersOf(to, idIn(manifestPath(to), to));
+  noticeOpenersOf(to, idIn(manifestPath(to), to), "what is changed there is saved under this name");
 }
 
 void Library::remove(const std::string& name)
@@ -335,15 +317,29 @@ std::vector<DeletedCase> Library::deleted() const
   return cases;
 }
 
-void Library::undelete(const std::string& name)
+std::string Library::deletedName(const std::string& id) const
+{
+  const fs::path folder = m_folder / "cases";
+  if (id.empty() || !namesOf(folder, id).empty())
+    return {};
+  for (const DeletedFile& file : deletedIn(folder))
+    if (idIn(file.manifest, file.name) == id)
+      return file.name;
+  return {};
+}
+
+void Library::undelete(const std::string& name, const std::string& id)
 {
   scene::checkCaseName(name);
   if (!fs::is_directory(m_folder / "cases"))
     throw LibraryError(Reason::NotFound, "no case '" + name + "' was deleted here");
   const core::FileLock lock = lockForWriting();
   const std::vector<DeletedFile> files = deletedIn(m_folder / "cases");
-  const auto file = std::find_if(files.begin(), files.end(),
-                                 [&name](const DeletedFile& one) { return one.name == name; });
+  const auto file =
+      std::find_if(files.begin(), files.end(),
+                   [&](const DeletedFile& one) {
+                     return one.name == name && (id.empty() || idIn(one.manifest, one.name) == id);
+                   });
   if (file == files.end())
   {
     std::string there;

@@ -230,6 +230,29 @@ std::vector<std::string> namesIn(const fs::path& folder)
   return names;
 }
 
+std::string idIn(const fs::path& manifest, const std::string& name)
+{
+  try
+  {
+    return manifestIn(manifest, name).id;
+  }
+  catch (const core::Error&)
+  {
+    return {};
+  }
+}
+
+std::vector<std::string> namesOf(const fs::path& folder, const std::string& id)
+{
+  std::vector<std::string> names;
+  if (id.empty())
+    return names;
+  for (const std::string& name : namesIn(folder))
+    if (idIn(folder / (name + ".json"), name) == id)
+      names.push_back(name);
+  return names;
+}
+
 std::string deletedEnding(std::uint64_t number)
 {
   return kDeletedEnding + std::to_string(number);

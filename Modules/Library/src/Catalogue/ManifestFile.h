@@ -31,6 +31,9 @@ std::string withChecksum(std::string manifest);
 /// which have no checksum.
 bool hasItsChecksum(std::string_view manifest);
 
+/// The ID of the case; empty if the manifest cannot be read.
+std::string idIn(const std::filesystem::path& manifest, const std::string& name);
+
 /// What the user is told of a manifest that has not its checksum.
 std::string changedText(const std::filesystem::path& path, const std::string& name);
 
@@ -77,6 +80,10 @@ std::string misplacedText(const std::filesystem::path& path, const std::string& 
 /// Names of all cases, sorted, including damaged ones. Empty if the folder does not exist; throws
 /// LibraryError (Damaged) if it cannot be read.
 std::vector<std::string> namesIn(const std::filesystem::path& folder);
+
+/// The names of the cases of this ID, sorted: several only where files were copied by hand. None of
+/// an empty ID. Reads all manifests. Throws like namesIn.
+std::vector<std::string> namesOf(const std::filesystem::path& folder, const std::string& id);
 
 /// A deleted case: its files stay in the folder, with ".deleted-NUMBER" after their names (instead
 /// of the manifest's ".json").

@@ -105,7 +105,8 @@ struct Collected
 ///
 /// Saving is atomic: objects first, then the manifest by temporary file, fsync and rename, so a
 /// case on disk is always in the old or the new state. Several programs may use one library: a save
-/// is refused if the case was changed since it was opened.
+/// is refused if the case was changed since it was opened. Which case it is tells Case::id: one
+/// that was only renamed since is saved under its new name, also if another case has the old one.
 class Library
 {
 public:
@@ -174,7 +175,8 @@ public:
 
   /// Writes new objects, those of parts in memory whose objects are gone, and the manifest;
   /// remembers Case::origins (isSource) and clears them. A case with revision 0 is new: its name
-  /// must not be in use. On any exception the library and the case are unchanged. Throws
+  /// must not be in use. One that was renamed gets its new name, told by the notice. On any
+  /// exception the library and the case are unchanged. Throws
   /// LibraryError: NotFound naming what the case would refer to and is not there, unless it was
   /// damaged before: the case on disk, or of a new one any case, refers to it; CancelledError.
   void save(scene::Case& value, const core::Progress& progress = {});
@@ -220,8 +222,12 @@ public:
   /// Until collectGarbage a deleted case stays in the library, with what was drilled and not saved.
   std::vector<DeletedCase> deleted() const; ///< newest first
   /// Brings back the case of this name that was deleted last. Throws LibraryError: NotFound,
-  /// NameTaken, Damaged if its manifest cannot be read.
-  void undelete(const std::string& name);
+  /// NameTaken, Damaged if its manifest cannot be read. `id`, if not empty: of the cases of this
+  /// name that were deleted, the one of this ID.
+  void undelete(const std::string& name, const std::string& id = {});
+  /// The name under which the case of this ID was deleted and can be brought back; empty: it was
+  /// not deleted, or is back under any name.
+  std::string deletedName(const std::string& id) const;
 
   /// The copy shares the objects. Throws like `open` and `save`.
   void copy(const std::string& from, const std::string& to, const core::Progress& progress = {});
@@ -258,7 +264,8 @@ private:
   scene::Case readManifest(const std::string& name) const;
   void attach(scene::Case& value) const;
   void noticeDoubts(const scene::Case& value, bool isUnchanged) const;
-  void noticeOpenersOf(const std::string& name, const std::string& id) const;
+  void noticeOpenersOf(const std::string& name, const std::string& id,
+                       const std::string& advice) const;
   core::FileLock lockForWriting(const core::Progress& progress = {}) const;
   std::vector<std::pair<std::filesystem::path, std::string>>
   mappedImages(const scene::Case& value) const;

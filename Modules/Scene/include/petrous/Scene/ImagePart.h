@@ -31,7 +31,8 @@ struct PatientHash
   std::string id, issuer; ///< of the ID
   std::string name;
   std::string birthDate; ///< with the name: comparable only where the names are equal
-  /// Of the words of the name, to find one in a text.
+  /// Of the words of the name and of their spellings without accents and joined, to find one in a
+  /// text (ADR 0063). Images that an older version imported have those of the words alone, or none.
   std::vector<std::string> nameParts = {};
 
   bool empty() const { return id.empty() && name.empty() && birthDate.empty(); }

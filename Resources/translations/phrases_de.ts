@@ -8581,14 +8581,6 @@
         <translation>Messung: %~1</translation>
     </message>
     <message>
-        <source>the MR '%1' lies elsewhere since points were set on it: their error is not known</source>
-        <translation>das MR „%1“ liegt anders, seit Punkte darauf gesetzt wurden: Ihr Fehler ist unbekannt</translation>
-    </message>
-    <message>
-        <source>the MR '%1', on which points were set, is not in the case any more as it was: their error is not known</source>
-        <translation>das MR „%1“, auf dem Punkte gesetzt wurden, ist nicht mehr so im Fall, wie es war: Ihr Fehler ist unbekannt</translation>
-    </message>
-    <message>
         <source>a measurement must be a mark, distance, length, angle, area or thickness</source>
         <translation>eine Messung muss Marke, Abstand, Länge, Winkel, Fläche oder Dicke sein</translation>
     </message>
@@ -8619,6 +8611,18 @@
     <message>
         <source>case '%1' has no measurement '%2'%3</source>
         <translation>der Fall „%1“ hat keine Messung „%2“%3</translation>
+    </message>
+    <message>
+        <source>the MR '%1', on which points were set, is not in the case any more: their error is not known</source>
+        <translation>das MR „%1“, auf dem Punkte gesetzt wurden, ist nicht mehr im Fall: Ihr Fehler ist unbekannt</translation>
+    </message>
+    <message>
+        <source>the MR '%1', on which points were set, is not registered any more: their error is not known</source>
+        <translation>das MR „%1“, auf dem Punkte gesetzt wurden, ist nicht mehr registriert: Ihr Fehler ist unbekannt</translation>
+    </message>
+    <message>
+        <source>the MR '%1', on which points were set, lies elsewhere since: their error is not known</source>
+        <translation>das MR „%1“, auf dem Punkte gesetzt wurden, liegt seither anders: Ihr Fehler ist unbekannt</translation>
     </message>
     <message>
         <source>the MR '%1', from which it was made, is not in the case any more: its error is not known until it is made anew</source>

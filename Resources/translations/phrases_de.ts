@@ -3258,12 +3258,12 @@
         <translation>%1: abgebrochen; nichts wurde geändert</translation>
     </message>
     <message>
-        <source>is in use by another program; wait until it has ended</source>
-        <translation>ist in einem anderen Programm offen; warten Sie, bis es beendet ist</translation>
-    </message>
-    <message>
         <source>cannot be locked: this drive has no file locks, as some network drives; choose a folder on a local disk</source>
         <translation>lässt sich nicht sperren: Dieses Laufwerk kennt keine Dateisperren, wie manche Netzlaufwerke; wählen Sie einen Ordner auf einem lokalen Datenträger</translation>
+    </message>
+    <message>
+        <source>is in use by another program; wait until it has ended</source>
+        <translation>ist in einem anderen Programm offen; warten Sie, bis es beendet ist</translation>
     </message>
     <message>
         <source>grid: every dimension must be at least 1, not %#1 x %#2 x %#3</source>
@@ -6585,10 +6585,6 @@
         <translation>%#1 Vermerke vom Import nennen, was der Fall nicht hat oder inzwischen anders nennt, und bleiben in dieser Bibliothek</translation>
     </message>
     <message>
-        <source>%~1 of case '%2'</source>
-        <translation>%~1 des Falls „%2“</translation>
-    </message>
-    <message>
         <source>a name of no or too many bytes</source>
         <translation>ein Name von keinem oder zu vielen Byte</translation>
     </message>
@@ -6883,6 +6879,10 @@
     <message>
         <source>%~1 of deleted case '%2'</source>
         <translation>%~1 des gelöschten Falls „%2“</translation>
+    </message>
+    <message>
+        <source>%~1 of case '%2'</source>
+        <translation>%~1 des Falls „%2“</translation>
     </message>
     <message>
         <source>needed by: '%1' (deleted)</source>

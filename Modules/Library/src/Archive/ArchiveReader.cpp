@@ -413,7 +413,7 @@ std::size_t addObjects(const Archive& archive, ObjectStore& store, const core::P
     if (store.contains(object))
       try
       {
-        checkObject(store.path(object), "an object", part);
+        checkObject(store.path(object), {"an object"}, part);
         isSound = true;
       }
       catch (const LibraryError&)
@@ -553,14 +553,14 @@ void checkContents(const scene::Case& value, const ObjectStore& store, const fs:
           [&]
           {
             dissection::BrickDraft alone(untouched);
-            dissection::applyDeltas(store.readChecked(strokes[n]->object, "a stroke"),
+            dissection::applyDeltas(store.readChecked(strokes[n]->object, {"a stroke"}),
                                     dissection::Step::Redo, alone);
           });
   for (const std::size_t n : line)
     check("a stroke removes what was removed before",
           [&]
           {
-            dissection::applyDeltas(store.readChecked(strokes[n]->object, "a stroke"),
+            dissection::applyDeltas(store.readChecked(strokes[n]->object, {"a stroke"}),
                                     dissection::Step::Redo, draft);
           });
   for (const scene::Attachment& one : value.attachments)

@@ -6381,6 +6381,10 @@
         <translation>„%1“ ist beschädigt</translation>
     </message>
     <message>
+        <source>checking a file</source>
+        <translation>Datei wird geprüft</translation>
+    </message>
+    <message>
         <source>an object</source>
         <translation>ein Objekt</translation>
     </message>
@@ -7515,6 +7519,10 @@
     <message>
         <source>%1: folders that are made there are gone at once; is TMPDIR right?</source>
         <translation>%1: dort angelegte Ordner sind sofort wieder weg; stimmt TMPDIR?</translation>
+    </message>
+    <message>
+        <source>copying a file</source>
+        <translation>Datei wird kopiert</translation>
     </message>
     <message>
         <source>the thumbnail is as it was</source>
@@ -9564,10 +9572,6 @@
     <message>
         <source>repairing</source>
         <translation>Reparatur</translation>
-    </message>
-    <message>
-        <source>checking</source>
-        <translation>Prüfung</translation>
     </message>
     <message>
         <source>scanning the phantom</source>

@@ -388,7 +388,7 @@ void readThrough(ZipReader::Stream& in, std::uint64_t bytes, const fs::path& fil
   std::uint64_t done = 0;
   for (std::size_t got = block.size(); got == block.size(); done += got)
   {
-    progress.check("checking");
+    progress.check("checking a file");
     got = in.read(block.data(), block.size());
     if (got > bytes + bytes / 64 + kPacking - done)
       throwUnsound(file, "'" + entry + "' is larger than stated");

@@ -98,26 +98,36 @@ std::string Sha256::hexadecimal()
   return text;
 }
 
-std::string sha256OfFile(const fs::path& path, const core::Progress& progress)
-try
+std::string copied(const core::InputFile& file,
+                   const std::function<void(const char*, std::size_t)>& write,
+                   const core::Progress& progress, const char* task)
 {
-  const core::InputFile file(path);
   Sha256 hash;
   std::vector<char> block(1 << 20);
   for (std::uintmax_t done = 0; done < file.size();)
   {
-    progress.report(static_cast<double>(done) / static_cast<double>(file.size()), "checking");
+    progress.report(static_cast<double>(done) / static_cast<double>(file.size()), task);
     const ssize_t got =
         ::pread(file.descriptor(), block.data(), block.size(), static_cast<off_t>(done));
     if (got < 0 && errno == EINTR)
       continue;
     if (got <= 0)
       throw LibraryError(LibraryError::Reason::Damaged,
-                         core::printable(path) + ": cannot be read to its end");
-    hash.add(block.data(), static_cast<std::size_t>(got));
-    done += static_cast<std::uintmax_t>(got);
+                         core::printable(file.path()) + ": cannot be read to its end");
+    const auto count = static_cast<std::size_t>(
+        std::min<std::uintmax_t>(static_cast<std::uintmax_t>(got), file.size() - done));
+    hash.add(block.data(), count);
+    if (write)
+      write(block.data(), count);
+    done += count;
   }
   return hash.hexadecimal();
+}
+
+std::string sha256OfFile(const fs::path& path, const core::Progress& progress)
+try
+{
+  return copied(core::InputFile(path), {}, progress, "checking a file");
 }
 catch (const core::InputFileError& error)
 {

@@ -3286,12 +3286,12 @@
         <translation>%1: abgebrochen; nichts wurde geändert</translation>
     </message>
     <message>
-        <source>is in use by another program; wait until it has ended</source>
-        <translation>ist in einem anderen Programm offen; warten Sie, bis es beendet ist</translation>
-    </message>
-    <message>
         <source>cannot be locked: this drive has no file locks, as some network drives; choose a folder on a local disk</source>
         <translation>lässt sich nicht sperren: Dieses Laufwerk kennt keine Dateisperren, wie manche Netzlaufwerke; wählen Sie einen Ordner auf einem lokalen Datenträger</translation>
+    </message>
+    <message>
+        <source>is in use by another program; wait until it has ended</source>
+        <translation>ist in einem anderen Programm offen; warten Sie, bis es beendet ist</translation>
     </message>
     <message>
         <source>grid: every dimension must be at least 1, not %#1 x %#2 x %#3</source>
@@ -6409,6 +6409,10 @@
         <translation>„%1“ ist beschädigt</translation>
     </message>
     <message>
+        <source>checking a file</source>
+        <translation>Datei wird geprüft</translation>
+    </message>
+    <message>
         <source>an object</source>
         <translation>ein Objekt</translation>
     </message>
@@ -6611,10 +6615,6 @@
     <message>
         <source>%#1 notes on the import name what the case does not have, or calls otherwise by now, and stay in this library</source>
         <translation>%#1 Vermerke vom Import nennen, was der Fall nicht hat oder inzwischen anders nennt, und bleiben in dieser Bibliothek</translation>
-    </message>
-    <message>
-        <source>%~1 of case '%2'</source>
-        <translation>%~1 des Falls „%2“</translation>
     </message>
     <message>
         <source>a name of no or too many bytes</source>
@@ -6931,6 +6931,10 @@
     <message>
         <source>%~1 of deleted case '%2'</source>
         <translation>%~1 des gelöschten Falls „%2“</translation>
+    </message>
+    <message>
+        <source>%~1 of case '%2'</source>
+        <translation>%~1 des Falls „%2“</translation>
     </message>
     <message>
         <source>needed by: '%1' (deleted)</source>
@@ -7563,6 +7567,10 @@
     <message>
         <source>%1: folders that are made there are gone at once; is TMPDIR right?</source>
         <translation>%1: dort angelegte Ordner sind sofort wieder weg; stimmt TMPDIR?</translation>
+    </message>
+    <message>
+        <source>copying a file</source>
+        <translation>Datei wird kopiert</translation>
     </message>
     <message>
         <source>the thumbnail is as it was</source>
@@ -8629,14 +8637,6 @@
         <translation>Messung: %~1</translation>
     </message>
     <message>
-        <source>the MR '%1' lies elsewhere since points were set on it: their error is not known</source>
-        <translation>das MR „%1“ liegt anders, seit Punkte darauf gesetzt wurden: Ihr Fehler ist unbekannt</translation>
-    </message>
-    <message>
-        <source>the MR '%1', on which points were set, is not in the case any more as it was: their error is not known</source>
-        <translation>das MR „%1“, auf dem Punkte gesetzt wurden, ist nicht mehr so im Fall, wie es war: Ihr Fehler ist unbekannt</translation>
-    </message>
-    <message>
         <source>a measurement must be a mark, distance, length, angle, area or thickness</source>
         <translation>eine Messung muss Marke, Abstand, Länge, Winkel, Fläche oder Dicke sein</translation>
     </message>
@@ -8667,6 +8667,18 @@
     <message>
         <source>case '%1' has no measurement '%2'%3</source>
         <translation>der Fall „%1“ hat keine Messung „%2“%3</translation>
+    </message>
+    <message>
+        <source>the MR '%1', on which points were set, is not in the case any more: their error is not known</source>
+        <translation>das MR „%1“, auf dem Punkte gesetzt wurden, ist nicht mehr im Fall: Ihr Fehler ist unbekannt</translation>
+    </message>
+    <message>
+        <source>the MR '%1', on which points were set, is not registered any more: their error is not known</source>
+        <translation>das MR „%1“, auf dem Punkte gesetzt wurden, ist nicht mehr registriert: Ihr Fehler ist unbekannt</translation>
+    </message>
+    <message>
+        <source>the MR '%1', on which points were set, lies elsewhere since: their error is not known</source>
+        <translation>das MR „%1“, auf dem Punkte gesetzt wurden, liegt seither anders: Ihr Fehler ist unbekannt</translation>
     </message>
     <message>
         <source>the MR '%1', from which it was made, is not in the case any more: its error is not known until it is made anew</source>
@@ -9608,10 +9620,6 @@
     <message>
         <source>repairing</source>
         <translation>Reparatur</translation>
-    </message>
-    <message>
-        <source>checking</source>
-        <translation>Prüfung</translation>
     </message>
     <message>
         <source>scanning the phantom</source>

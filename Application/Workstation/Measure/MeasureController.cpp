@@ -20,6 +20,7 @@
 #include "AskName.h"
 #include "BackgroundWork.h"
 #include "MeasurePanel.h"
+#include "MenuAction.h"
 #include "SceneDisplay.h"
 #include "SliceColumn.h"
 #include "SliceView.h"
@@ -168,20 +169,11 @@ MeasureController::~MeasureController()
 
 void MeasureController::addActions()
 {
-  const auto add = [this](const QString& text, const QKeySequence& keys, const QString& tip)
-  {
-    QAction* action = m_menu->addAction(text);
-    action->setShortcut(keys);
-    const QString key = keys.toString(QKeySequence::NativeText);
-    action->setToolTip(key.isEmpty() ? tip : tip + " (" + key + ")");
-    action->setStatusTip(tip);
-    return action;
-  };
   std::vector<QAction*> tools;
   m_tools->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
   for (const ToolEntry& entry : kTools)
   {
-    QAction* action = add(tr(entry.name), entry.key, tr(entry.tip));
+    QAction* action = make(m_menu, tr(entry.name), entry.key, tr(entry.tip));
     action->setCheckable(true);
     action->setData(static_cast<int>(entry.tool));
     m_tools->addAction(action);
@@ -190,13 +182,13 @@ void MeasureController::addActions()
             [this, tool = entry.tool](bool on) { choose(on ? tool : Tool::None); });
   }
   m_menu->addSeparator();
-  m_finish = add(tr("&End the line or polygon"), {},
-                 tr("With the points that are set (Return, or a double click)"));
+  m_finish = make(m_menu, tr("&End the line or polygon"), {},
+                  tr("With the points that are set (Return, or a double click)"));
   m_menu->addSeparator();
-  m_showAll = add(tr("Show a&ll"), {}, tr("All measurements, in the slices and in 3D"));
-  m_hideAll = add(tr("&Hide all"), {}, tr("The list keeps them"));
-  m_export = add(tr("E&xport as a table…"), {},
-                 tr("All measurements and the volumes of structures, as CSV"));
+  m_showAll = make(m_menu, tr("Show a&ll"), {}, tr("All measurements, in the slices and in 3D"));
+  m_hideAll = make(m_menu, tr("&Hide all"), {}, tr("The list keeps them"));
+  m_export = make(m_menu, tr("E&xport as a table…"), {},
+                  tr("All measurements and the volumes of structures, as CSV"));
   connect(m_finish, &QAction::triggered, this, [this] { attempt([this] { m_editor.finish(); }); });
   connect(m_showAll, &QAction::triggered, this, [this] { m_editor.setAllShown(true); });
   connect(m_hideAll, &QAction::triggered, this, [this] { m_editor.setAllShown(false); });

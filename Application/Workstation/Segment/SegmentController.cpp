@@ -22,6 +22,7 @@
 #include "Application.h"
 #include "BackgroundWork.h"
 #include "Commands.h"
+#include "MenuAction.h"
 #include "SegmentPanel.h"
 #include "SliceColumn.h"
 #include "SliceView.h"
@@ -162,23 +163,13 @@ SegmentController::~SegmentController()
   m_editor.events = {};
 }
 
-QAction* SegmentController::addAction(const QString& text, const QKeySequence& keys,
-                                      const QString& tip)
-{
-  QAction* action = m_menu->addAction(text);
-  action->setShortcut(keys);
-  action->setToolTip(tip + " (" + keys.toString(QKeySequence::NativeText) + ")");
-  action->setStatusTip(tip);
-  return action;
-}
-
 void SegmentController::addTools()
 {
   std::vector<QAction*> tools;
   m_tools->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
   for (const ToolEntry& entry : kTools)
   {
-    QAction* action = addAction(tr(entry.name), entry.key, tr(entry.tip));
+    QAction* action = make(m_menu, tr(entry.name), entry.key, tr(entry.tip));
     action->setCheckable(true);
     action->setData(static_cast<int>(entry.tool));
     m_tools->addAction(action);
@@ -187,13 +178,13 @@ void SegmentController::addTools()
             [this, tool = entry.tool](bool on) { choose(on ? tool : Tool::None); });
   }
   m_menu->addSeparator();
-  m_step = addAction(tr("&Apply the tool"), Qt::SHIFT + Qt::Key_Return,
-                     tr("One step on the draft, which can be undone"));
-  m_create = addAction(tr("&Create the structure"), Qt::Key_Return,
-                       tr("The draft becomes a structure of the case"));
+  m_step = make(m_menu, tr("&Apply the tool"), Qt::SHIFT + Qt::Key_Return,
+                tr("One step on the draft, which can be undone"));
+  m_create = make(m_menu, tr("&Create the structure"), Qt::Key_Return,
+                  tr("The draft becomes a structure of the case"));
   m_create->setShortcuts({Qt::Key_Return, Qt::Key_Enter});
-  m_escape = addAction(tr("&Leave the tool, or discard the draft"), Qt::Key_Escape,
-                       tr("Puts the tool away; without a tool asks whether the draft is dropped"));
+  m_escape = make(m_menu, tr("&Leave the tool, or discard the draft"), Qt::Key_Escape,
+                  tr("Puts the tool away; without a tool asks whether the draft is dropped"));
   connect(m_step, &QAction::triggered, this, &SegmentController::step);
   connect(m_create, &QAction::triggered, this, &SegmentController::create);
   connect(m_escape, &QAction::triggered, this, &SegmentController::escape);

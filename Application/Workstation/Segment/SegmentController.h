@@ -76,7 +76,6 @@ private:
   using Tool = presenters::SegmentEditor::Tool;
 
   void addTools();
-  QAction* addAction(const QString& text, const QKeySequence& keys, const QString& tip);
   void connectPanel();
   void connectSlices();
   void choose(Tool tool);

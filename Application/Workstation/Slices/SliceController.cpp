@@ -8,6 +8,7 @@
 #include <QActionGroup>
 #include <QMenu>
 
+#include "MenuAction.h"
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "SlicesPanel.h"
@@ -53,17 +54,6 @@ SliceController::SliceController(presenters::WorkstationModel& model, ThreeDView
           [this](const QPoint& global) { m_menu->popup(global); });
   connect(&view, &ThreeDView::cameraMoved, this, &SliceController::followScene);
   showState();
-}
-
-QAction* SliceController::make(QMenu* menu, const QString& text, int key, const QString& tip)
-{
-  QAction* action = menu->addAction(text);
-  if (key != 0)
-    action->setShortcut(key);
-  const QString keys = action->shortcut().toString(QKeySequence::NativeText);
-  action->setToolTip(keys.isEmpty() ? tip : tip + " (" + keys + ")");
-  action->setStatusTip(tip);
-  return action;
 }
 
 void SliceController::makeMenu(QWidget&)
@@ -136,7 +126,7 @@ void SliceController::addSlabs()
   m_slabs = new QActionGroup(this);
   const auto add = [this](const QString& text, int projection, const QString& tip)
   {
-    QAction* action = make(m_menu, text, 0, tip);
+    QAction* action = make(m_menu, text, {}, tip);
     action->setCheckable(true);
     action->setData(projection);
     m_slabs->addAction(action);

@@ -60,7 +60,6 @@ private:
   void stepSlab(int step);
   void nextProjection();
   void followScene();
-  QAction* make(QMenu* menu, const QString& text, int key, const QString& tip);
 
   presenters::WorkstationModel& m_model;
   ThreeDView& m_view;

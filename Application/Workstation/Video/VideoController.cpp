@@ -12,6 +12,7 @@
 #include "AttachmentsController.h"
 #include "BackgroundWork.h"
 #include "Commands.h"
+#include "MenuAction.h"
 #include "StillOverlay.h"
 #include "Theme.h"
 #include "ThreeDView.h"
@@ -94,38 +95,30 @@ VideoController::~VideoController()
 
 void VideoController::addActions()
 {
-  const auto add = [this](const QString& text, const QKeySequence& keys, const QString& tip)
-  {
-    QAction* action = m_menu->addAction(text);
-    action->setShortcut(keys);
-    action->setToolTip(tip + " (" + keys.toString(QKeySequence::NativeText) + ")");
-    action->setStatusTip(tip);
-    return action;
-  };
-  m_play = add(tr("&Play"), Qt::CTRL + Qt::Key_Space, tr("Plays the video, or pauses it"));
-  m_back = add(tr("Step &back"), Qt::CTRL + Qt::Key_Left, tr("To the frame before"));
-  m_forth = add(tr("Step &forward"), Qt::CTRL + Qt::Key_Right, tr("To the frame after"));
+  m_play = make(m_menu, tr("&Play"), Qt::CTRL + Qt::Key_Space, tr("Plays the video, or pauses it"));
+  m_back = make(m_menu, tr("Step &back"), Qt::CTRL + Qt::Key_Left, tr("To the frame before"));
+  m_forth = make(m_menu, tr("Step &forward"), Qt::CTRL + Qt::Key_Right, tr("To the frame after"));
   m_play->setIconText(tr("Play"));
   m_back->setIconText(QString::fromUtf8("◀"));
   m_forth->setIconText(QString::fromUtf8("▶"));
-  m_loop = add(tr("&Loop"), Qt::SHIFT + Qt::Key_U,
-               tr("Repeats the part between the two bookmarks that are chosen in the list"));
+  m_loop = make(m_menu, tr("&Loop"), Qt::SHIFT + Qt::Key_U,
+                tr("Repeats the part between the two bookmarks that are chosen in the list"));
   m_loop->setIconText(tr("Loop"));
   m_loop->setCheckable(true);
   m_menu->addSeparator();
-  m_bookmark = add(tr("Set a book&mark"), Qt::Key_U,
-                   tr("At the frame that is seen, tied to the last stroke"));
+  m_bookmark = make(m_menu, tr("Set a book&mark"), Qt::Key_U,
+                    tr("At the frame that is seen, tied to the last stroke"));
   m_bookmark->setIconText(tr("Bookmark"));
-  m_previousBookmark =
-      add(tr("Pre&vious bookmark"), Qt::CTRL + Qt::Key_Up, tr("With the bone as it was then"));
-  m_nextBookmark =
-      add(tr("&Next bookmark"), Qt::CTRL + Qt::Key_Down, tr("With the bone as it was then"));
+  m_previousBookmark = make(m_menu, tr("Pre&vious bookmark"), Qt::CTRL + Qt::Key_Up,
+                            tr("With the bone as it was then"));
+  m_nextBookmark = make(m_menu, tr("&Next bookmark"), Qt::CTRL + Qt::Key_Down,
+                        tr("With the bone as it was then"));
   m_menu->addSeparator();
-  m_pair = add(tr("&Add the landmark"), Qt::CTRL + Qt::Key_U,
-               tr("The crosshair marks the point of the patient that was clicked in the still"));
+  m_pair = make(m_menu, tr("&Add the landmark"), Qt::CTRL + Qt::Key_U,
+                tr("The crosshair marks the point of the patient that was clicked in the still"));
   m_pair->setIconText(tr("Add landmark"));
-  m_showView = add(tr("&View from the still"), Qt::CTRL + Qt::SHIFT + Qt::Key_U,
-                   tr("The 3D view from where the still was taken, with the still over it"));
+  m_showView = make(m_menu, tr("&View from the still"), Qt::CTRL + Qt::SHIFT + Qt::Key_U,
+                    tr("The 3D view from where the still was taken, with the still over it"));
   m_showView->setIconText(tr("View from it"));
 
   const auto on = [this](QAction* action, auto what)

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <QEvent>
-#include <QGuiApplication>
 #include <QHeaderView>
 #include <QScreen>
 #include <QScrollArea>
@@ -34,16 +33,20 @@ int besides(const QAbstractScrollArea& area)
   return bar->sizeHint().width() + std::max(gap, 0) + 2 * area.frameWidth();
 }
 
+QSize roomFor(const QWidget& widget)
+{
+  const QScreen* screen = widget.screen();
+  return screen ? screen->availableSize() : QSize(1920, 1080);
+}
+
 class Area : public QScrollArea
 {
 public:
-  // A scroll area by itself may become narrower than what it shows, which is then cut off.
-  QSize minimumSizeHint() const override
+  explicit Area(QWidget* inside)
   {
-    QSize size = QScrollArea::minimumSizeHint();
-    const int inside = widget() ? widget()->minimumSizeHint().width() : 0;
-    size.setWidth(std::max(kNarrowest, inside + besides(*this)));
-    return size;
+    setWidgetResizable(true);
+    setFrameShape(QFrame::NoFrame);
+    setWidget(inside);
   }
 
   // Another page inside may need another width.
@@ -53,24 +56,39 @@ public:
       updateGeometry();
     return QScrollArea::eventFilter(watched, event);
   }
+
+protected:
+  // A scroll area by itself may become narrower than what it shows, which is then cut off.
+  QSize least() const
+  {
+    const QSize size = widget()->minimumSizeHint().expandedTo(widget()->minimumSize());
+    return size + QSize(besides(*this), 0);
+  }
 };
 
-QSize roomFor(const QWidget& widget)
+class AboveFoot : public Area
 {
-  const QScreen* screen = widget.screen() ? widget.screen() : QGuiApplication::primaryScreen();
-  return screen ? screen->availableSize() : QSize(1920, 1080);
-}
+public:
+  explicit AboveFoot(QWidget* inside)
+    : Area(inside)
+  {
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  }
+
+  QSize minimumSizeHint() const override
+  {
+    return {std::max(kNarrowest, least().width()), Area::minimumSizeHint().height()};
+  }
+};
 
 // As large as the panel needs, unless the screen is too small for that: then it scrolls.
-class WholePanel : public QScrollArea
+class WholePanel : public Area
 {
 public:
   explicit WholePanel(QWidget* panel)
+    : Area(panel)
   {
-    setWidgetResizable(true);
-    setFrameShape(QFrame::NoFrame);
     setFocusPolicy(Qt::NoFocus);
-    setWidget(panel);
   }
 
   QSize minimumSizeHint() const override
@@ -80,20 +98,6 @@ public:
   }
 
   QSize sizeHint() const override { return widget()->sizeHint().expandedTo(least()); }
-
-  bool eventFilter(QObject* watched, QEvent* event) override
-  {
-    if (watched == widget() && event->type() == QEvent::LayoutRequest)
-      updateGeometry();
-    return QScrollArea::eventFilter(watched, event);
-  }
-
-private:
-  QSize least() const
-  {
-    const QSize size = widget()->minimumSizeHint().expandedTo(widget()->minimumSize());
-    return size + QSize(besides(*this), 0);
-  }
 };
 
 } // namespace
@@ -122,15 +126,10 @@ int wholeWidthOf(const QTreeView& tree)
 
 void layOutPanel(QWidget& panel, QWidget* inside, QWidget* foot)
 {
-  auto* area = new Area;
-  area->setWidgetResizable(true);
-  area->setFrameShape(QFrame::NoFrame);
-  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  area->setWidget(inside);
   auto* outer = new QVBoxLayout(&panel);
   outer->setContentsMargins(0, 0, 0, 0);
   outer->setSpacing(0);
-  outer->addWidget(area, 1);
+  outer->addWidget(new AboveFoot(inside), 1);
   outer->addWidget(foot);
 }
 
@@ -138,9 +137,7 @@ void resizeOnScreen(QWidget& window, const QSize& wanted)
 {
   constexpr int kTitleBar = 40; // px, that the window manager adds
   const QWidget* parent = window.parentWidget();
-  const QScreen* screen = parent ? parent->screen() : QGuiApplication::primaryScreen();
-  const QSize room = screen ? screen->availableSize() - QSize(0, kTitleBar) : wanted;
-  window.resize(wanted.boundedTo(room));
+  window.resize(wanted.boundedTo(roomFor(parent ? *parent : window) - QSize(0, kTitleBar)));
 }
 
 } // namespace petrous::workstation

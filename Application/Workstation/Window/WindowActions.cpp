@@ -13,6 +13,7 @@
 #include "Commands.h"
 #include "DeviceToolBar.h"
 #include "DrillBar.h"
+#include "MenuAction.h"
 #include "petrous/Presenters/ViewArrangement.h"
 #include "petrous/Rendering/Stereo.h"
 #include "petrous/Scene/Description.h"
@@ -59,22 +60,6 @@ constexpr ViewEntry kViews[] = {
                        "the vertex on the left")},
 };
 } // namespace
-
-QAction* WindowActions::make(QMenu* menu, const QString& text, const QKeySequence& keys,
-                             const QString& tip)
-{
-  QAction* action = menu->addAction(text);
-  action->setShortcut(keys);
-  setTip(*action, tip);
-  return action;
-}
-
-void WindowActions::setTip(QAction& action, const QString& tip)
-{
-  const QString key = action.shortcut().toString(QKeySequence::NativeText);
-  action.setToolTip(key.isEmpty() ? tip : tip + " (" + key + ")");
-  action.setStatusTip(tip);
-}
 
 WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceToolBar& deviceBar,
                              bool quadBuffer)

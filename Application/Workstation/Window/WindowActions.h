@@ -104,8 +104,6 @@ signals:
   void viewChosen(petrous::rendering::StandardView view);
 
 private:
-  static void setTip(QAction& action, const QString& tip);
-  QAction* make(QMenu* menu, const QString& text, const QKeySequence& keys, const QString& tip);
   QMenu* addStereo(bool quadBuffer);
   QMenu* addLayouts();
   void addSides();

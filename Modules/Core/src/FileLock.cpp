@@ -5,9 +5,9 @@
 #include <thread>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
+#include "petrous/Core/OpenedLock.h"
 #include "petrous/Core/OutputFile.h"
 
 namespace petrous::core
@@ -25,12 +25,29 @@ int opened(const std::filesystem::path& file)
   return descriptor;
 }
 
+// False if another holds it. Closes it before it throws.
+bool take(int descriptor, const std::filesystem::path& file,
+          std::chrono::milliseconds patience = {})
+{
+  const LockState state = lockOpened(descriptor, patience);
+  if (state != LockState::NoLocks)
+    return state == LockState::Ours;
+  const int error = errno;
+  ::close(descriptor);
+  if (error == ENOLCK || error == ENOSYS || error == EOPNOTSUPP || error == EINVAL)
+    throw OutputFileError(OutputFileError::Reason::WrongPlace, file,
+                          "cannot be locked: this drive has no file locks, as some network "
+                          "drives; choose a folder on a local disk");
+  throwOutputError(error, file);
+}
+
 } // namespace
 
 FileLock::FileLock(const std::filesystem::path& file, IfHeld ifHeld)
   : m_descriptor(opened(file))
 {
-  if (!take(ifHeld == IfHeld::Wait ? LOCK_EX : LOCK_EX | LOCK_NB, file))
+  if (!take(m_descriptor, file,
+            ifHeld == IfHeld::Wait ? kWaitForLock : std::chrono::milliseconds{}))
   {
     ::close(m_descriptor);
     throw OutputFileError(OutputFileError::Reason::NotPermitted, file,
@@ -43,7 +60,7 @@ FileLock::FileLock(const std::filesystem::path& file, const std::function<void(d
 {
   constexpr std::chrono::milliseconds kEvery(100);
   const auto begun = std::chrono::steady_clock::now();
-  while (!take(LOCK_EX | LOCK_NB, file))
+  while (!take(m_descriptor, file))
     try
     {
       waiting(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
@@ -54,24 +71,6 @@ FileLock::FileLock(const std::filesystem::path& file, const std::function<void(d
       ::close(m_descriptor);
       throw;
     }
-}
-
-// False if another holds it.
-bool FileLock::take(int operation, const std::filesystem::path& file)
-{
-  while (::flock(m_descriptor, operation) != 0)
-    if (const int error = errno; error != EINTR)
-    {
-      if (error == EWOULDBLOCK)
-        return false;
-      ::close(m_descriptor);
-      if (error == ENOLCK || error == ENOSYS || error == EOPNOTSUPP || error == EINVAL)
-        throw OutputFileError(OutputFileError::Reason::WrongPlace, file,
-                              "cannot be locked: this drive has no file locks, as some network "
-                              "drives; choose a folder on a local disk");
-      throwOutputError(error, file);
-    }
-  return true;
 }
 
 FileLock::~FileLock()

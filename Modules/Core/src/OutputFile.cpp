@@ -8,11 +8,11 @@
 #include <vector>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "petrous/Core/InputFile.h"
+#include "petrous/Core/OpenedLock.h"
 
 namespace petrous::core
 {
@@ -165,7 +165,7 @@ OutputFile::OutputFile(const fs::path& path)
     {
       // Tells it from what a killed process left, which others may remove.
       struct stat status = {};
-      ::flock(m_descriptor, LOCK_EX | LOCK_NB);
+      lockOpened(m_descriptor);
       if (n < kAttempts && ::fstat(m_descriptor, &status) == 0 && status.st_nlink == 0)
       {
         ::close(m_descriptor);

@@ -4,10 +4,10 @@
 #include <cstring>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "petrous/Core/OpenedLock.h"
 #include "petrous/Devices/DeviceServerExchange.h"
 #include "petrous/Devices/ServedDevice.h"
 
@@ -44,7 +44,7 @@ DeviceBlock::DeviceBlock(const std::string& name)
   if (m_file < 0)
     throw cannotMake(name, m_path);
   void* memory = MAP_FAILED;
-  if (::flock(m_file, LOCK_EX | LOCK_NB) == 0 &&
+  if (core::lockOpened(m_file) == core::LockState::Ours &&
       ::ftruncate(m_file, sizeof(petrous_device_block)) == 0)
     memory = ::mmap(nullptr, sizeof(petrous_device_block), PROT_READ | PROT_WRITE, MAP_SHARED,
                     m_file, 0);
@@ -75,7 +75,7 @@ void DeviceBlock::removeLeftover(const std::string& name)
   const int file = ::shm_open(m_path.c_str(), O_RDWR, 0);
   if (file < 0)
     return;
-  const bool free = ::flock(file, LOCK_EX | LOCK_NB) == 0;
+  const bool free = core::lockOpened(file) == core::LockState::Ours;
   if (free)
     ::shm_unlink(m_path.c_str());
   ::close(file);

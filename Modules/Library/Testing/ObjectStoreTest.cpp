@@ -56,7 +56,7 @@ TEST(ObjectStore, DiscardsOnlyWhatIsNew)
   store.add("bin", bytesOf("new"));
   store.add("bin", bytesOf("old"));
   store.discardNew();
-  EXPECT_EQ(store.readChecked(old, "the old one"), bytesOf("old"));
+  EXPECT_EQ(store.readChecked(old, {"the old one"}), bytesOf("old"));
   EXPECT_EQ(test::contentOf(folder.path()).size(), 1u);
 }
 
@@ -67,4 +67,32 @@ TEST(ObjectStore, RefusesNamesThatAreNoHashes)
   for (const std::string& name : {std::string("../../etc/passwd"), std::string("a.nrrd"),
                                   std::string(64, 'a') + "./../x", std::string(64, 'Z') + ".bin"})
     EXPECT_THROW(store.path(name), LibraryError) << name;
+}
+
+// An instrument is stored as a mesh is, but can be taken out of the case; whatever it is called.
+TEST(ObjectStore, NamesWhatHelpsAgainstTheLossOfAnInstrument)
+{
+  const TemporaryFolder folder;
+  const ObjectStore store(folder.path());
+  const std::string lost = std::string(64, 'a') + ".obj";
+  const auto refusal = [&](const ObjectText& what) -> std::string
+  {
+    try
+    {
+      store.path(lost, what);
+    }
+    catch (const LibraryError& error)
+    {
+      return error.what();
+    }
+    return {};
+  };
+  const std::string mesh = refusal({"the instrument that was scanned"});
+  EXPECT_NE(mesh.find("the instrument that was scanned is missing"), std::string::npos) << mesh;
+  EXPECT_NE(mesh.find("import the same data again"), std::string::npos) << mesh;
+  EXPECT_EQ(mesh.find("--clear instrument"), std::string::npos) << mesh;
+  const std::string instrument = refusal({"a pick", true});
+  EXPECT_NE(instrument.find("a pick is missing"), std::string::npos) << instrument;
+  EXPECT_NE(instrument.find("--clear instrument"), std::string::npos) << instrument;
+  EXPECT_EQ(instrument.find("import the same data again"), std::string::npos) << instrument;
 }

@@ -1,7 +1,5 @@
-#include <chrono>
 #include <csignal>
 #include <fstream>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -10,7 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "../src/Store/OpenedLock.h"
 #include "TestCase.h"
 #include "petrous/Library/OpenMark.h"
 
@@ -169,36 +166,6 @@ TEST(OpenMark, AMarkThatCannotBeReadNamesNobody)
   ::close(descriptor);
   removeStaleMarks(folder.path());
   EXPECT_FALSE(std::filesystem::exists(path));
-}
-
-TEST(OpenedLock, WaitsForAnotherAsLongAsItIsTold)
-{
-  using namespace std::chrono_literals;
-  const TemporaryFolder folder;
-  const std::filesystem::path path = folder.path() / "file";
-  const int first = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  const int second = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-  ASSERT_GE(first, 0);
-  ASSERT_GE(second, 0);
-  EXPECT_EQ(lockOpened(first), LockState::Ours);
-  EXPECT_EQ(lockOpened(first), LockState::Ours) << "again";
-  EXPECT_EQ(lockOpened(second), LockState::Anothers);
-  EXPECT_EQ(lockOpened(second, 20ms), LockState::Anothers);
-  std::thread ends(
-      [first]
-      {
-        std::this_thread::sleep_for(20ms);
-        ::close(first);
-      });
-  EXPECT_EQ(lockOpened(second, 60s), LockState::Ours);
-  ends.join();
-  EXPECT_TRUE(isOpenedAt(second, path));
-  std::filesystem::remove(path);
-  EXPECT_FALSE(isOpenedAt(second, path));
-  std::ofstream(path) << "another";
-  EXPECT_FALSE(isOpenedAt(second, path));
-  ::close(second);
-  EXPECT_EQ(lockOpened(second), LockState::NoLocks) << "nothing is open";
 }
 
 TEST(OpenMark, WhoSavesRenamesOrDeletesIsToldOnceHeAsks)

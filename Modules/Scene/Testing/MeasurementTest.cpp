@@ -214,7 +214,10 @@ TEST(Measurement, KnowsWhereTheMrLayWhenItsPointsWereSet)
   EXPECT_EQ(outdatedPoints(value, one, "T2"), "");
 
   value.mr[0].mrFromCt = core::RigidTransform(Eigen::Quaterniond::Identity(), {0.0, 0.5, 0.0});
-  EXPECT_NE(outdatedPoints(value, one, "T2").find("lies elsewhere since"), std::string::npos);
+  EXPECT_EQ(
+      outdatedPoints(value, one, "T2"),
+      "the MR 'T2', on which points were set, lies elsewhere since: their error is not known");
+  EXPECT_EQ(outdatedPoints(value, one, "T1"), "") << "no point was set on it";
   setReadings(value, one, 1); // that point alone is set anew
   EXPECT_EQ(one.readings.size(), 2U);
   EXPECT_NE(outdatedPoints(value, one, "T2"), "");

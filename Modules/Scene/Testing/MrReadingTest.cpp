@@ -51,6 +51,9 @@ TEST(MrReading, IsOutdatedOnceTheMrLiesElsewhereAndNotWhenItIsBack)
   scene::removeRegistration(value, "T2");
   EXPECT_NE(scene::outdatedReading(value, readings(value)).find("not registered"),
             std::string::npos);
+  EXPECT_EQ(scene::outdatedReading(value, readings(value), scene::MadeFromMr::Points),
+            "the MR 'T2', on which points were set, is not registered any more: their error is not "
+            "known");
 }
 
 TEST(MrReading, OfARemovedMrIsNotThatOfAnotherOneOfItsName)

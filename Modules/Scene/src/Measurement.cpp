@@ -146,17 +146,10 @@ void setReadings(const Case& value, Measurement& measurement, std::optional<std:
 
 std::string outdatedPoints(const Case& value, const Measurement& measurement, const std::string& mr)
 {
-  const auto found =
-      std::find_if(measurement.readings.begin(), measurement.readings.end(),
-                   [&](const MrReading& one) { return one.mr == mr && !isCurrent(value, one); });
-  if (found == measurement.readings.end())
-    return {};
-  const ImagePart* now = found->isGone ? nullptr : findMr(value, mr);
-  if (now && now->registered)
-    return "the MR '" + mr + "' lies elsewhere since points were set on it: their error is not " +
-           "known";
-  return "the MR '" + mr + "', on which points were set, is not in the case any more as it was: " +
-         "their error is not known";
+  MrReadings ofIt;
+  std::copy_if(measurement.readings.begin(), measurement.readings.end(), std::back_inserter(ofIt),
+               [&mr](const MrReading& one) { return one.mr == mr; });
+  return outdatedReading(value, ofIt, MadeFromMr::Points);
 }
 
 std::vector<std::string> forgetStructure(std::vector<Measurement>& measurements,

@@ -41,7 +41,7 @@ bool isCurrent(const Case& value, const MrReading& reading)
   return mr && mr->registered && same(mr->mrFromCt, reading.mrFromCt);
 }
 
-std::string outdatedReading(const Case& value, const MrReadings& readings)
+std::string outdatedReading(const Case& value, const MrReadings& readings, MadeFromMr made)
 {
   const auto found =
       std::find_if(readings.begin(), readings.end(),
@@ -49,11 +49,14 @@ std::string outdatedReading(const Case& value, const MrReadings& readings)
   if (found == readings.end())
     return {};
   const ImagePart* mr = found->isGone ? nullptr : findMr(value, found->mr);
-  return "the MR '" + found->mr + "', from which it was made, " +
+  const bool arePoints = made == MadeFromMr::Points;
+  return "the MR '" + found->mr +
+         (arePoints ? "', on which points were set, " : "', from which it was made, ") +
          (!mr               ? "is not in the case any more"
           : !mr->registered ? "is not registered any more"
                             : "lies elsewhere since") +
-         ": its error is not known until it is made anew";
+         (arePoints ? ": their error is not known"
+                    : ": its error is not known until it is made anew");
 }
 
 std::string namesOf(const MrReadings& readings)

@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 
+#include "BoxOnGrid.h"
 #include "MeshForm.h"
 #include "MeshSpace.h"
 #include "PatientHashes.h"
@@ -786,24 +787,6 @@ bool isUnknown(const appearance::StructureAppearance& look)
   return look.preset == "other";
 }
 
-// The box of some voxels of `grid`, in voxels of `onto`.
-Eigen::AlignedBox3d boxOn(const core::GridGeometry& onto, const core::GridGeometry& grid,
-                          const core::IndexBox& box)
-{
-  Eigen::AlignedBox3d result;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    Eigen::Vector3d at;
-    for (int a = 0; a < 3; ++a)
-    {
-      const auto axis = static_cast<std::size_t>(a);
-      at[a] = (corner >> a & 1) != 0 ? box.upper[axis] - 1 : box.lower[axis];
-    }
-    result.extend(onto.voxelFromPatient(grid.patientFromVoxel(at)));
-  }
-  return result;
-}
-
 bool liesOutside(const core::GridGeometry& ct, const core::GridGeometry& grid,
                  const core::IndexBox& box)
 {
@@ -849,15 +832,12 @@ void notePartlyOutside(const scene::Case& value, scene::LabelPart& part,
                        const volume::LabelMap& map, const std::vector<core::IndexBox>& boxes)
 {
   constexpr double kNoted = 0.01; // of the voxels
-  const auto& n = value.ct.geometry.dims();
-  const Eigen::AlignedBox3d inner(Eigen::Vector3d::Constant(-0.5),
-                                  Eigen::Vector3d(n[0] - 0.5, n[1] - 0.5, n[2] - 0.5));
   std::string names;
   for (const auto& structure : part.structures)
     for (std::size_t s = 0; s < map.segments.size(); ++s)
     {
       if (structure.index != map.segments[s].index || boxes[s].empty() ||
-          inner.contains(boxOn(value.ct.geometry, map.voxels->geometry(), boxes[s])) ||
+          isWithin(value.ct.geometry, map.voxels->geometry(), boxes[s]) ||
           liesOutside(value.ct.geometry, map.voxels->geometry(), boxes[s]))
         continue;
       const double share = shareOutside(value.ct.geometry, map, structure.index, boxes[s]);

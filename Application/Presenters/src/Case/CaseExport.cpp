@@ -11,6 +11,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "BoxOnGrid.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Imaging/FileFormats.h"
@@ -177,19 +178,7 @@ std::set<std::string> warnOfWhatIsBeyond(const Warn& warn, const PlacedLabels& l
     {
       if (labels.map->segments[n].index != structure->index || boxes[n].empty())
         continue;
-      bool isInside = true;
-      for (int corner = 0; corner < 8; ++corner)
-      {
-        Eigen::Vector3d voxel;
-        for (std::size_t a = 0; a < 3; ++a)
-          voxel[static_cast<Eigen::Index>(a)] =
-              (corner >> a & 1) != 0 ? boxes[n].upper[a] - 1 : boxes[n].lower[a];
-        const Eigen::Array3d at = ct.voxelFromPatient(grid.patientFromVoxel(voxel)).array();
-        for (std::size_t a = 0; a < 3; ++a)
-          isInside = isInside && at[static_cast<Eigen::Index>(a)] > -0.5 &&
-                     at[static_cast<Eigen::Index>(a)] < ct.dims()[a] - 0.5;
-      }
-      if (!isInside && names.insert(structure->name).second)
+      if (!isWithin(ct, grid, boxes[n]) && names.insert(structure->name).second)
         warn("'" + structure->name + "' reaches beyond the CT; what is outside is not written");
     }
   return names;

@@ -76,10 +76,11 @@ void checkNumbers(const CatalogueEditor::Burr& burr)
                 "within -" + steepest + " to " + steepest + " degrees", burr.constant);
 }
 
-// Appends a copy of a row under a free name.
-template <typename Row>
-void appendLike(std::vector<Row>& rows, std::size_t like)
+// With a copy of a row, under a free name, at the end of one of the tables.
+template <typename Tables, typename Row>
+Tables withLike(Tables tables, std::vector<Row> Tables::*which, std::size_t like)
 {
+  std::vector<Row>& rows = tables.*which;
   Row added = rows.at(like);
   const std::string base = added.name;
   for (int n = 2; std::any_of(rows.begin(), rows.end(),
@@ -87,6 +88,15 @@ void appendLike(std::vector<Row>& rows, std::size_t like)
        ++n)
     added.name = base + "-" + std::to_string(n);
   rows.push_back(std::move(added));
+  return tables;
+}
+
+template <typename Tables, typename Row>
+Tables without(Tables tables, std::vector<Row> Tables::*which, std::size_t row)
+{
+  std::vector<Row>& rows = tables.*which;
+  rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(row));
+  return tables;
 }
 
 template <typename Row>
@@ -276,9 +286,7 @@ void CatalogueEditor::setMaterial(std::size_t row, const Material& material)
 
 std::size_t CatalogueEditor::addMaterial(std::size_t like)
 {
-  Tables next = m_now;
-  appendLike(next.materials, like);
-  take(std::move(next));
+  take(withLike(m_now, &Tables::materials, like));
   return m_now.materials.size() - 1;
 }
 
@@ -287,9 +295,7 @@ void CatalogueEditor::removeMaterial(std::size_t row)
   if (isBuiltIn(row))
     throw core::InvalidParameter("material '" + m_now.materials[row].name +
                                  "' cannot be removed: presets give it to structures");
-  Tables next = m_now;
-  next.materials.erase(next.materials.begin() + static_cast<std::ptrdiff_t>(row));
-  take(std::move(next));
+  take(without(m_now, &Tables::materials, row));
 }
 
 void CatalogueEditor::setBurr(std::size_t row, const Burr& burr)
@@ -310,9 +316,7 @@ void CatalogueEditor::setBurr(std::size_t row, const Burr& burr)
 
 std::size_t CatalogueEditor::addBurr(std::size_t like)
 {
-  Tables next = m_now;
-  appendLike(next.burrs, like);
-  take(std::move(next));
+  take(withLike(m_now, &Tables::burrs, like));
   return m_now.burrs.size() - 1;
 }
 
@@ -321,9 +325,7 @@ void CatalogueEditor::removeBurr(std::size_t row)
   if (isUsualBurr(row))
     throw core::InvalidParameter("burr '" + m_now.burrs[row].name +
                                  "' cannot be removed: it is the usual one of its kind");
-  Tables next = m_now;
-  next.burrs.erase(next.burrs.begin() + static_cast<std::ptrdiff_t>(row));
-  take(std::move(next));
+  take(without(m_now, &Tables::burrs, row));
 }
 
 void CatalogueEditor::setBuiltIn()

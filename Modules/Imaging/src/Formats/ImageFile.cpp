@@ -149,6 +149,17 @@ core::IndexBox boxOf(const std::filesystem::path& path, const core::GridGeometry
            range);
 }
 
+/// The space in which the file counts: as it states it, unless the user did.
+void settle(VoxelSource& source, const std::optional<double>& unit,
+            const std::optional<bool>& isRas)
+{
+  if (unit)
+    source.settleUnit(unit, {});
+  source.takeFileUnit();
+  if (isRas)
+    source.settleSide(isRas, {});
+}
+
 /// `volume`: as readImageFile.
 void requireImage(const std::filesystem::path& path, VoxelSource& source, std::size_t volume)
 {
@@ -174,11 +185,7 @@ LoadedImage readImageFile(const std::filesystem::path& path,
 {
   progress.report(0.0, "reading image");
   VoxelSource source(path);
-  if (unit)
-    source.settleUnit(unit, {});
-  source.takeFileUnit();
-  if (isRas)
-    source.settleSide(isRas, {});
+  settle(source, unit, isRas);
   requireImage(path, source, volume);
   const core::IndexBox box = boxOf(path, source.geometry(), roi);
   const core::GridGeometry geometry = source.geometry().cropped(box);
@@ -208,11 +215,7 @@ ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t sli
                               const std::optional<double>& unit)
 {
   VoxelSource source(path);
-  if (unit)
-    source.settleUnit(unit, {});
-  source.takeFileUnit();
-  if (isRas)
-    source.settleSide(isRas, {});
+  settle(source, unit, isRas);
   requireImage(path, source, volume);
   const core::GridGeometry& grid = source.geometry();
   core::Index3 dims = grid.dims();

@@ -1102,21 +1102,14 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
           const auto became = static_cast<double>(std::count(in.begin(), in.end(), char{1}));
           const double times = became / shares.sum;
           const std::string within = std::to_string(std::lround(100.0 * inside));
-          if (std::abs(times - 1.0) <= kRight)
-            loaded.notes.push_back("'" + name +
-                                   "' is thinner than the voxels: those that it became "
-                                   "lie on average " +
-                                   within +
-                                   " % within its contours and are scattered; its volume is right, "
-                                   "its shape is not");
-          else
-            loaded.notes.push_back("'" + name +
-                                   "' is thinner than the voxels: those that it became "
-                                   "lie on average " +
-                                   within + " % within its contours, and their volume is " +
-                                   core::fixedText(times, 2) +
-                                   " times that of the contours; neither it nor their shape is "
-                                   "that of the structure");
+          loaded.notes.push_back(
+              "'" + name + "' is thinner than the voxels: those that it became lie on average " +
+              within + " % within its contours" +
+              (std::abs(times - 1.0) <= kRight
+                   ? " and are scattered; its volume is right, its shape is not"
+                   : ", and their volume is " + core::fixedText(times, 2) +
+                         " times that of the contours; neither it nor their shape is that of the "
+                         "structure"));
         }
         const auto forEach = [&](const auto& visit)
         {

@@ -388,7 +388,7 @@ void readThrough(ZipReader::Stream& in, std::uint64_t bytes, const fs::path& fil
   std::uint64_t done = 0;
   for (std::size_t got = block.size(); got == block.size(); done += got)
   {
-    progress.check("checking");
+    progress.check("checking a file");
     got = in.read(block.data(), block.size());
     if (got > bytes + bytes / 64 + kPacking - done)
       throwUnsound(file, "'" + entry + "' is larger than stated");
@@ -413,7 +413,7 @@ std::size_t addObjects(const Archive& archive, ObjectStore& store, const core::P
     if (store.contains(object))
       try
       {
-        checkObject(store.path(object), "an object", part);
+        checkObject(store.path(object), {"an object"}, part);
         isSound = true;
       }
       catch (const LibraryError&)
@@ -553,14 +553,14 @@ void checkContents(const scene::Case& value, const ObjectStore& store, const fs:
           [&]
           {
             dissection::BrickDraft alone(untouched);
-            dissection::applyDeltas(store.readChecked(strokes[n]->object, "a stroke"),
+            dissection::applyDeltas(store.readChecked(strokes[n]->object, {"a stroke"}),
                                     dissection::Step::Redo, alone);
           });
   for (const std::size_t n : line)
     check("a stroke removes what was removed before",
           [&]
           {
-            dissection::applyDeltas(store.readChecked(strokes[n]->object, "a stroke"),
+            dissection::applyDeltas(store.readChecked(strokes[n]->object, {"a stroke"}),
                                     dissection::Step::Redo, draft);
           });
   for (const scene::Attachment& one : value.attachments)

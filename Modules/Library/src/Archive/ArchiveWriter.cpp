@@ -64,7 +64,7 @@ Produce fromMemory(std::vector<std::uint8_t> bytes)
 class PackedImage
 {
 public:
-  PackedImage(fs::path path, std::string what, std::optional<int> level)
+  PackedImage(fs::path path, ObjectText what, std::optional<int> level)
     : m_file(path)
     , m_what(std::move(what))
     , m_level(level)
@@ -153,7 +153,7 @@ private:
   }
 
   core::InputFile m_file;
-  std::string m_what;
+  ObjectText m_what;
   std::optional<int> m_level;
   Sha256 m_hash;
   std::uintmax_t m_read = 0;
@@ -165,7 +165,7 @@ private:
 };
 
 /// An object as it is, verified against its hash.
-Produce fromObject(const fs::path& path, const std::string& what)
+Produce fromObject(const fs::path& path, const ObjectText& what)
 {
   struct State
   {
@@ -400,7 +400,7 @@ void chooseInstrument(scene::Case& value, const ObjectStore& kept, std::vector<s
   instrument->name.clear(); // its file may be called after the patient, or who owns it
   try
   {
-    checkObject(kept.path(instrument->object), "the instrument", progress);
+    checkObject(kept.path(instrument->object), {"the instrument", true}, progress);
   }
   catch (const LibraryError&)
   {
@@ -644,8 +644,7 @@ try
       use.kind = ObjectUse::Kind::Instrument;
       use.name = "instrument";
     }
-    const fs::path path =
-        storeOf(use.object).path(use.object, use.what + " of case '" + name + "'");
+    const fs::path path = storeOf(use.object).path(use.object, textOf(use, name));
     const std::uintmax_t bytes = core::InputFile(path).size();
     index.objects.push_back({use.object, entryOf(use, &use == &uses.front(), used), bytes,
                              use.kind == ObjectUse::Kind::Image});
@@ -662,7 +661,7 @@ try
   for (std::size_t n = 0; n < stored.size(); ++n)
   {
     const ObjectUse& use = *stored[n];
-    const std::string what = use.what + " of case '" + name + "'";
+    const ObjectText what = textOf(use, name);
     if (use.kind == ObjectUse::Kind::Image)
       zip.add(index.objects[n].file, false,
               [path = storeOf(use.object).path(use.object, what), what,

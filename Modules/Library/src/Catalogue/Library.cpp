@@ -567,7 +567,7 @@ void Library::attach(scene::Case& value) const
     part.labels = core::Lazy<volume::LabelMap>(
         [store, object = part.object, what = labelsText(value, part), derived = value.derived]
         { return structure([&] { return unpackedLabels(store, object, what, *derived); }); });
-  const auto meshOf = [&store](const std::string& object, const std::string& what)
+  const auto meshOf = [&store](const std::string& object, const ObjectText& what)
   {
     return core::Lazy<core::TriangleMesh>(
         [store, object, what]
@@ -583,7 +583,8 @@ void Library::attach(scene::Case& value) const
   for (auto& mesh : value.meshes)
     mesh.mesh = meshOf(mesh.object, meshText(value, mesh));
   if (auto& instrument = value.view.instrument)
-    instrument->mesh = meshOf(instrument->object, "the instrument of case '" + value.name + "'");
+    instrument->mesh =
+        meshOf(instrument->object, {"the instrument of case '" + value.name + "'", true});
   const auto& strokes = value.dissection.strokes();
   for (std::size_t n = 0; n < strokes.size(); ++n)
     value.dissection.setStored(

@@ -445,7 +445,7 @@ std::vector<std::string> Library::lost(const scene::Case& value) const
     try
     {
       if (use.kind != ObjectUse::Kind::Attachment)
-        store.path(use.object, use.what + " of case '" + value.name + "'");
+        store.path(use.object, textOf(use, value.name));
     }
     catch (const LibraryError& error)
     {
@@ -471,15 +471,17 @@ struct Use
     fs::path manifest;
     std::string name; // of the case
     bool isDeleted = false;
-    std::string what; // of the object in it
+    ObjectText what; // the object is in it
   };
   std::vector<By> all;
 
-  std::string text() const
+  ObjectText text() const
   {
-    return all.empty() ? "of no case"
-                       : all.front().what + " of " + (all.front().isDeleted ? "deleted " : "") +
-                             "case '" + all.front().name + "'";
+    if (all.empty())
+      return {"of no case"};
+    const By& by = all.front();
+    return {by.what.words + " of " + (by.isDeleted ? "deleted " : "") + "case '" + by.name + "'",
+            by.what.isInstrument};
   }
 };
 
@@ -586,7 +588,8 @@ Inspection Library::verify(const core::Progress& progress) const
         if (!isDeleted && !one.link.empty())
           links.emplace_back(name, one);
       for (const ObjectUse& use : objectsOf(value))
-        uses[use.object].all.push_back({path, name, isDeleted, use.what});
+        uses[use.object].all.push_back(
+            {path, name, isDeleted, {use.what, use.kind == ObjectUse::Kind::Instrument}});
     }
     catch (const scene::ManifestError& error)
     {

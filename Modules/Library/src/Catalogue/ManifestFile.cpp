@@ -181,6 +181,11 @@ std::vector<ObjectUse> objectsOf(const scene::Case& value)
   return uses;
 }
 
+ObjectText textOf(const ObjectUse& use, const std::string& ofCase)
+{
+  return {use.what + " of case '" + ofCase + "'", use.kind == ObjectUse::Kind::Instrument};
+}
+
 std::vector<ObjectUse> misplacedImages(const scene::Case& value, const ObjectStore& store)
 {
   std::vector<ObjectUse> misplaced;

@@ -59,6 +59,9 @@ struct ObjectUse
   bool isInstrument = false; ///< of a mesh: it is the instrument, too
 };
 
+/// "mesh 'cochlea' of case 'ear'"; `ofCase`: its name.
+ObjectText textOf(const ObjectUse& use, const std::string& ofCase);
+
 /// Whether an archive of a plan has it: what was made, not what was imported.
 inline bool isOfPlan(const ObjectUse& use) noexcept
 {

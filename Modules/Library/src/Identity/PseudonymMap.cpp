@@ -15,8 +15,8 @@
 #include <nlohmann/json.hpp>
 #include <sodium.h>
 
-#include "OpenedLock.h"
 #include "petrous/Core/InputFile.h"
+#include "petrous/Core/OpenedLock.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Library/OwnerLock.h"
 
@@ -113,7 +113,7 @@ PseudonymMap::PseudonymMap(const std::filesystem::path& path, const std::string&
     core::throwOutputError(errno, lock);
   try
   {
-    if (lockOpened(m_lock) != LockState::Ours)
+    if (core::lockOpened(m_lock) != core::LockState::Ours)
       throw PseudonymMapError(PseudonymMapError::Reason::InUse,
                               core::printable(m_path) +
                                   ": is in use by another program; try again when that has ended");

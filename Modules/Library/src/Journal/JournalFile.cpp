@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "LibraryFolder.h"
-#include "OpenedLock.h"
+#include "petrous/Core/OpenedLock.h"
 #include "petrous/Library/LibraryError.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/HistoryText.h"
@@ -121,7 +121,7 @@ bool endsInHead(std::string_view bytes)
 bool lockSoon(int descriptor)
 {
   constexpr std::chrono::milliseconds kPatience{100};
-  return lockOpened(descriptor, kPatience) == LockState::Ours;
+  return core::lockOpened(descriptor, kPatience) == core::LockState::Ours;
 }
 
 } // namespace
@@ -231,7 +231,7 @@ JournalFile::JournalFile(const fs::path& path, const JournalHead& head)
                              "' is being drilled by another process; end that first");
     if (m_descriptor < 0)
       throwForErrno(errno, path);
-    lockOpened(m_descriptor, std::chrono::hours(1)); // who looks at it has it for a moment
+    core::lockOpened(m_descriptor, std::chrono::hours(1)); // who looks at it has it for a moment
   } while (::fstat(m_descriptor, &info) == 0 && info.st_nlink == 0);
   m_held = true;
   try

@@ -1,13 +1,11 @@
 #include "petrous/Library/Attachments.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <ctime>
 #include <string_view>
 
 #include <libdeflate.h>
-#include <unistd.h>
 
 #include "AttachmentFiles.h"
 #include "LibraryFolder.h"
@@ -23,8 +21,7 @@ using scene::Attachment;
 namespace
 {
 
-constexpr std::size_t kHead = 256;      // bytes by which a file is known
-constexpr std::size_t kBlock = 1 << 20; // bytes copied at once
+constexpr std::size_t kHead = 256; // bytes by which a file is known
 
 std::string today()
 {
@@ -125,32 +122,6 @@ std::uint32_t number(const std::uint8_t* from)
          std::uint32_t{from[2]} << 8U | from[3];
 }
 
-// Copies the file to `write`, block by block; returns its hash.
-std::string copied(const core::InputFile& file,
-                   const std::function<void(const char*, std::size_t)>& write,
-                   const core::Progress& progress, const char* task = "copying")
-{
-  Sha256 hash;
-  std::vector<char> block(kBlock);
-  for (std::uintmax_t done = 0; done < file.size();)
-  {
-    progress.report(static_cast<double>(done) / static_cast<double>(file.size()), task);
-    const ssize_t got =
-        ::pread(file.descriptor(), block.data(), block.size(), static_cast<off_t>(done));
-    if (got < 0 && errno == EINTR)
-      continue;
-    if (got <= 0)
-      throw LibraryError(LibraryError::Reason::Damaged,
-                         core::printable(file.path()) + ": cannot be read to its end");
-    const auto count = static_cast<std::size_t>(
-        std::min<std::uintmax_t>(static_cast<std::uintmax_t>(got), file.size() - done));
-    hash.add(block.data(), count);
-    write(block.data(), count);
-    done += count;
-  }
-  return hash.hexadecimal();
-}
-
 void refuseTooLarge(const fs::path& file, std::uintmax_t bytes, std::uint64_t limit,
                     const char* instead)
 {
@@ -190,8 +161,7 @@ Attachment attachmentOf(const fs::path& file, const AttachOptions& options,
     if (options.link)
     {
       attachment.link = fs::canonical(file).string();
-      attachment.sha256 = copied(
-          opened, [](const char*, std::size_t) {}, progress);
+      attachment.sha256 = copied(opened, {}, progress);
       scene::checkAttachments({attachment});
       return attachment;
     }
@@ -361,9 +331,8 @@ try
   if (const std::string problem = attachmentProblem(library, attachment); !problem.empty())
     return problem;
   const std::string& known = attachment.link.empty() ? attachment.object : attachment.sha256;
-  const std::string hash = copied(
-      core::InputFile(attachmentFile(library, attachment)), [](const char*, std::size_t) {},
-      progress, "comparing with what was attached");
+  const std::string hash = copied(core::InputFile(attachmentFile(library, attachment)), {},
+                                  progress, "comparing with what was attached");
   return known.compare(0, hash.size(), hash) == 0 ? std::string() : "changed";
 }
 catch (const core::InputFileError& error)

@@ -39,15 +39,14 @@ bool isObjectName(const std::string& name)
          name.find('/') == std::string::npos;
 }
 
-// What helps if an object is missing or damaged: a stroke cannot be imported. `what`: it begins so
-// of an instrument, which no part of the case needs.
-std::string remedyFor(const fs::path& object, const std::string& what)
+// What helps if an object is missing or damaged: a stroke cannot be imported.
+std::string remedyFor(const fs::path& object, const ObjectText& what)
 {
   const fs::path ending = object.extension();
-  const bool isInstrument = what.rfind("the instrument", 0) == 0;
   return std::string("; restore this file from a copy of the library") +
-         (isInstrument ? ", take it up again from its own file (petrous view --instrument), or "
-                         "take it out of the case (--clear instrument)"
+         (what.isInstrument
+              ? ", take it up again from its own file (petrous view --instrument), or "
+                "take it out of the case (--clear instrument)"
           : ending == ".stroke" ? ""
           : ending == ".nrrd" || ending == ".obj"
               ? ", or import the same data again (into a new case), which puts it back"
@@ -55,18 +54,20 @@ std::string remedyFor(const fs::path& object, const std::string& what)
          "; 'petrous library verify' lists all that is damaged";
 }
 
-[[noreturn]] void throwDamaged(const fs::path& object, const std::string& what)
+[[noreturn]] void throwDamaged(const fs::path& object, const ObjectText& what)
 {
   throw LibraryError(LibraryError::Reason::Damaged,
-                     core::printable(object) + ": " + (what.empty() ? "this file" : what) +
+                     core::printable(object) + ": " +
+                         (what.words.empty() ? "this file" : what.words) +
                          " is damaged: not what was stored there" + remedyFor(object, what));
 }
 
-[[noreturn]] void throwMissing(const fs::path& object, const std::string& what)
+[[noreturn]] void throwMissing(const fs::path& object, const ObjectText& what)
 {
-  throw LibraryError(LibraryError::Reason::NotFound, core::printable(object) + ": " +
-                                                         (what.empty() ? "" : what + " is ") +
-                                                         "missing" + remedyFor(object, what));
+  throw LibraryError(LibraryError::Reason::NotFound,
+                     core::printable(object) + ": " +
+                         (what.words.empty() ? "" : what.words + " is ") + "missing" +
+                         remedyFor(object, what));
 }
 
 } // namespace
@@ -97,26 +98,36 @@ std::string Sha256::hexadecimal()
   return text;
 }
 
-std::string sha256OfFile(const fs::path& path, const core::Progress& progress)
-try
+std::string copied(const core::InputFile& file,
+                   const std::function<void(const char*, std::size_t)>& write,
+                   const core::Progress& progress, const char* task)
 {
-  const core::InputFile file(path);
   Sha256 hash;
   std::vector<char> block(1 << 20);
   for (std::uintmax_t done = 0; done < file.size();)
   {
-    progress.report(static_cast<double>(done) / static_cast<double>(file.size()), "checking");
+    progress.report(static_cast<double>(done) / static_cast<double>(file.size()), task);
     const ssize_t got =
         ::pread(file.descriptor(), block.data(), block.size(), static_cast<off_t>(done));
     if (got < 0 && errno == EINTR)
       continue;
     if (got <= 0)
       throw LibraryError(LibraryError::Reason::Damaged,
-                         core::printable(path) + ": cannot be read to its end");
-    hash.add(block.data(), static_cast<std::size_t>(got));
-    done += static_cast<std::uintmax_t>(got);
+                         core::printable(file.path()) + ": cannot be read to its end");
+    const auto count = static_cast<std::size_t>(
+        std::min<std::uintmax_t>(static_cast<std::uintmax_t>(got), file.size() - done));
+    hash.add(block.data(), count);
+    if (write)
+      write(block.data(), count);
+    done += count;
   }
   return hash.hexadecimal();
+}
+
+std::string sha256OfFile(const fs::path& path, const core::Progress& progress)
+try
+{
+  return copied(core::InputFile(path), {}, progress, "checking a file");
 }
 catch (const core::InputFileError& error)
 {
@@ -130,7 +141,7 @@ std::string sha256Of(const std::uint8_t* bytes, std::size_t count)
   return hash.hexadecimal();
 }
 
-void checkObject(const fs::path& object, const std::string& what, const core::Progress& progress)
+void checkObject(const fs::path& object, const ObjectText& what, const core::Progress& progress)
 {
   std::error_code error;
   if (fs::symlink_status(object, error).type() == fs::file_type::not_found)
@@ -203,7 +214,7 @@ bool ObjectStore::contains(const std::string& object) const noexcept
   return isObjectName(object) && fs::is_regular_file(m_folder / object, error);
 }
 
-fs::path ObjectStore::path(const std::string& object, const std::string& what) const
+fs::path ObjectStore::path(const std::string& object, const ObjectText& what) const
 {
   if (!isObjectName(object))
     throw LibraryError(LibraryError::Reason::Damaged,
@@ -216,7 +227,7 @@ fs::path ObjectStore::path(const std::string& object, const std::string& what) c
   return result;
 }
 
-fs::path ObjectStore::checkedPath(const std::string& object, const std::string& what) const
+fs::path ObjectStore::checkedPath(const std::string& object, const ObjectText& what) const
 {
   fs::path result = path(object, what);
   checkObject(result, what);
@@ -224,7 +235,7 @@ fs::path ObjectStore::checkedPath(const std::string& object, const std::string& 
 }
 
 std::vector<std::uint8_t> ObjectStore::readChecked(const std::string& object,
-                                                   const std::string& what) const
+                                                   const ObjectText& what) const
 try
 {
   const fs::path file = path(object, what);

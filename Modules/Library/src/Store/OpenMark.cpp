@@ -14,8 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "OpenedLock.h"
 #include "petrous/Core/InputFile.h"
+#include "petrous/Core/OpenedLock.h"
 #include "petrous/Core/OutputFile.h"
 
 namespace petrous::library
@@ -88,13 +88,13 @@ std::optional<Opener> openerAt(const fs::path& path)
     ::close(descriptor);
     return std::nullopt;
   }
-  const LockState lock = lockOpened(descriptor);
+  const core::LockState lock = core::lockOpened(descriptor);
   // Where a file system has no locks, a process of this computer can still be asked for.
-  const bool isGone =
-      lock == LockState::Ours ||
-      (lock == LockState::NoLocks && opener->process > 0 && opener->computer == thisComputer() &&
-       ::kill(static_cast<pid_t>(opener->process), 0) != 0 && errno == ESRCH);
-  if (isGone && isOpenedAt(descriptor, path))
+  const bool isGone = lock == core::LockState::Ours ||
+                      (lock == core::LockState::NoLocks && opener->process > 0 &&
+                       opener->computer == thisComputer() &&
+                       ::kill(static_cast<pid_t>(opener->process), 0) != 0 && errno == ESRCH);
+  if (isGone && core::isOpenedAt(descriptor, path))
     ::unlink(path.c_str());
   ::close(descriptor);
   return isGone ? std::nullopt : opener;
@@ -151,8 +151,8 @@ OpenMark::OpenMark(const fs::path& library, std::string id)
     }
     // Who looks at it just now has it locked for a moment, and may take it for a killed one's.
     // Where there are no locks, it is as good as locked.
-    const bool isLocked = lockOpened(m_descriptor, kPatience) != LockState::Anothers;
-    const bool isThere = isOpenedAt(m_descriptor, m_path);
+    const bool isLocked = core::lockOpened(m_descriptor, kPatience) != core::LockState::Anothers;
+    const bool isThere = core::isOpenedAt(m_descriptor, m_path);
     if (!isLocked || !isThere)
     {
       if (isThere)
@@ -174,7 +174,7 @@ OpenMark::~OpenMark()
 {
   if (m_descriptor < 0)
     return;
-  if (isOpenedAt(m_descriptor, m_path))
+  if (core::isOpenedAt(m_descriptor, m_path))
     ::unlink(m_path.c_str());
   ::close(m_descriptor);
 }

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "OpenedLock.h"
+#include "petrous/Core/OpenedLock.h"
 
 namespace petrous::library
 {
@@ -19,8 +19,8 @@ OwnerLock::OwnerLock(const fs::path& folder)
 {
   if (m_descriptor < 0)
     return;
-  lockOpened(m_descriptor);
-  m_isThere = isOpenedAt(m_descriptor, folder);
+  core::lockOpened(m_descriptor);
+  m_isThere = core::isOpenedAt(m_descriptor, folder);
 }
 
 OwnerLock::~OwnerLock()
@@ -44,7 +44,7 @@ void removeAbandoned(const fs::path& folder, const std::function<bool(const fs::
       continue;
     struct stat status = {};
     if (::fstat(descriptor, &status) == 0 && status.st_uid == ::geteuid() &&
-        lockOpened(descriptor) == LockState::Ours && isOpenedAt(descriptor, path))
+        core::lockOpened(descriptor) == core::LockState::Ours && core::isOpenedAt(descriptor, path))
       fs::remove_all(path, error);
     ::close(descriptor);
   }

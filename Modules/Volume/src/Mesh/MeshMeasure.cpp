@@ -68,18 +68,13 @@ std::vector<Part> partsOf(const core::TriangleMesh& mesh, const MeshTopology& to
     for (const std::uint32_t vertex : mesh.triangles[topology.triangles[n]])
       part.box.extend(mesh.vertices[vertex].cast<double>().eval());
   }
+  core::TriangleMesh alone{mesh.vertices, {}};
   for (Part& part : parts)
   {
-    const Eigen::Vector3d base = part.box.center(); // avoids cancellation far from the origin
-    double sixfold = 0.0;
+    alone.triangles.clear();
     for (const std::uint32_t t : part.triangles)
-    {
-      std::array<Eigen::Vector3d, 3> corners;
-      for (std::size_t c = 0; c < 3; ++c)
-        corners[c] = mesh.vertices[mesh.triangles[t][c]].cast<double>() - base;
-      sixfold += corners[0].dot(corners[1].cross(corners[2]));
-    }
-    part.volume = sixfold / 6.0;
+      alone.triangles.push_back(mesh.triangles[t]);
+    part.volume = alone.signedVolume();
   }
   return parts;
 }

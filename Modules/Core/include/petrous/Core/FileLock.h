@@ -27,8 +27,6 @@ public:
   FileLock& operator=(const FileLock&) = delete;
 
 private:
-  bool take(int operation, const std::filesystem::path& file);
-
   int m_descriptor;
 };
 

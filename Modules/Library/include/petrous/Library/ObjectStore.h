@@ -13,6 +13,19 @@
 namespace petrous::library
 {
 
+/// What an object is to the user, for messages.
+struct ObjectText
+{
+  ObjectText(std::string text = {}, bool ofInstrument = false)
+    : words(std::move(text))
+    , isInstrument(ofInstrument)
+  {
+  }
+
+  std::string words; ///< "mesh 'cochlea' of case 'ear'"; empty: not known
+  bool isInstrument; ///< and no part of the case, so that another remedy helps
+};
+
 /// Content-addressed store: files are named by the SHA-256 of their content, so identical content
 /// is stored once, and nothing that a manifest references is ever overwritten.
 ///
@@ -37,13 +50,13 @@ public:
   bool contains(const std::string& object) const noexcept;
 
   /// Path of an existing object; throws LibraryError (NotFound) naming it otherwise, and (Damaged)
-  /// for an invalid object name. `what` describes the object to the user.
-  std::filesystem::path path(const std::string& object, const std::string& what = {}) const;
+  /// for an invalid object name.
+  std::filesystem::path path(const std::string& object, const ObjectText& what = {}) const;
 
   /// Like `path`, but verifies the content against the hash in the name: throws LibraryError
   /// (Damaged) on mismatch.
-  std::filesystem::path checkedPath(const std::string& object, const std::string& what) const;
-  std::vector<std::uint8_t> readChecked(const std::string& object, const std::string& what) const;
+  std::filesystem::path checkedPath(const std::string& object, const ObjectText& what) const;
+  std::vector<std::uint8_t> readChecked(const std::string& object, const ObjectText& what) const;
 
   /// All objects with their size in bytes.
   std::vector<std::pair<std::string, std::uintmax_t>> list() const;
@@ -68,7 +81,7 @@ std::string sha256Of(const std::uint8_t* bytes, std::size_t count);
 std::string sha256OfFile(const std::filesystem::path& path, const core::Progress& progress = {});
 
 /// Throws LibraryError (Damaged, NotFound) if the content of a file does not match its name.
-void checkObject(const std::filesystem::path& object, const std::string& what,
+void checkObject(const std::filesystem::path& object, const ObjectText& what,
                  const core::Progress& progress = {});
 
 } // namespace petrous::library

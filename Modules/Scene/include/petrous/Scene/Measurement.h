@@ -57,8 +57,7 @@ void setImages(Measurement& measurement, std::vector<std::string> images);
 /// before keep what is known of theirs.
 void setReadings(const Case& value, Measurement& measurement,
                  std::optional<std::size_t> point = std::nullopt);
-/// Why the error of points that were set on that MR is not known, since the MR does not lie any
-/// more as it did then; empty if it does, or nothing is known of it.
+/// outdatedReading of the points that were set on that MR; empty, too, if nothing is known of it.
 std::string outdatedPoints(const Case& value, const Measurement& measurement,
                            const std::string& mr);
 

@@ -34,10 +34,18 @@ void addReadings(MrReadings& readings, const MrReadings& more);
 /// Whether the MR is there, and registered as it was.
 bool isCurrent(const Case& value, const MrReading& reading);
 
+/// What was made from an MR.
+enum class MadeFromMr
+{
+  Structure,
+  Points ///< that were set on it
+};
+
 /// Why the registration error of what was made is not known, since an MR does not lie any more as
-/// it was read: "the MR 'T2', from which it was made, was registered anew since, ..."; empty if all
-/// lie as they did.
-std::string outdatedReading(const Case& value, const MrReadings& readings);
+/// it was read: "the MR 'T2', from which it was made, lies elsewhere since: ..."; empty if all lie
+/// as they did.
+std::string outdatedReading(const Case& value, const MrReadings& readings,
+                            MadeFromMr made = MadeFromMr::Structure);
 
 /// "'T2', 'T1'", each name once; empty: read from no MR.
 std::string namesOf(const MrReadings& readings);

@@ -1,4 +1,4 @@
-#include "OpenedLock.h"
+#include "petrous/Core/OpenedLock.h"
 
 #include <cerrno>
 #include <thread>
@@ -6,14 +6,15 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 
-namespace petrous::library
+namespace petrous::core
 {
 
 LockState lockOpened(int descriptor, std::chrono::milliseconds patience) noexcept
 {
   constexpr std::chrono::milliseconds kPause{2};
+  const int operation = patience == kWaitForLock ? LOCK_EX : LOCK_EX | LOCK_NB;
   const auto begun = std::chrono::steady_clock::now();
-  while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+  while (::flock(descriptor, operation) != 0)
   {
     if (errno == EINTR)
       continue;
@@ -33,4 +34,4 @@ bool isOpenedAt(int descriptor, const std::filesystem::path& path) noexcept
          opened.st_ino == found.st_ino && opened.st_dev == found.st_dev;
 }
 
-} // namespace petrous::library
+} // namespace petrous::core

@@ -127,8 +127,49 @@ TEST(DeviceCheck, FindsTheStabilityLimitOfASampledSpringWithinItsMargin)
       EXPECT_NEAR(axis.hertz, hertz, 0.25 * hertz);
     }
     EXPECT_NEAR(result.proposed, 0.5 * result.axes[0].stable, 0.1 * limit);
-    EXPECT_LT(device.velocity().linear.norm(), 50.0) << "the cycle was left at once";
+    EXPECT_LT(device.velocity().linear.norm(), 100.0) << "mm/s: the cycle was left at once";
   }
+}
+
+// At the tap's speed v, Coulomb friction f damps no more than a damper of 4 f / (pi v), the least v
+// being 40 mm/s [describing function]; the limit with that added is an upper bound.
+TEST(DeviceCheck, FrictionHidesNoLimitCycle)
+{
+  for (const double friction : {0.1, 0.3})
+    for (const int delay : {4, 8})
+    {
+      SimulatedDevice::Hand hand;
+      hand.friction = friction;
+      SimulatedDevice device(still, hand, {});
+      Transmission way;
+      way.delay = static_cast<std::size_t>(delay);
+      const double most = haptics::sampledSpringLimit(
+          hand.mass, hand.damping + 4.0 * friction / (3.1416 * 40.0), hand.stiffness, delay);
+      const auto result = examined(device, way);
+      for (const auto& axis : result.axes)
+      {
+        EXPECT_GT(axis.stable, 0.2);
+        EXPECT_LT(axis.stable, most) << friction << " N, " << delay << " ms";
+      }
+    }
+}
+
+// 6 Hz change their sign once or twice in the time that is judged.
+TEST(DeviceCheck, TakesAWideSwingForALimitCycle)
+{
+  SimulatedDevice::Hand hand;
+  hand.damping = 0.1;
+  const auto swinging = [](double t)
+  {
+    const double since = std::max(0.0, t - 5.5); // in the ramps
+    return Pose{{5.0 * std::sin(37.7 * since), 0.0, 0.0}, Eigen::Quaterniond::Identity()};
+  };
+  SimulatedDevice device(swinging, hand, {});
+  const auto result = examined(device);
+  EXPECT_EQ(result.problem, "");
+  EXPECT_GT(result.axes[0].limit, 3.0 / 5.0) << "N/mm: the cap at that amplitude";
+  EXPECT_LT(result.axes[0].limit, 1.5);
+  EXPECT_EQ(result.axes[1].limit, 0.0);
 }
 
 TEST(DeviceCheck, EndsAtTheTopWhereNothingOscillates)

@@ -42,8 +42,9 @@ constexpr double kAgainstAtEnd = 0.3; // mm, likewise; a tremor would be as larg
 constexpr double kLeast = 0.1;      // N/mm
 constexpr double kGrowth = 1.15;    // a level
 constexpr double kLevel = 0.4;      // s
-constexpr double kTap = 0.2;        // mm
-constexpr double kTapFor = 0.02;    // s
+constexpr double kTapRise = 25.0;   // N/s
+constexpr double kTapWay = 0.5;     // mm
+constexpr double kTapFor = 0.06;    // s, at most
 constexpr double kSettle = 0.12;    // s
 constexpr double kCorner = 25.0;    // Hz, of the high-passes
 constexpr double kCycle = 0.05;     // N
@@ -273,13 +274,19 @@ void DeviceCheck::beginLevel(double now) noexcept
   m_sign = 0.0;
   m_changes = 0;
   m_pulledSince = 0.0;
+  m_tapped = false;
+  m_tapAt = m_last[m_axis];
+  m_capped = {false, false};
 }
 
 void DeviceCheck::judgeLevel(double now) noexcept
 {
   Axis& axis = m_result.axes[static_cast<std::size_t>(m_axis)];
-  const bool cycles = m_fast || (m_changes >= kChanges && m_amplitudes[1] > kCycle &&
-                                 m_amplitudes[1] > kDecay * m_amplitudes[0]);
+  // Wide swings under a capped force are slower than kChanges.
+  const bool wide = m_capped[0] && m_capped[1];
+  const bool cycles = m_fast || wide ||
+                      (m_changes >= kChanges && m_amplitudes[1] > kCycle &&
+                       m_amplitudes[1] > kDecay * m_amplitudes[0]);
   if (cycles)
   {
     axis.limit = m_stiffness;
@@ -311,8 +318,9 @@ double DeviceCheck::spring(const DeviceReading& reading, double now) noexcept
       return 0.0;
   }
   const double time = now - m_since;
-  const double tap = time < kTapFor ? kTap : 0.0;
-  const double wanted = -m_stiffness * (position[m_axis] - m_anchor[m_axis] - tap);
+  m_tapped = m_tapped || time > kTapFor || std::abs(position[m_axis] - m_tapAt) > kTapWay;
+  const double wanted = m_tapped ? -m_stiffness * (position[m_axis] - m_anchor[m_axis])
+                                 : std::min(kTapRise * time, m_forceCap);
   const double force = std::clamp(wanted, -m_forceCap, m_forceCap);
   if (force == wanted)
     m_pulledSince = 0.0;
@@ -340,6 +348,8 @@ double DeviceCheck::spring(const DeviceReading& reading, double now) noexcept
   const double half = 0.5 * (kSettle + kLevel);
   if (time < kSettle)
     return force;
+  if (force != wanted)
+    m_capped[force > 0.0 ? 1 : 0] = true;
   double& amplitude = m_amplitudes[time < half ? 0 : 1];
   amplitude = std::max(amplitude, std::abs(high));
   const double sign = high > 0.0 ? 1.0 : -1.0;

@@ -17,16 +17,20 @@ namespace petrous::devices
 ///
 /// Spring of one axis, at stiffness k, for a level of 0.4 s:
 ///
-///   F_n = -k (x_n - x_0 - d_n), |F_n| <= forceCap
+///   F_n = -k (x_n - x_0), |F_n| <= forceCap
 ///
 /// x_0    where the handle was when the axis began; again where it was pulled away for 0.1 s
-/// d      a tap of 0.2 mm in the first 20 ms, to be answered by a decaying oscillation
+///
+/// A tap begins each level in the spring's stead, to be answered by a decaying oscillation: a force
+/// that rises by 25 N/s until the handle moved by 0.5 mm, for 60 ms at most. A handle of 0.15 to
+/// 0.4 kg then has 40 to 60 mm/s, as a hand that comes onto bone, however much friction its joints
+/// have. Friction holds a weaker tap, and hides a limit cycle that a faster motion finds.
 ///
 /// F is high-passed (two poles of 25 Hz). A limit cycle is an oscillation that from 0.12 s on does
 /// not decay: in the second half of that time at least 3 changes of sign, 0.05 N, and 0.85 of the
-/// first half's amplitude; or the handle faster than 500 mm/s at any time, by the readings' own
-/// times; or a fault of the device. A stable spring decays faster than that up to about 0.75 of the
-/// stability limit. k rises by 15 % a level.
+/// first half's amplitude; or the force at its cap both ways; or the handle faster than 500 mm/s at
+/// any time, by the readings' own times; or a fault of the device. A stable spring decays faster
+/// than that up to about 0.75 of the stability limit. k rises by 15 % a level.
 ///
 /// Not thread-safe; `tick` does not throw.
 class DeviceCheck
@@ -77,7 +81,8 @@ public:
     double worstGap = 0.0;                  ///< s between two readings
     std::vector<double> roundTrips;         ///< s, of wrenches, unsorted
     std::array<Axis, 3> axes;
-    /// N/mm: half of the smallest `stable`; 0: no forces were tested, or not on every axis.
+    /// N/mm: half of the smallest `stable`, as the hand that held it damps, too; 0: no forces were
+    /// tested, or not on every axis.
     double proposed = 0.0;
   };
 
@@ -142,6 +147,9 @@ private:
   double m_sign = 0.0;
   int m_changes = 0; ///< of sign in the second half
   bool m_fast = false;
+  bool m_tapped = false;                      ///< the tap of this level is over
+  double m_tapAt = 0.0;                       ///< mm, where it began
+  std::array<bool, 2> m_capped{false, false}; ///< the force was, downward and upward
 };
 
 } // namespace petrous::devices

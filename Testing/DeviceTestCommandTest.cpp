@@ -45,7 +45,7 @@ protected:
 // Its handle is at x = C F: under F = -k x the loop's gain is k C, and it oscillates beyond 1.
 TEST_F(DeviceTestCommand, StopsAtTheLimitCycleAndKeepsHalfOfWhatWasStable)
 {
-  install("spring", "--radius 0 --compliance 9.3"); // 0.1075 N/mm, between two steps of the ramp
+  install("spring", "--radius 0 --compliance 7.1"); // 0.141 N/mm, between two steps of the ramp
   const auto answer = json("device-test --workspace 0.5 --keep");
   EXPECT_EQ(answer["device"], "Petrous example device");
   EXPECT_TRUE(answer["problem"].is_null());
@@ -55,18 +55,18 @@ TEST_F(DeviceTestCommand, StopsAtTheLimitCycleAndKeepsHalfOfWhatWasStable)
     const auto& axis = answer["axes"][i];
     EXPECT_EQ(axis["axis"], std::string(1, "xyz"[i]));
     EXPECT_TRUE(axis["follows"]);
-    EXPECT_NEAR(axis["step_moved_mm"][i].get<double>(), 0.5 * 9.3, 1e-6);
-    EXPECT_DOUBLE_EQ(axis["stable_n_per_mm"].get<double>(), 0.1);
-    EXPECT_NEAR(axis["limit_n_per_mm"].get<double>(), 0.115, 1e-9);
+    EXPECT_NEAR(axis["step_moved_mm"][i].get<double>(), 0.5 * 7.1, 1e-6);
+    EXPECT_NEAR(axis["stable_n_per_mm"].get<double>(), 0.1 * 1.15 * 1.15, 1e-9);
+    EXPECT_NEAR(axis["limit_n_per_mm"].get<double>(), 0.1 * 1.15 * 1.15 * 1.15, 1e-9);
   }
-  EXPECT_DOUBLE_EQ(answer["proposed_stiffness_n_per_mm"].get<double>(), 0.05);
+  EXPECT_NEAR(answer["proposed_stiffness_n_per_mm"].get<double>(), 0.066125, 1e-9);
   EXPECT_GT(answer["round_trip_ms"]["p50"].get<double>(), 0.0);
   EXPECT_GT(answer["rate_hz"].get<double>(), 0.0);
   EXPECT_TRUE(answer["kept"]);
   const auto kept = nlohmann::json::parse(
       petrous::testing::textOf(m_folder / "config/petrous/device-limits.json"));
-  EXPECT_DOUBLE_EQ(kept["spring"]["Petrous example device"]["max_stiffness_n_per_mm"].get<double>(),
-                   0.05);
+  EXPECT_NEAR(kept["spring"]["Petrous example device"]["max_stiffness_n_per_mm"].get<double>(),
+              0.066125, 1e-9);
 }
 
 TEST_F(DeviceTestCommand, DrivesNoSpringAgainstTheHandAndKeepsNothing)

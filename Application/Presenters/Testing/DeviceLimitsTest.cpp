@@ -1,8 +1,11 @@
 #include "petrous/Presenters/DeviceLimits.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <ostream>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -10,12 +13,46 @@
 
 #include "WallPress.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Devices/DeviceCheck.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
 
+namespace petrous::haptics
+{
+
+void PrintTo(const KnownHandle& handle, std::ostream* out)
+{
+  *out << handle.real.name;
+}
+
+} // namespace petrous::haptics
+
 namespace
 {
+
+class TestedHandle : public ::testing::TestWithParam<haptics::KnownHandle>
+{
+};
+
+constexpr double kTick = 0.001; // s
+
+// N/mm, as `device-test` proposes it.
+double proposedFor(const haptics::RealDevice& real)
+{
+  haptics::TransmittedDevice device(real, [](double) { return haptics::Pose(); });
+  devices::DeviceCheck::Options options;
+  options.workspaceTime = 0.5;
+  devices::DeviceCheck check(device.description(), options);
+  haptics::MissedTicks misses(real);
+  for (int n = 0; n < 400000 && check.stage() != devices::DeviceCheck::Stage::Done; ++n)
+  {
+    const haptics::DeviceReading reading = device.read(kTick * n);
+    if (!misses(n))
+      device.send(check.tick(reading, kTick * n));
+  }
+  return check.result().proposed;
+}
 
 constexpr double kDescribed = 5.0; // N/mm
 
@@ -105,6 +142,45 @@ TEST(DeviceLimits, KeepsDevicesStableWithLongDelaysAndMissedTicks)
       }
   }
 }
+
+// What `device-test` proposes on them, whatever the server describes. Where no tick is missed, not
+// below 0.4 of the stiffness that is passive by the damping alone, or of the ramp's end.
+TEST_P(TestedHandle, IsStableAndNotTooSoftAtTheProposedStiffness)
+{
+  const struct
+  {
+    double share;
+    int burst;
+  } missing[] = {{0.0, 1}, {0.01, 1}, {0.05, 1}, {0.05, 3}};
+  for (int delay = 0; delay <= 8; ++delay)
+    for (const auto& missed : missing)
+    {
+      haptics::RealDevice real = GetParam().real;
+      real.delay = delay;
+      real.missed = missed.share;
+      real.burst = missed.burst;
+      haptics::WallPress how;
+      how.times = 30;
+      how.stiffness = proposedFor(real);
+      const std::string cell = std::to_string(how.stiffness) + " N/mm, " + std::to_string(delay) +
+                               " ms, " + std::to_string(missed.share) + " missed";
+      ASSERT_GT(how.stiffness, 0.0) << cell;
+      const double least =
+          missed.share == 0.0 ? 0.4 * std::min(10.0, haptics::passiveStiffness(real)) : 0.0;
+      EXPECT_GE(how.stiffness, least) << cell;
+      const haptics::Touching felt = haptics::press(real, how);
+      EXPECT_LE(felt.energyOut, haptics::Touching::kMostEnergy) << cell;
+      EXPECT_LE(felt.ripple, haptics::Touching::kMostRipple) << cell;
+      EXPECT_GT(felt.mostForce, 0.3) << "the wall was felt; " << cell;
+    }
+}
+
+// All but mass and damper alone, which is no device.
+INSTANTIATE_TEST_SUITE_P(DeviceLimits, TestedHandle,
+                         ::testing::ValuesIn(std::begin(haptics::kHandles) + 1,
+                                             std::end(haptics::kHandles)),
+                         [](const auto& instance)
+                         { return std::string(instance.param.real.name); });
 
 TEST(DeviceLimits, ReadsTheFormerFormatAndKeepsItsEntry)
 {

@@ -75,6 +75,26 @@ TEST(DrilledMesh, IsCutWithinItsTriangles)
   EXPECT_NEAR(areaOf(left->mesh), area, 0.005 * area);
 }
 
+// The diagonals of a face pass through bricks that are cut, its sides do not: with the sides whole,
+// their triangles would never have short edges alone.
+TEST(DrilledMesh, IsCutWithinTrianglesWithSidesFarFromTheCut)
+{
+  constexpr double kHalf = 10.0, kRadius = 3.0;
+  const auto mesh = boxMesh(Vector::Constant(-kHalf), Vector::Constant(kHalf));
+  const core::GridGeometry grid = cube(64, 0.4);
+  const Vector middle(0.0, -kHalf, 0.0);
+  const auto mask = cut(grid, [&](const Vector& p) { return (p - middle).norm() - kRadius; });
+  ASSERT_TRUE(
+      mask->untouched(grid.boxCovering({kHalf, -kHalf, -kHalf}, Vector(kHalf, -kHalf, kHalf))));
+  const auto left = DrilledMesh(mesh).surface(*mask);
+  ASSERT_TRUE(left);
+  const double gone = 2.0 / 3.0 * kPi * std::pow(kRadius, 3);
+  EXPECT_NEAR(mesh->signedVolume() - left->mesh.signedVolume(), gone, 0.02 * gone);
+  const double area = 24.0 * kHalf * kHalf + kPi * kRadius * kRadius;
+  EXPECT_NEAR(areaOf(left->mesh), area, 0.005 * area);
+  EXPECT_LT(left->mesh.triangles.size(), 200000U) << "short edges near the cut alone";
+}
+
 TEST(DrilledMesh, IsWholeWhereNothingWasCut)
 {
   const core::GridGeometry grid = cube(64, 0.4);

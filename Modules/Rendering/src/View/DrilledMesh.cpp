@@ -18,9 +18,16 @@ namespace
 {
 
 constexpr double kLevel = 0.5; // of the mask
+constexpr double kReach = 3.0; // lengths of an edge
 
 /// Splits edges that the cut may meet until they are short. Each edge is judged by itself, so that
 /// both triangles at it agree.
+///
+/// It ends: an edge counts as met if the cut is within kReach of its lengths, hence the longest
+/// edge L of a triangle does, too, if one of at most kReach / (kReach + 1) L does. While the
+/// longest does not, the half at L of a split triangle has sides of at most 0.87 L and 0.5 L, its
+/// half of at most 0.7 L: two splits later L is split, and no triangle is longer than that of which
+/// it is half.
 class Refinement
 {
 public:
@@ -54,7 +61,9 @@ private:
   {
     const Eigen::Vector3d from = m_result.mesh.vertices[a].cast<double>();
     const Eigen::Vector3d to = m_result.mesh.vertices[b].cast<double>();
-    return !m_mask.untouched(m_mask.geometry().boxCovering(from.cwiseMin(to), from.cwiseMax(to)));
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(kReach * (to - from).norm());
+    return !m_mask.untouched(
+        m_mask.geometry().boxCovering(from.cwiseMin(to) - reach, from.cwiseMax(to) + reach));
   }
 
   double lengthOf(std::uint32_t a, std::uint32_t b) const

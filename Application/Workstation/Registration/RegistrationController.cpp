@@ -212,7 +212,9 @@ void RegistrationController::moveManually(const std::function<void()>& move)
   if (running())
     return;
   m_panel->openHand();
-  move();
+  QString why;
+  guarded(move, [&why](const QString& fault) { why = fault; });
+  m_panel->say(why);
 }
 
 bool RegistrationController::running() const

@@ -862,6 +862,45 @@ scene::Case withMr(scene::Case value)
 }
 } // namespace
 
+// As of a disk that was taken away, until it is there again.
+TEST_F(SegmentEditorTest, AnMrThatCannotBeReadIsRefusedAndNothingIsMadeOfIt)
+{
+  scene::Case value = withMr(ballCase());
+  const auto isLost = std::make_shared<bool>(true);
+  value.mr.front().volume = core::Lazy<volume::IntensityVolume>(
+      [isLost, voxels = value.mr.front().volume.get()]
+      {
+        if (*isLost)
+          throw core::InvalidParameter("the MR 'T2' is missing");
+        return voxels;
+      });
+  model.adopt(std::move(value));
+  editor.caseChanged();
+  editor.setShown({true, "T2"});
+  editor.setSource("T2");
+  editor.setTool(Tool::Threshold);
+  for (const double lower : {100.0, 200.0}) // the second time, too
+  {
+    set(
+        [lower](SegmentValues& values)
+        {
+          values.lower = lower;
+          values.upper = 3000.0;
+        });
+    EXPECT_EQ(editor.warning(), "the MR 'T2' is missing");
+    EXPECT_EQ(editor.voxels(), 0U);
+    EXPECT_THROW(editor.press(kBall, SliceOrientation::Axial), core::InvalidParameter);
+    editor.release();
+    EXPECT_TRUE(editor.seeds().empty());
+    EXPECT_THROW(editor.stepWork(), core::InvalidParameter);
+    EXPECT_FALSE(editor.stepping());
+  }
+  *isLost = false;
+  set([](SegmentValues& values) { values.lower = 1500.0; });
+  EXPECT_EQ(editor.warning(), "");
+  EXPECT_GT(editor.voxels(), 0U);
+}
+
 TEST_F(SegmentEditorTest, AnMrThatMovesIsReadWhereItIsNow)
 {
   model.adopt(withMr(ballCase()));

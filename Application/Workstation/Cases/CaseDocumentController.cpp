@@ -229,9 +229,7 @@ CaseDocumentController::CaseDocumentController(presenters::WorkstationModel& mod
           [this](const QString& why)
           {
             endWork();
-            m_model.notOpened();
-            refuse(why);
-            reopen();
+            fail(why);
           });
   connect(&m_work, &BackgroundWork::cancelled, this,
           [this]
@@ -248,7 +246,7 @@ CaseDocumentController::CaseDocumentController(presenters::WorkstationModel& mod
               return;
             m_heldAgain.stop();
             if (const BackgroundWork::Reply reply = std::exchange(m_held, {}))
-              reply();
+              take(reply);
           });
   connectBanners();
   watchForDamage();
@@ -474,7 +472,7 @@ void CaseDocumentController::work(const QString& title, BackgroundWork::Work wor
           {
             endWork();
             if (!isDialogOpen())
-              return reply();
+              return take(reply);
             m_held = reply;
             m_heldAgain.start(kHeldAgain);
           };
@@ -485,6 +483,22 @@ void CaseDocumentController::work(const QString& title, BackgroundWork::Work wor
     endWork();
     throw;
   }
+}
+
+// A library that cannot be read any more is told like a fault of the task.
+void CaseDocumentController::take(const BackgroundWork::Reply& reply)
+{
+  QString why;
+  guarded(reply, [&why](const QString& fault) { why = fault; });
+  if (!why.isEmpty())
+    fail(why);
+}
+
+void CaseDocumentController::fail(const QString& why)
+{
+  m_model.notOpened();
+  refuse(why);
+  reopen();
 }
 
 // Deferred deletion: it may be processing a progress update.

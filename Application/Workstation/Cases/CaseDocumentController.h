@@ -186,6 +186,8 @@ private:
   void write(const presenters::ExportOptions& options);
   void offerCtGrid(const presenters::ExportOptions& options, const QString& why);
   void work(const QString& title, BackgroundWork::Work work);
+  void take(const BackgroundWork::Reply& reply);
+  void fail(const QString& why);
   void endWork();
   bool closeToReopen(); ///< false if the user stays
   void reopen();

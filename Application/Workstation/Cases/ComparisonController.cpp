@@ -1,5 +1,6 @@
 #include "ComparisonController.h"
 
+#include "Application.h"
 #include "ComparisonWindow.h"
 #include "SliceColumn.h"
 #include "Theme.h"
@@ -83,11 +84,11 @@ void ComparisonController::compare(const std::string& first, const std::string& 
 
 void ComparisonController::start()
 {
+  if (!m_window || !m_model.hasCase())
+    return;
   const dissection::Dissection& work = m_model.value().dissection;
   m_changes = work.changes();
   const dissection::History& history = work.history();
-  if (!m_window)
-    return;
   if (!history.find(m_first) || !history.find(m_second))
     return close();
   std::vector<std::string> names;
@@ -104,8 +105,13 @@ void ComparisonController::start()
         return [this, comparison]
         {
           m_comparison = comparison;
-          if (m_window && m_model.hasCase())
-            m_window->setComparison(m_model.sceneContents(), comparison);
+          guarded(
+              [&]
+              {
+                if (m_window && m_model.hasCase())
+                  m_window->setComparison(m_model.sceneContents(), comparison);
+              },
+              [this](const QString& why) { m_window->fail(why); });
           showInSlices();
         };
       });

@@ -5,6 +5,7 @@
 #include <QPushButton>
 #include <QTimer>
 
+#include "Application.h"
 #include "AskName.h"
 #include "CaseDocumentController.h"
 #include "DescriptionDialog.h"
@@ -13,6 +14,7 @@
 #include "Theme.h"
 #include "ThumbnailDrawer.h"
 #include "WindowTexts.h"
+#include "petrous/Core/Error.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/NewerVersion.h"
 #include "petrous/Network/NodeList.h"
@@ -182,11 +184,19 @@ void LibraryController::rename(const std::string& name)
 
 void LibraryController::copy(const std::string& name)
 {
-  const QString to =
-      askName(m_window, tr("Copy the case"), tr("Name of the copy of “%1”:").arg(words(name)),
-              words(presenters::freeCaseName(m_model.library(), name)),
-              [this](const std::string& wanted)
-              { presenters::checkFreeCaseName(m_model.library(), wanted); });
+  QString proposed;
+  try
+  {
+    proposed = words(presenters::freeCaseName(m_model.library(), name));
+  }
+  catch (const core::Error& error) // the library cannot be read any more
+  {
+    return emit statusMessage(toString(error));
+  }
+  const QString to = askName(m_window, tr("Copy the case"),
+                             tr("Name of the copy of “%1”:").arg(words(name)), proposed,
+                             [this](const std::string& wanted)
+                             { presenters::checkFreeCaseName(m_model.library(), wanted); });
   if (to.isEmpty())
     return;
   if (m_model.hasCase() && m_model.value().name == name)

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "petrous/Core/Error.h"
 #include "petrous/Presenters/ApproachTree.h"
 
 namespace petrous::workstation
@@ -78,8 +79,17 @@ void StrokeThumbnails::look()
 
 void StrokeThumbnails::draw()
 {
+  rendering::SceneContents drawable;
+  try
+  {
+    drawable = m_model.sceneContents();
+  }
+  catch (const core::Error&) // told where the scene is shown
+  {
+    return m_wanted.clear();
+  }
   m_work.start(
-      [this, value = scene::Case(m_model.value()), contents = m_model.sceneContents(),
+      [this, value = scene::Case(m_model.value()), contents = std::move(drawable),
        seen = camera ? camera() : core::CameraPose(),
        states = m_wanted](const core::Progress& progress) -> BackgroundWork::Reply
       {

@@ -5,6 +5,8 @@
 #include <QLabel>
 #include <QPushButton>
 
+#include "Application.h"
+
 namespace petrous::workstation
 {
 
@@ -57,7 +59,8 @@ HandlesBox::HandlesBox(presenters::RegistrationSession& session, QWidget* parent
   auto* here = new QPushButton(tr("Middle to the crosshair"));
   here->setObjectName("bringMiddle");
   here->setToolTip(tr("The MR's middle goes to the crosshair: for images that lie far apart"));
-  connect(here, &QPushButton::clicked, this, [this] { m_session.bringMiddleHere(); });
+  connect(here, &QPushButton::clicked, this,
+          [this] { attempt([this] { m_session.bringMiddleHere(); }); });
   grid->addWidget(here, 4, 0, 1, 2);
   grid->addWidget(m_moved, 4, 2, 1, 2);
 }
@@ -81,10 +84,19 @@ void HandlesBox::addHandle(QGridLayout& grid, int row, int column, const Handle&
 void HandlesBox::apply(const Handle& handle, double sign)
 {
   const double step = sign * m_step->currentData().toDouble();
-  if (handle.turns)
-    m_session.turn(handle.direction, step);
-  else
-    m_session.shift(step * handle.direction);
+  attempt(
+      [&]
+      {
+        handle.turns ? m_session.turn(handle.direction, step)
+                     : m_session.shift(step * handle.direction);
+      });
+}
+
+void HandlesBox::attempt(const std::function<void()>& move)
+{
+  QString why;
+  guarded(move, [&why](const QString& fault) { why = fault; });
+  emit attempted(why);
 }
 
 void HandlesBox::refresh()

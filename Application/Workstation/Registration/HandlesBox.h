@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include <QString>
 #include <QWidget>
 
@@ -21,6 +23,9 @@ public:
 
   void refresh();
 
+signals:
+  void attempted(const QString& why); ///< why the MR was not moved; empty: it was
+
 private:
   struct Handle
   {
@@ -33,6 +38,7 @@ private:
   };
   void addHandle(QGridLayout& grid, int row, int column, const Handle& handle);
   void apply(const Handle& handle, double sign);
+  void attempt(const std::function<void()>& move);
 
   presenters::RegistrationSession& m_session;
   QComboBox* m_step;

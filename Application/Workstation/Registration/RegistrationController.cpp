@@ -140,6 +140,12 @@ void RegistrationController::connectPanel()
   connect(m_run.get(), &BackgroundWork::progressed, m_panel, &RegistrationPanel::setProgress);
   connect(m_run.get(), &BackgroundWork::failed, this, &RegistrationController::endRun);
   connect(m_run.get(), &BackgroundWork::cancelled, this, &RegistrationController::stopped);
+  connect(m_metricWork.get(), &BackgroundWork::failed, this,
+          [this](const QString& why)
+          {
+            m_panel->setMetric({});
+            m_panel->say(why);
+          });
 }
 
 // Another MR.
@@ -212,7 +218,9 @@ void RegistrationController::moveManually(const std::function<void()>& move)
   if (running())
     return;
   m_panel->openHand();
-  move();
+  QString why;
+  guarded(move, [&why](const QString& fault) { why = fault; });
+  m_panel->say(why);
 }
 
 bool RegistrationController::running() const
@@ -335,7 +343,10 @@ void RegistrationController::finished(const presenters::RegistrationOutcome& out
     emit statusMessage(tr("The registration failed"));
     return;
   }
-  if (!m_session.take(outcome))
+  bool isTaken = false;
+  guarded([&] { isTaken = m_session.take(outcome); },
+          [this](const QString& why) { m_panel->say(why); });
+  if (!isTaken)
     return;
   if (!m_overlay->mode())
     m_overlay->set(presenters::OverlayMode::Edges, m_overlay->opacity()); // for inspection

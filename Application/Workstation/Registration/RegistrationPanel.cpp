@@ -120,6 +120,7 @@ RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, Q
   connect(m_points, &LandmarksBox::fitAsked, this, &RegistrationPanel::landmarksAsked);
   connect(m_aim, &RegistrationTargetBox::chosen, this, &RegistrationPanel::aimChosen);
   connect(m_points, &LandmarksBox::changed, this, &RegistrationPanel::landmarksChanged);
+  connect(m_handles, &HandlesBox::attempted, this, &RegistrationPanel::say);
   layOutPanel(*this, inside, signOff());
   setOverlay(std::nullopt, 0.5);
   setRunning(false);

@@ -240,8 +240,7 @@ void SegmentController::connectSlices()
           [this](const Eigen::Vector3d& patient, presenters::SliceOrientation plane)
           {
             m_createAs.clear();
-            m_panel->say({});
-            m_editor.press(patient, m_slices.planes().axes(plane).next);
+            attempt([&] { m_editor.press(patient, m_slices.planes().axes(plane).next); });
           });
   connect(&m_slices, &SliceColumn::toolDragged, this,
           [this](const Eigen::Vector3d& patient) { m_editor.drag(patient); });
@@ -473,10 +472,14 @@ void SegmentController::step()
     return m_panel->complain(tr("A step is under way; wait, or stop it."));
   m_work->drop(); // a preview
   m_editor.workEnded();
-  if (auto work = m_editor.stepWork())
-    run(std::move(*work), true);
-  else
-    m_panel->complain(phrase(m_editor.whyNotStep()));
+  attempt(
+      [this]
+      {
+        if (auto work = m_editor.stepWork())
+          run(std::move(*work), true);
+        else
+          m_panel->complain(phrase(m_editor.whyNotStep()));
+      });
 }
 
 void SegmentController::edit(const std::string& structure)

@@ -86,6 +86,8 @@ void ThicknessController::showOver(const QString& structure)
 
 void ThicknessController::measure(const std::string& structure)
 {
+  if (!m_model.hasCase()) // a menu may be open while a case is closed
+    return endMeasuring();
   try
   {
     m_measured = structure;

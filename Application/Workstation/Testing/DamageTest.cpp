@@ -2,6 +2,9 @@
 
 #include <fstream>
 
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
 #include <QPushButton>
 
 #include "Banner.h"
@@ -49,6 +52,24 @@ protected:
     flipBit(value.dissection.strokes()[1]->object);
   }
 
+  // Of a registered MR "T2" the library has lost the file.
+  void saveLostMr() const
+  {
+    scene::Case value = ballCase("ball");
+    scene::ImagePart mr = value.ct;
+    auto voxels = std::make_shared<volume::Volume<std::int16_t>>(mr.geometry, std::int16_t{40});
+    voxels->at(1, 2, 3) = 90;
+    mr.name = "T2";
+    mr.object.clear();
+    mr.volume = std::make_shared<const volume::IntensityVolume>(
+        std::shared_ptr<const volume::Volume<std::int16_t>>(voxels));
+    mr.range = mr.volume.get()->range();
+    mr.registered = true;
+    value.mr.push_back(mr);
+    library().save(value);
+    fs::remove(folder() / "library/objects" / library().open("ball").mr[0].object);
+  }
+
   Banner& banner() { return *window().findChild<Banner*>("damageBanner"); }
 };
 
@@ -73,23 +94,35 @@ TEST_F(Damage, OfTheCtIsToldAndNothingIsDrilled)
 
 TEST_F(Damage, OfAnMrWhoseFileIsGoneIsToldBeforeItIsShown)
 {
-  scene::Case value = ballCase("ball");
-  scene::ImagePart mr = value.ct;
-  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(mr.geometry, std::int16_t{40});
-  voxels->at(1, 2, 3) = 90;
-  mr.name = "T2";
-  mr.object.clear();
-  mr.volume = std::make_shared<const volume::IntensityVolume>(
-      std::shared_ptr<const volume::Volume<std::int16_t>>(voxels));
-  mr.range = mr.volume.get()->range();
-  value.mr.push_back(mr);
-  library().save(value);
-  fs::remove(folder() / "library/objects" / library().open("ball").mr[0].object);
+  saveLostMr();
   openWindow();
   ASSERT_TRUE(waitFor([this] { return banner().isVisible(); }));
   EXPECT_TRUE(banner().text().contains("MR 'T2' of case 'ball'")) << banner().text().toStdString();
   EXPECT_TRUE(banner().text().contains("is missing")) << banner().text().toStdString();
   drill(300); // the CT is whole
+}
+
+// The panel says why, each time, and the tools go on working on the CT.
+TEST_F(Damage, OfAnMrWhoseFileIsGoneIsToldByTheSegmentTools)
+{
+  saveLostMr();
+  openWindow();
+  ASSERT_TRUE(waitFor([this] { return banner().isVisible(); }));
+  QTest::keyClick(&window(), Qt::Key_T, Qt::ShiftModifier);
+  auto& source = *window().findChild<QComboBox*>("segmentSource");
+  auto& lower = *window().findChild<QDoubleSpinBox*>("segmentLower");
+  const auto& remark = *window().findChild<QLabel*>("segmentRemark");
+  const auto isTold = [&remark]
+  { return remark.text().contains("T2") && remark.text().contains("is missing"); };
+  ASSERT_GE(source.findData("T2"), 0);
+  source.setCurrentIndex(source.findData("T2"));
+  EXPECT_TRUE(waitFor(isTold)) << remark.text().toStdString();
+  lower.setValue(lower.value() + 1.0);
+  EXPECT_TRUE(settled());
+  EXPECT_TRUE(waitFor(isTold)) << remark.text().toStdString();
+  source.setCurrentIndex(source.findData("ct"));
+  EXPECT_TRUE(waitFor([&] { return !isTold(); })) << remark.text().toStdString();
+  EXPECT_FALSE(window().findChild<Banner*>("faultBanner")->isVisible());
 }
 
 TEST_F(Damage, OfAStructureIsToldAndTheOthersAreDrilled)

@@ -1105,6 +1105,35 @@ core::TriangleMesh tetrahedron(const Eigen::Vector3d& center)
 
 } // namespace
 
+// As of a disk that was taken away while files were looked at.
+TEST_F(Import, ALibraryThatCannotBeReadAnyMoreIsToldInWords)
+{
+  const fs::path ear = folder() / "ear.nrrd";
+  imaging::writeVolume(ear, *ballCase("x").ct.volume.get());
+  const fs::path incus = folder() / "incus.stl";
+  imaging::writeMesh(incus, tetrahedron(kBallCenter));
+  openWindow();
+  fs::remove_all(folder() / "library/cases");
+  fs::create_directories(folder() / "library");
+  std::ofstream(folder() / "library/cases") << "no folder";
+  QString told;
+  onMessage(
+      [&told](QMessageBox& box)
+      {
+        told = box.text();
+        box.accept();
+      });
+  QMimeData data;
+  data.setUrls({QUrl::fromLocalFile(QString::fromStdString(ear.string())),
+                QUrl::fromLocalFile(QString::fromStdString(incus.string()))});
+  drop(data);
+  EXPECT_TRUE(waitFor([&told] { return !told.isEmpty(); }));
+  EXPECT_TRUE(told.contains("cannot be read")) << told.toStdString();
+  EXPECT_TRUE(settled());
+  EXPECT_FALSE(window().findChild<Banner*>("faultBanner")->isVisible());
+  EXPECT_FALSE(window().model().hasCase());
+}
+
 // Labels and meshes as a tool exports them, under the same names.
 TEST_F(Import, MeshesOfTheLabelsNamesComeToTheNewCaseToo)
 {

@@ -14,10 +14,12 @@
 #include <QMenu>
 #include <QPlainTextEdit>
 #include <QPushButton>
+#include <QStatusBar>
 #include <QTimer>
 #include <QToolButton>
 #include <QTreeView>
 
+#include "Banner.h"
 #include "CasesModel.h"
 #include "LibraryPanel.h"
 #include "StartPage.h"
@@ -232,6 +234,25 @@ TEST_F(LibraryWindow, ACopyIsListedAndTheOriginalStaysOpen)
   act("Rename…");
   EXPECT_TRUE(waitFor([&] { return why.contains("copy"); })) << why.toStdString();
   ASSERT_TRUE(isOpen("ball"));
+}
+
+// As of a disk that was taken away since the cases were listed.
+TEST_F(LibraryWindow, ACopyFromALibraryThatCannotBeReadIsRefusedInWords)
+{
+  saveBall("ball");
+  openWindow();
+  ASSERT_TRUE(settled());
+  showPanel();
+  ASSERT_TRUE(select("ball"));
+  const fs::path cases = folder() / "library/cases";
+  fs::rename(cases, folder() / "cases");
+  std::ofstream(cases) << "no folder";
+  act("Copy…");
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("cannot be read"))
+      << window().statusBar()->currentMessage().toStdString();
+  EXPECT_FALSE(window().findChild<Banner*>("faultBanner")->isVisible());
+  fs::remove(cases);
+  fs::rename(folder() / "cases", cases);
 }
 
 // The damaged file, and the case that needs it.

@@ -516,6 +516,35 @@ TEST_F(RegistrationWindow, TheHandMovesTheMrByKeyAndButtonAndCanBeUndone)
   picture();
 }
 
+// 500 mm beside the CT it may lie, and no farther.
+TEST_F(RegistrationWindow, AMoveToNowhereIsRefusedInWords)
+{
+  showPanel();
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  const core::PatientBox box = mr().geometry.patientBounds();
+  Vector3d at = box.center();
+  at.x() = box.max().x() + 499.5;
+  const core::RigidTransform far(Eigen::Quaterniond::Identity(),
+                                 at - model.value().ct.geometry.center());
+  model.changeMr([&far](scene::Case& value)
+                 { scene::applyRegistration(value, "T2", far, scene::Registration()); });
+  ASSERT_TRUE(mr().registered);
+  choose(2);
+  const auto& line = find<QLabel>("registrationLine");
+  find<QComboBox>("nudgeStep").setCurrentIndex(1);
+  click("handle10"); // to the right
+  EXPECT_TRUE(line.text().contains("cannot be registered so")) << line.text().toStdString();
+  EXPECT_EQ(mr().mrFromCt.matrix(), far.matrix());
+  click("handle11");
+  EXPECT_EQ(line.text(), "");
+  EXPECT_NEAR((mr().mrFromCt * Vector3d::Zero() - far * Vector3d::Zero()).norm(), 1.0, 1e-9);
+  auto& slice = find<SliceView>("axialView");
+  for (int n = 0; n < 2; ++n)
+    QTest::keyClick(&slice, Qt::Key_Left, Qt::AltModifier | Qt::ShiftModifier);
+  EXPECT_TRUE(line.text().contains("cannot be registered so")) << line.text().toStdString();
+  EXPECT_FALSE(find<Banner>("faultBanner").isVisible());
+}
+
 TEST_F(RegistrationWindow, ASettingThatIsFoldedIsUnfoldedWhenItIsFound)
 {
   auto& step = find<QComboBox>("nudgeStep");

@@ -163,13 +163,18 @@ void VideoPanel::addBookmarks(QVBoxLayout& layout, const Actions& actions)
   layout.addWidget(m_bookmarks, 1);
   layout.addLayout(row);
 
+  // The selected one: after Ctrl and a click the current one may be another.
   const auto chosen = [this]
-  { return m_bookmarks->indexOfTopLevelItem(m_bookmarks->currentItem()); };
+  {
+    const auto rows = chosenBookmarks();
+    return rows.size() == 1 ? static_cast<int>(rows.front()) : -1;
+  };
   connect(move, &QToolButton::clicked, this, [=] { emit moveAsked(chosen()); });
   connect(tie, &QToolButton::clicked, this, [=] { emit tieAsked(chosen()); });
   connect(remove, &QToolButton::clicked, this, [=] { emit bookmarkRemovalAsked(chosen()); });
   connect(m_bookmarks, &QTreeWidget::itemActivated, this,
-          [=] { emit bookmarkActivated(chosen()); });
+          [this](QTreeWidgetItem* item)
+          { emit bookmarkActivated(m_bookmarks->indexOfTopLevelItem(item)); });
   connect(m_bookmarks, &QTreeWidget::itemSelectionChanged, this, &VideoPanel::enableBookmarks);
   connect(m_bookmarks, &QTreeWidget::itemChanged, this,
           [this](QTreeWidgetItem* item, int column)

@@ -900,16 +900,17 @@ SegmentEditor::SourceImage& SegmentEditor::image()
   if (!m_image)
   {
     const scene::Case& value = m_model.value();
-    m_image = std::make_unique<SourceImage>();
-    m_image->ct = value.ct.geometry;
+    auto image = std::make_unique<SourceImage>(); // reading it may fail
+    image->ct = value.ct.geometry;
     if (const scene::ImagePart* mr = scene::findMr(value, m_source))
     {
-      m_image->own = mr->volume.get();
-      m_image->ownFromCt = mr->mrFromCt;
-      m_image->mr = mr->name;
+      image->own = mr->volume.get();
+      image->ownFromCt = mr->mrFromCt;
+      image->mr = mr->name;
     }
     else
-      m_image->own = m_image->onCt = value.ct.volume.get();
+      image->own = image->onCt = value.ct.volume.get();
+    m_image = std::move(image);
   }
   return *m_image;
 }
@@ -1389,7 +1390,18 @@ std::optional<SegmentEditor::Work> SegmentEditor::dueWork()
 std::optional<SegmentEditor::Work> SegmentEditor::previewWork()
 {
   m_previewDue = false;
-  image();
+  try
+  {
+    image();
+  }
+  catch (const core::Error& error) // an MR whose file is lost
+  {
+    m_previewRunning = false;
+    dropPreview();
+    m_refused = m_warning = error.what();
+    touched();
+    return std::nullopt;
+  }
   if (m_tool == Tool::Nerve && m_draft->points.size() < kLeastTubePoints)
   {
     m_previewRunning = false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -32,6 +33,8 @@ struct LoadedMesh
   /// Names of the objects (OBJ: o, or else g; text STL: solid) that have triangles, in the order of
   /// the file; an object without a name has an empty one. They may identify the patient.
   std::vector<std::string> objects;
+  /// Of each triangle: its object, an index into `objects`; empty unless there are several.
+  std::vector<std::uint32_t> objectOf;
 };
 
 /// Reads a surface from OBJ, STL (text or binary), PLY (text or binary) or VTP (VTK XML PolyData:
@@ -48,6 +51,11 @@ LoadedMesh loadMesh(const std::filesystem::path& path,
                     const std::optional<bool>& isRas = std::nullopt,
                     const std::optional<double>& unit = std::nullopt,
                     const core::Progress& progress = {});
+
+/// The objects of a file that holds several, in the order of LoadedMesh::objects: each with its
+/// triangles in their order, and the vertices that it uses, numbered anew. Of a file of one object
+/// the mesh as it is.
+std::vector<core::TriangleMesh> splitByObject(const LoadedMesh& loaded);
 
 /// Like loadMesh, without the notes.
 core::TriangleMesh readMesh(const std::filesystem::path& path);

@@ -315,6 +315,8 @@ private:
     if (!cell("label_names").empty() && sources.parts.labels.empty())
       throw core::InvalidParameter("'label_names' goes with 'labels', which is blank");
     sources.parts.meshes = parts("meshes", presenters::PartSource::parseDrawn);
+    if (isYes("mesh_parts", cell("mesh_parts")) && sources.parts.meshes.empty())
+      throw core::InvalidParameter("'mesh_parts' goes with 'meshes', which is blank");
     for (presenters::PartSource& mesh : sources.parts.meshes)
     {
       mesh.isPerObject = isYes("mesh_parts", cell("mesh_parts"));

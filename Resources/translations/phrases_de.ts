@@ -413,7 +413,7 @@
     </message>
     <message>
         <source>%1: holds %#2 objects, and at most %#3 are taken as structures; add it as one, without --mesh-parts</source>
-        <translation>%1: enthält %#2 Objekte, und höchstens %#3 werden als Strukturen genommen; fügen Sie die Datei als eine hinzu, ohne --mesh-parts</translation>
+        <translation>%1: enthält %#2 Objekte, und höchstens %#3 werden als Strukturen genommen; fügen Sie die Datei als eine einzige hinzu</translation>
     </message>
     <message>
         <source>is one of %#1 objects of its file; what is noted here of names, coordinates and unit is of all of them</source>
@@ -1253,15 +1253,15 @@
     </message>
     <message>
         <source>holds %#1 objects, taken as one structure; --mesh-parts gives one of each</source>
-        <translation>enthält %#1 Objekte, als eine Struktur genommen; --mesh-parts ergibt eine aus jedem</translation>
+        <translation>enthält %#1 Objekte, als eine Struktur genommen; mit „Eine Struktur je Objekt“ noch einmal hinzugefügt ergibt es eine aus jedem</translation>
     </message>
     <message>
         <source>holds %#1 objects: %~2, taken as one structure; --mesh-parts gives one of each</source>
-        <translation>enthält %#1 Objekte: %~2, als eine Struktur genommen; --mesh-parts ergibt eine aus jedem</translation>
+        <translation>enthält %#1 Objekte: %~2, als eine Struktur genommen; mit „Eine Struktur je Objekt“ noch einmal hinzugefügt ergibt es eine aus jedem</translation>
     </message>
     <message>
         <source>holds %#1 objects, among them %~2, taken as one structure; --mesh-parts gives one of each</source>
-        <translation>enthält %#1 Objekte, darunter %~2, als eine Struktur genommen; --mesh-parts ergibt eine aus jedem</translation>
+        <translation>enthält %#1 Objekte, darunter %~2, als eine Struktur genommen; mit „Eine Struktur je Objekt“ noch einmal hinzugefügt ergibt es eine aus jedem</translation>
     </message>
     <message>
         <source>has %#1 parts, of which %#2 is wound the other way; it counts as solid all the same</source>

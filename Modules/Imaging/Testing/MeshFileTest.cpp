@@ -74,6 +74,8 @@ TEST(MeshFile, SplitsAFileByItsObjects)
 
   const LoadedMesh one = loadMesh(putFile(folder / "box.obj", kBoxObj));
   EXPECT_TRUE(one.objectOf.empty());
+  EXPECT_EQ(objectCount(folder / "box.obj"), 1U);
+  EXPECT_EQ(objectCount(folder / "turns.obj"), 2U);
   ASSERT_EQ(splitByObject(one).size(), 1U);
   EXPECT_EQ(splitByObject(one)[0].triangles, one.mesh.triangles);
 }
@@ -104,6 +106,9 @@ TEST(MeshFile, SplitsSolidsThatShareAVertexAndAName)
                            "endsolid bone\nsolid flat\n" + facet({0, 0, 0}, {0, 0, 0}, {1, 0, 0}) +
                            "endsolid flat\nsolid bone\n" + tetrahedron(1) + "endsolid bone\n"));
   EXPECT_EQ(loaded.objects, (std::vector<std::string>{"bone", "bone"}));
+  EXPECT_EQ(objectCount(folder / "two.stl"), 2U);
+  writeMesh(folder / "binary.stl", loaded.mesh);
+  EXPECT_EQ(objectCount(folder / "binary.stl"), 1U);
   EXPECT_EQ(loaded.objectOf, (std::vector<std::uint32_t>{0, 0, 0, 0, 1, 1, 1, 1}));
   EXPECT_EQ(loaded.mesh.vertices.size(), 7U) << "one is shared";
   const auto parts = splitByObject(loaded);

@@ -290,6 +290,23 @@ std::vector<core::TriangleMesh> splitByObject(const LoadedMesh& loaded)
   return parts;
 }
 
+std::size_t objectCount(const std::filesystem::path& path, const core::Progress& progress)
+{
+  const FileFormat* format = formatOf(path);
+  if (format && format->parseMesh == parseStl)
+  {
+    constexpr std::uintmax_t kFirstWord = 512; // bytes that hold it
+    const std::string start = readBytes(path, kFirstWord);
+    std::string_view rest = start;
+    if (takeWord(rest) != "solid")
+      return 1;
+  }
+  else if (format && format->parseMesh && format->parseMesh != parseObj)
+    return 1;
+  return std::max<std::size_t>(loadMesh(path, std::nullopt, std::nullopt, progress).objects.size(),
+                               1);
+}
+
 core::TriangleMesh readMesh(const std::filesystem::path& path)
 {
   return loadMesh(path).mesh;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -56,6 +57,10 @@ LoadedMesh loadMesh(const std::filesystem::path& path,
 /// triangles in their order, and the vertices that it uses, numbered anew. Of a file of one object
 /// the mesh as it is.
 std::vector<core::TriangleMesh> splitByObject(const LoadedMesh& loaded);
+
+/// How many objects loadMesh finds in a file, at least 1. Of formats that hold no more (PLY, VTP,
+/// binary STL) the file is not read. Throws as loadMesh does.
+std::size_t objectCount(const std::filesystem::path& path, const core::Progress& progress = {});
 
 /// Like loadMesh, without the notes.
 core::TriangleMesh readMesh(const std::filesystem::path& path);

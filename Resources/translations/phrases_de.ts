@@ -416,12 +416,12 @@
         <translation>%1: enthält %#2 Objekte, und höchstens %#3 werden als Strukturen genommen; fügen Sie die Datei als eine einzige hinzu</translation>
     </message>
     <message>
-        <source>is one of %#1 objects of its file; what is noted here of names, coordinates and unit is of all of them</source>
-        <translation>ist eines von %#1 Objekten seiner Datei; was hier zu Namen, Koordinaten und Einheit angemerkt ist, gilt für alle</translation>
-    </message>
-    <message>
         <source>reading mesh</source>
         <translation>Netz wird gelesen</translation>
+    </message>
+    <message>
+        <source>is one of %#1 objects of its file; what is noted here of names, coordinates and unit is of all of them</source>
+        <translation>ist eines von %#1 Objekten seiner Datei; was hier zu Namen, Koordinaten und Einheit angemerkt ist, gilt für alle</translation>
     </message>
     <message>
         <source>the MR on which it was drawn</source>

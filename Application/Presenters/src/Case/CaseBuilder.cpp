@@ -1386,9 +1386,7 @@ void addObjects(scene::Case& value, const PartSource& source, const scene::MeshP
     throw core::InvalidParameter(source.path.string() + ": holds " + std::to_string(count) +
                                  " objects, and at most " + std::to_string(kMost) +
                                  " are taken as structures; add it as one, without --mesh-parts");
-  std::vector<std::string> notes{"is one of " + std::to_string(count) +
-                                 " objects of its file; what is noted here of names, coordinates "
-                                 "and unit is of all of them"};
+  std::vector<std::string> notes;
   const FolderNames safe = namesWithoutPatient(objects, IdentityText(value, salted));
   if (!safe.leftOut.empty())
     notes.push_back(leftOutNote(safe, false));
@@ -1435,6 +1433,10 @@ void addObjects(scene::Case& value, const PartSource& source, const scene::MeshP
   if (!numbered.empty())
     notes.push_back(numberedNote(numbered, false));
   notes.insert(notes.end(), shared.notes.begin(), shared.notes.end());
+  if (!notes.empty())
+    notes.insert(notes.begin(), "is one of " + std::to_string(count) +
+                                    " objects of its file; what is noted here of names, "
+                                    "coordinates and unit is of all of them");
   auto& first = value.meshes[before].notes;
   first.insert(first.begin(), notes.begin(), notes.end());
   core::log::info("import: " + std::to_string(count - taken.size()) + " meshes of a file's " +

@@ -1,3 +1,5 @@
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "CommandRunner.h"
@@ -92,6 +94,35 @@ TEST_F(LabelsCommand, NamesTheIndicesByATableAndTellsWhatBecameOfEach)
   expectRefused("add ear --labels x=" + quoted(labels) + " --label-names " +
                     quoted(m_folder / "none.csv"),
                 3, "none.csv");
+}
+
+TEST_F(LabelsCommand, MakesAMeshOfEachObjectOfAFileIfAsked)
+{
+  std::ofstream(m_folder / "ossicles.obj")
+      << "v 5 5 5\nv 6 5 5\nv 5 6 5\nv 5 5 6\nv 9 5 5\nv 11 5 5\nv 9 7 5\nv 9 5 7\n"
+         "o malleus\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+         "o incus\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";
+  const std::string add = "add ear --mesh-frame lps --mesh-unit mm --mesh ";
+  const std::string file = quoted(m_folder / "ossicles.obj");
+  const Outcome whole = run(add + "whole=" + file);
+  EXPECT_EQ(whole.code, 0) << whole.err;
+  EXPECT_NE(whole.err.find("--mesh-parts"), std::string::npos) << whole.err;
+  json(add + file + " --mesh-parts");
+  json(add + "left=" + file + " --mesh-parts");
+  const auto meshes = json("info ear")["meshes"];
+  ASSERT_EQ(meshes.size(), 5U);
+  const std::vector<std::pair<std::string, double>> expected{{"whole", 9.0 / 6.0},
+                                                             {"malleus", 1.0 / 6.0},
+                                                             {"incus", 8.0 / 6.0},
+                                                             {"left malleus", 1.0 / 6.0},
+                                                             {"left incus", 8.0 / 6.0}};
+  for (std::size_t n = 0; n < expected.size(); ++n)
+  {
+    EXPECT_EQ(meshes[n]["name"], expected[n].first);
+    EXPECT_NEAR(meshes[n]["volume_mm3"].get<double>(), expected[n].second, 1e-4);
+  }
+  expectRefused(add + file + " --mesh-parts", 4, "'malleus' and 'incus' are names");
+  expectRefused("add ear --mesh-parts", 2, "--mesh-parts goes with --mesh");
 }
 
 TEST_F(LabelsCommand, LeavesOutStructuresWhoseNamesAreTakenIfAsked)

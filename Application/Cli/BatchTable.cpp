@@ -42,7 +42,7 @@ struct Column
   const char* text;
 };
 
-constexpr std::array<Column, 33> kColumns{{
+constexpr std::array<Column, 34> kColumns{{
     {"name", Step::None, "the case's name (needed)"},
     {"folder", Step::Build, "CT: DICOM folder or image file; blank: the case is there already"},
     {"series", Step::Build, "which series of the folder: UID or UID#VOLUME; of a file #VOLUME"},
@@ -64,6 +64,7 @@ constexpr std::array<Column, 33> kColumns{{
     {"rename_taken", Step::Build, "yes or no: number those whose names are taken, meshes too"},
     {"label_names", Step::Build, "table of the names of the labels"},
     {"meshes", Step::Build, "[NAME=]FILE[@MR], several with |"},
+    {"mesh_parts", Step::Build, "yes or no: each object of a mesh file is a structure of its own"},
     {"tags", Step::Describe, "several with |"},
     {"note", Step::Describe, "free text"},
     {"diagnosis", Step::Describe, "a line"},
@@ -314,8 +315,14 @@ private:
     if (!cell("label_names").empty() && sources.parts.labels.empty())
       throw core::InvalidParameter("'label_names' goes with 'labels', which is blank");
     sources.parts.meshes = parts("meshes", presenters::PartSource::parseDrawn);
+    if (isYes("mesh_parts", cell("mesh_parts")) && sources.parts.meshes.empty())
+      throw core::InvalidParameter("'mesh_parts' goes with 'meshes', which is blank");
     for (presenters::PartSource& mesh : sources.parts.meshes)
+    {
+      mesh.isPerObject = isYes("mesh_parts", cell("mesh_parts"));
+      mesh.skipsTaken = isYes("skip_taken", cell("skip_taken"));
       mesh.numbersTaken = isYes("rename_taken", cell("rename_taken"));
+    }
     return sources;
   }
 

@@ -60,6 +60,7 @@ struct PartOptions
   std::string labelNames;
   std::string meshFrame;
   std::string meshUnit;
+  bool meshParts = false;
   std::string mrFrame;
   std::string mrUnit;
   std::string labelsUnit;
@@ -133,6 +134,9 @@ struct PartOptions
         ->check(oneOf({"lps", "ras"}));
     command.add_option("--mesh-unit", meshUnit, "Unit of the meshes: mm, cm, m, um or inch (mm)")
         ->check(oneOf({"mm", "cm", "m", "um", "inch"}));
+    command.add_flag("--mesh-parts", meshParts,
+                     "Of a mesh file with several objects (OBJ: o or g, text STL: solid) each is a "
+                     "structure of its own, NAME before its name (else all are one)");
     command
         .add_option("--mr-unit", mrUnit,
                     "Unit of length of MR files of voxels, instead of what they state")
@@ -158,8 +162,10 @@ struct PartOptions
       throw UsageError("--labels-unit goes with --labels");
     if (!mrRoi.empty() && mr.empty())
       throw UsageError("--mr-roi goes with --mr");
-    if (skipTaken && labels.empty())
-      throw UsageError("--skip-taken goes with --labels");
+    if (meshParts && meshes.empty())
+      throw UsageError("--mesh-parts goes with --mesh");
+    if (skipTaken && labels.empty() && !meshParts)
+      throw UsageError("--skip-taken goes with --labels or --mesh-parts");
     if (skipTaken && renameTaken)
       throw UsageError("--skip-taken and --rename-taken exclude each other");
     if ((renameTaken || !renamed.empty()) && labels.empty() && meshes.empty())
@@ -209,6 +215,8 @@ struct PartOptions
     for (const std::string& text : meshes)
     {
       result.meshes.push_back(presenters::PartSource::parseDrawn(text));
+      result.meshes.back().isPerObject = meshParts;
+      result.meshes.back().skipsTaken = skipTaken;
       result.meshes.back().numbersTaken = renameTaken;
       result.meshes.back().newNames = newNames;
       if (!meshFrame.empty())

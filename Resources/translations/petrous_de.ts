@@ -347,6 +347,14 @@
         <source>%1 structures, %2 without a name</source>
         <translation>%1 Strukturen, %2 ohne Namen</translation>
     </message>
+    <message>
+        <source>One structure per &amp;object (%1)</source>
+        <translation>Eine Struktur je &amp;Objekt (%1)</translation>
+    </message>
+    <message>
+        <source>Each object of the file becomes a structure of its own, under the object&apos;s name, without words that may be a patient&apos;s name. A name given here is put before it. Otherwise all are one structure.</source>
+        <translation>Jedes Objekt der Datei wird eine eigene Struktur unter dem Namen des Objekts, ohne Wörter, die zum Namen eines Patienten gehören können. Ein hier gegebener Name steht davor. Sonst sind alle eine Struktur.</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::AppearancePanel</name>

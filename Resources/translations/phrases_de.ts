@@ -288,6 +288,46 @@
         <translation>Nerv</translation>
     </message>
     <message>
+        <source>%#1 word of the files' names, which may be a patient's, was left out of the structures' names</source>
+        <translation>%#1 Wort der Dateinamen, das zum Namen eines Patienten gehören kann, wurde aus den Namen der Strukturen weggelassen</translation>
+    </message>
+    <message>
+        <source>%#1 word of the objects' names, which may be a patient's, was left out of the structures' names</source>
+        <translation>%#1 Wort der Objektnamen, das zum Namen eines Patienten gehören kann, wurde aus den Namen der Strukturen weggelassen</translation>
+    </message>
+    <message>
+        <source>%#1 words of the files' names, which may be a patient's, were left out of the structures' names</source>
+        <translation>%#1 Wörter der Dateinamen, die zum Namen eines Patienten gehören können, wurden aus den Namen der Strukturen weggelassen</translation>
+    </message>
+    <message>
+        <source>%#1 words of the objects' names, which may be a patient's, were left out of the structures' names</source>
+        <translation>%#1 Wörter der Objektnamen, die zum Namen eines Patienten gehören können, wurden aus den Namen der Strukturen weggelassen</translation>
+    </message>
+    <message>
+        <source>%~1 left out as asked, as the case has a part of this name already</source>
+        <translation>%~1 blieb wie gewünscht weg, da der Fall schon einen Teil dieses Namens hat</translation>
+    </message>
+    <message>
+        <source>%~1 left out as asked, as the case has parts of these names already</source>
+        <translation>%~1 blieben wie gewünscht weg, da der Fall schon Teile dieser Namen hat</translation>
+    </message>
+    <message>
+        <source>%~1 has a number, as other files of the folder give names that read the same; if a structure is there twice, remove one</source>
+        <translation>%~1 hat eine Nummer, da andere Dateien des Ordners Namen ergeben, die sich gleich lesen; ist eine Struktur doppelt da, entfernen Sie eine</translation>
+    </message>
+    <message>
+        <source>%~1 has a number, as other structures of the file have names that read the same; if a structure is there twice, remove one</source>
+        <translation>%~1 hat eine Nummer, da andere Strukturen der Datei Namen haben, die sich gleich lesen; ist eine Struktur doppelt da, entfernen Sie eine</translation>
+    </message>
+    <message>
+        <source>%~1 have a number, as other files of the folder give names that read the same; if a structure is there twice, remove one</source>
+        <translation>%~1 haben eine Nummer, da andere Dateien des Ordners Namen ergeben, die sich gleich lesen; ist eine Struktur doppelt da, entfernen Sie eine</translation>
+    </message>
+    <message>
+        <source>%~1 have a number, as other structures of the file have names that read the same; if a structure is there twice, remove one</source>
+        <translation>%~1 haben eine Nummer, da andere Strukturen der Datei Namen haben, die sich gleich lesen; ist eine Struktur doppelt da, entfernen Sie eine</translation>
+    </message>
+    <message>
         <source>structure</source>
         <translation>Struktur</translation>
     </message>
@@ -318,14 +358,6 @@
     <message>
         <source>states another patient's ID, name or date of birth than the case's images; it was added as asked</source>
         <translation>nennt eine andere Patienten-ID, einen anderen Namen oder ein anderes Geburtsdatum als die Bilder des Falls; wie gewünscht hinzugefügt</translation>
-    </message>
-    <message>
-        <source>%#1 word of the files' names, which may be a patient's, was left out of the structures' names</source>
-        <translation>%#1 Wort der Dateinamen, das zum Namen eines Patienten gehören kann, wurde aus den Namen der Strukturen weggelassen</translation>
-    </message>
-    <message>
-        <source>%#1 words of the files' names, which may be a patient's, were left out of the structures' names</source>
-        <translation>%#1 Wörter der Dateinamen, die zum Namen eines Patienten gehören können, wurden aus den Namen der Strukturen weggelassen</translation>
     </message>
     <message>
         <source>%#1 file of the folder is not a mask of one structure, and left out</source>
@@ -368,30 +400,6 @@
         <translation>%~1 blieben weg, da kein Voxel dazu gehört</translation>
     </message>
     <message>
-        <source>%~1 left out as asked, as the case has a part of this name already</source>
-        <translation>%~1 blieb wie gewünscht weg, da der Fall schon einen Teil dieses Namens hat</translation>
-    </message>
-    <message>
-        <source>%~1 left out as asked, as the case has parts of these names already</source>
-        <translation>%~1 blieben wie gewünscht weg, da der Fall schon Teile dieser Namen hat</translation>
-    </message>
-    <message>
-        <source>%~1 has a number, as other files of the folder give names that read the same; if a structure is there twice, remove one</source>
-        <translation>%~1 hat eine Nummer, da andere Dateien des Ordners Namen ergeben, die sich gleich lesen; ist eine Struktur doppelt da, entfernen Sie eine</translation>
-    </message>
-    <message>
-        <source>%~1 has a number, as other structures of the file have names that read the same; if a structure is there twice, remove one</source>
-        <translation>%~1 hat eine Nummer, da andere Strukturen der Datei Namen haben, die sich gleich lesen; ist eine Struktur doppelt da, entfernen Sie eine</translation>
-    </message>
-    <message>
-        <source>%~1 have a number, as other files of the folder give names that read the same; if a structure is there twice, remove one</source>
-        <translation>%~1 haben eine Nummer, da andere Dateien des Ordners Namen ergeben, die sich gleich lesen; ist eine Struktur doppelt da, entfernen Sie eine</translation>
-    </message>
-    <message>
-        <source>%~1 have a number, as other structures of the file have names that read the same; if a structure is there twice, remove one</source>
-        <translation>%~1 haben eine Nummer, da andere Strukturen der Datei Namen haben, die sich gleich lesen; ist eine Struktur doppelt da, entfernen Sie eine</translation>
-    </message>
-    <message>
         <source>%1: reaches %#2 mm beyond %~3, and a surface of this patient at most %#4 mm; look for a coordinate without its decimal point, and give it in mm</source>
         <translation>%1: reicht %#2 mm über %~3 hinaus, eine Oberfläche dieses Patienten höchstens %#4 mm; suchen Sie eine Koordinate ohne Dezimalpunkt, und geben Sie die Datei in mm</translation>
     </message>
@@ -402,6 +410,18 @@
     <message>
         <source>named so as another part has the name of its file</source>
         <translation>so benannt, da ein anderer Teil den Namen der Datei hat</translation>
+    </message>
+    <message>
+        <source>%1: holds %#2 objects, and at most %#3 are taken as structures; add it as one, without --mesh-parts</source>
+        <translation>%1: enthält %#2 Objekte, und höchstens %#3 werden als Strukturen genommen; fügen Sie die Datei als eine einzige hinzu</translation>
+    </message>
+    <message>
+        <source>reading mesh</source>
+        <translation>Netz wird gelesen</translation>
+    </message>
+    <message>
+        <source>is one of %#1 objects of its file; what is noted here of names, coordinates and unit is of all of them</source>
+        <translation>ist eines von %#1 Objekten seiner Datei; was hier zu Namen, Koordinaten und Einheit angemerkt ist, gilt für alle</translation>
     </message>
     <message>
         <source>the MR on which it was drawn</source>
@@ -1232,16 +1252,16 @@
         <translation>Strukturen werden geladen</translation>
     </message>
     <message>
-        <source>holds %#1 objects, taken as one structure; to have a structure of each, save each as a file of its own</source>
-        <translation>enthält %#1 Objekte, als eine Struktur genommen; speichern Sie jedes in einer eigenen Datei, um je eine Struktur zu haben</translation>
+        <source>holds %#1 objects, taken as one structure; --mesh-parts gives one of each</source>
+        <translation>enthält %#1 Objekte, als eine Struktur genommen; mit „Eine Struktur je Objekt“ noch einmal hinzugefügt ergibt es eine aus jedem</translation>
     </message>
     <message>
-        <source>holds %#1 objects: %~2, taken as one structure; to have a structure of each, save each as a file of its own</source>
-        <translation>enthält %#1 Objekte: %~2, als eine Struktur genommen; speichern Sie jedes in einer eigenen Datei, um je eine Struktur zu haben</translation>
+        <source>holds %#1 objects: %~2, taken as one structure; --mesh-parts gives one of each</source>
+        <translation>enthält %#1 Objekte: %~2, als eine Struktur genommen; mit „Eine Struktur je Objekt“ noch einmal hinzugefügt ergibt es eine aus jedem</translation>
     </message>
     <message>
-        <source>holds %#1 objects, among them %~2, taken as one structure; to have a structure of each, save each as a file of its own</source>
-        <translation>enthält %#1 Objekte, darunter %~2, als eine Struktur genommen; speichern Sie jedes in einer eigenen Datei, um je eine Struktur zu haben</translation>
+        <source>holds %#1 objects, among them %~2, taken as one structure; --mesh-parts gives one of each</source>
+        <translation>enthält %#1 Objekte, darunter %~2, als eine Struktur genommen; mit „Eine Struktur je Objekt“ noch einmal hinzugefügt ergibt es eine aus jedem</translation>
     </message>
     <message>
         <source>has %#1 parts, of which %#2 is wound the other way; it counts as solid all the same</source>
@@ -5648,10 +5668,6 @@
     <message>
         <source>is of no surface format that is read; give a %~1 file</source>
         <translation>ist in keinem lesbaren Format für Oberflächen; nehmen Sie eine Datei %~1</translation>
-    </message>
-    <message>
-        <source>reading mesh</source>
-        <translation>Netz wird gelesen</translation>
     </message>
     <message>
         <source>unit mm</source>

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <fstream>
 #include <iterator>
@@ -2074,6 +2075,113 @@ TEST_F(CaseBuilder, NotesTheObjectsOfAMeshFileButNoPatientsName)
             std::string::npos)
       << all;
   EXPECT_EQ(all.find("ustermann"), std::string::npos) << all;
+}
+
+TEST_F(CaseBuilder, MakesAPartOfEachObjectOfAMeshFile)
+{
+  auto value = presenters::buildCase("ear", m_sources, {});
+  const Vector3d center = value.ct.geometry.patientBounds().center();
+  // Tetrahedra with three edges of a length at right angles, apart from each other; their faces in
+  // turns.
+  const std::array<double, 3> lengths{1.0, 2.0, 1.5}; // mm
+  const std::array<const char*, 3> objects{"facial_nerve", "Mustermann_Erika", "Facial_Nerve"};
+  std::ofstream file(m_folder / "objects.obj");
+  file.imbue(std::locale::classic());
+  for (std::size_t n = 0; n < 3; ++n)
+    for (const Vector3d& corner :
+         {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)})
+    {
+      const Vector3d p =
+          center + Vector3d(4.0 * static_cast<double>(n) - 4.0, 0, 0) + lengths[n] * corner;
+      file << "v " << p[0] << " " << p[1] << " " << p[2] << "\n";
+    }
+  const std::array<std::array<std::size_t, 3>, 4> faces{
+      {{1, 3, 2}, {1, 2, 4}, {1, 4, 3}, {2, 3, 4}}};
+  for (const auto& face : faces)
+    for (std::size_t n = 0; n < 3; ++n)
+      file << "g " << objects[n] << "\nf " << face[0] + 4 * n << " " << face[1] + 4 * n << " "
+           << face[2] + 4 * n << "\n";
+  file.close();
+  const auto partsOf = [this](const std::string& name)
+  {
+    presenters::PartSources parts;
+    parts.meshes = {{name, m_folder / "objects.obj"}};
+    parts.meshes[0].isRas = false;
+    parts.meshes[0].unit = 1.0;
+    parts.meshes[0].isPerObject = true;
+    return parts;
+  };
+  const auto namesOf = [](const scene::Case& one)
+  {
+    std::vector<std::string> names;
+    for (const scene::MeshPart& mesh : one.meshes)
+      names.push_back(mesh.name);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  const auto volumeOf = [](const scene::MeshPart& part)
+  {
+    const auto mesh = part.mesh.get();
+    return volume::measure(*mesh).volume.value();
+  };
+
+  presenters::PartSources together = partsOf("whole");
+  together.meshes[0].isPerObject = false;
+  scene::Case one = value;
+  presenters::addParts(one, together, {});
+  ASSERT_EQ(one.meshes.size(), 1U);
+
+  const scene::Case empty = value;
+  presenters::addParts(value, partsOf(""), {});
+  EXPECT_EQ(namesOf(value), (Names{"facial_nerve", "structure", "Facial_Nerve 2"}));
+  ASSERT_EQ(value.meshes.size(), 3U);
+  double sum = 0.0;
+  std::string all;
+  for (std::size_t n = 0; n < 3; ++n)
+  {
+    const double length = lengths[n];
+    EXPECT_EQ(value.meshes[n].triangles, 4U);
+    EXPECT_NEAR(volumeOf(value.meshes[n]), length * length * length / 6.0, 1e-4) << n;
+    sum += volumeOf(value.meshes[n]);
+    for (const std::string& note : value.meshes[n].notes)
+      all += note + "\n";
+  }
+  EXPECT_NEAR(sum, volumeOf(one.meshes[0]), 1e-4);
+  EXPECT_EQ(all.find("ustermann"), std::string::npos) << all;
+  EXPECT_NE(all.find("is one of 3 objects of its file"), std::string::npos) << all;
+  EXPECT_NE(all.find("'Facial_Nerve 2' has a number"), std::string::npos) << all;
+  EXPECT_NE(all.find("2 words of the objects' names"), std::string::npos) << all;
+
+  scene::Case left = empty;
+  presenters::addParts(left, partsOf("left"), {});
+  EXPECT_EQ(namesOf(left), (Names{"left facial_nerve", "left", "left Facial_Nerve 2"}));
+
+  presenters::PartSources again = partsOf("");
+  try
+  {
+    presenters::addParts(value, again, {});
+    FAIL();
+  }
+  catch (const presenters::NamesTaken& error)
+  {
+    EXPECT_EQ(error.names, Names{"facial_nerve"});
+    EXPECT_EQ(error.others, 2U);
+  }
+  EXPECT_EQ(value.meshes.size(), 3U);
+  again.meshes[0].newNames["facial_nerve"] = "chorda";
+  scene::Case renamed = value;
+  presenters::addParts(renamed, again, {});
+  EXPECT_EQ(namesOf(renamed).at(3), "chorda");
+  again.meshes[0].newNames.clear();
+  again.meshes[0].skipsTaken = true;
+  presenters::addParts(value, again, {});
+  EXPECT_EQ(namesOf(value), (Names{"facial_nerve", "structure", "Facial_Nerve 2", "structure 2",
+                                   "Facial_Nerve 3"}));
+
+  again = partsOf(""); // a file of one object is named after itself
+  again.meshes[0].path = m_folder / "incus.obj";
+  presenters::addParts(value, again, {});
+  EXPECT_EQ(namesOf(value).back(), "incus");
 }
 
 TEST_F(CaseBuilder, RefusesAMeshWithAFarVertex)

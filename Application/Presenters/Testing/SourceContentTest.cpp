@@ -204,6 +204,19 @@ TEST_F(SourceContent, CountsTheStructuresOfALabelMapThatNothingNames)
   EXPECT_EQ(names(m_folder / "ear.csv"), "cochlea;incus;");
 }
 
+TEST_F(SourceContent, CountsTheObjectsOfAMesh)
+{
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  std::ofstream(m_folder / "two.obj") << corners << "o a\nf 1 2 3\no b\nf 1 3 2\n";
+  std::ofstream(m_folder / "one.obj") << corners << "o a\nf 1 2 3\n";
+  std::ofstream(m_folder / "damaged.obj") << corners << "o a\nf 1 2 9\no b\nf 1 3 2\n";
+  EXPECT_EQ(presenters::lookAt(m_folder / "two.obj", {}).structureCount, 2U);
+  EXPECT_EQ(presenters::lookAt(m_folder / "one.obj", {}).structureCount, 1U);
+  const auto damaged = presenters::lookAt(m_folder / "damaged.obj", {});
+  EXPECT_EQ(damaged.content, Content::Mesh) << "told when it is added";
+  EXPECT_EQ(damaged.structureCount, 0U);
+}
+
 TEST_F(SourceContent, OfAFolderWithCtAndMrTheUserSaysWhich)
 {
   phantom::SampleOptions options;

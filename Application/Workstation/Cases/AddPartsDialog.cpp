@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFileDialog>
@@ -78,6 +79,11 @@ AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const 
         widgets.place->addItem(tr("on the MR %1").arg(words(name)), words(name));
       widgets.place->setToolTip(tr("The image on which it was drawn"));
       grid->addWidget(widgets.place, row, 2);
+    }
+    if (widgets.name && part.objects > 1)
+    {
+      widgets.perObject = objectsChoice(widgets.name, part);
+      grid->addWidget(widgets.perObject, ++row, 1, 1, 2);
     }
     m_rows.push_back(widgets);
     ++row;
@@ -156,13 +162,35 @@ QWidget* AddPartsDialog::tableChoice(std::size_t row, const Part& part)
   return box;
 }
 
+// Whether the objects of a mesh file become a structure each; the name is then before theirs.
+QCheckBox* AddPartsDialog::objectsChoice(QLineEdit* name, const Part& part)
+{
+  auto* choice = new QCheckBox(tr("One structure per &object (%1)").arg(part.objects));
+  choice->setObjectName("perObject");
+  choice->setToolTip(
+      tr("Each object of the file becomes a structure of its own, under the object's "
+         "name, without words that may be a patient's name. A name given here is "
+         "put before it. Otherwise all are one structure."));
+  connect(choice, &QCheckBox::toggled, this,
+          [this, name, proposed = name->text()](bool isOn)
+          {
+            name->setPlaceholderText(isOn ? tr("named by the file") : tr("name"));
+            if (isOn && name->text() == proposed)
+              name->clear();
+            else if (!isOn && name->text().isEmpty())
+              name->setText(proposed);
+            check();
+          });
+  return choice;
+}
+
 std::vector<AddPartsDialog::Answer> AddPartsDialog::answers() const
 {
   std::vector<Answer> answers;
   for (const Row& row : m_rows)
     answers.push_back({row.name ? bytes(row.name->text().trimmed()) : std::string(),
                        row.place ? bytes(row.place->currentData().toString()) : std::string(),
-                       row.table});
+                       row.table, row.perObject && row.perObject->isChecked()});
   return answers;
 }
 
@@ -175,11 +203,14 @@ void AddPartsDialog::check()
     if (!row.name)
       continue;
     const std::string name = bytes(row.name->text().trimmed());
+    const bool isPerObject = row.perObject && row.perObject->isChecked();
+    if (isPerObject && name.empty())
+      continue;
     if (name.empty())
       advice += tr("Each part needs a name.");
-    else if (std::any_of(taken.begin(), taken.end(),
-                         [read = scene::asRead(name)](const auto& one)
-                         { return scene::asRead(one) == read; }))
+    else if (!isPerObject && std::any_of(taken.begin(), taken.end(),
+                                         [read = scene::asRead(name)](const auto& one)
+                                         { return scene::asRead(one) == read; }))
       advice += tr("“%1” is taken; give another name.").arg(words(name));
     else
       try
@@ -190,7 +221,8 @@ void AddPartsDialog::check()
       {
         advice += phrase(fault.what());
       }
-    taken.push_back(name);
+    if (!isPerObject)
+      taken.push_back(name);
   }
   advice.removeDuplicates();
   m_advice->setText(advice.join('\n'));

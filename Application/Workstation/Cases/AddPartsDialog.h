@@ -6,6 +6,7 @@
 
 #include <QDialog>
 
+class QCheckBox;
 class QComboBox;
 class QLabel;
 class QLineEdit;
@@ -28,12 +29,14 @@ public:
     std::size_t count = 0;   ///< structures of the file; 0: not known
     std::size_t unnamed = 0; ///< those of them without a name: a table can name them
     QString folder;          ///< where such a table may be
+    std::size_t objects = 0; ///< of a mesh file; several can become a structure each
   };
   struct Answer
   {
     std::string name;                      ///< empty: the file's own
     std::string drawnOn;                   ///< PartSource::drawnOn
     std::filesystem::path labelNames = {}; ///< likewise
+    bool isPerObject = false;              ///< likewise; the name may be empty
   };
 
   /// What exec() returns where the parts are not wanted, and others are.
@@ -52,11 +55,13 @@ public:
 private:
   void check();
   QWidget* tableChoice(std::size_t row, const Part& part);
+  QCheckBox* objectsChoice(QLineEdit* name, const Part& part);
 
   struct Row
   {
-    QLineEdit* name = nullptr;  ///< nullptr: not named
-    QComboBox* place = nullptr; ///< nullptr: not placed
+    QLineEdit* name = nullptr;      ///< nullptr: not named
+    QComboBox* place = nullptr;     ///< nullptr: not placed
+    QCheckBox* perObject = nullptr; ///< nullptr: not of several objects
     std::filesystem::path table = {};
   };
   std::vector<Row> m_rows;

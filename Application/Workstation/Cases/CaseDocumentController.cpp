@@ -745,7 +745,7 @@ bool CaseDocumentController::askPlace(Item& item)
 }
 
 // Names of parts, and consent to add them to the open case. A new case (its name is `newCase`) asks
-// only where a file is named after nothing.
+// only where a file is named after nothing, or a mesh holds several objects.
 bool CaseDocumentController::askNames(presenters::CaseSources& sources,
                                       const std::vector<Item>& others, const std::string& newCase)
 {
@@ -759,7 +759,7 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
   }
   std::vector<std::string> proposed = taken;
   std::vector<AddPartsDialog::Part> parts;
-  bool isNameless = false;
+  bool isAsked = newCase.empty();
   for (const Item& item : others)
   {
     const SourceContent& source = item.source;
@@ -773,7 +773,8 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
     else if (source.isNameless || source.content == Content::Mesh)
     {
       const std::string name = presenters::fileName(source.path).name;
-      isNameless = isNameless || source.isNameless;
+      part.objects = source.content == Content::Mesh ? source.structureCount : 0;
+      isAsked = isAsked || source.isNameless || part.objects > 1;
       // An empty name asks for one; that of a whole file name is kept as it is.
       part.name = name.empty() || !source.isNameless ? name : unusedName(name, proposed);
     }
@@ -783,13 +784,13 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
       part.unnamed = source.unnamed;
       part.count = source.structureCount;
       part.folder = QFile::decodeName(source.path.parent_path().c_str());
-      isNameless = isNameless || source.unnamed > 0;
+      isAsked = isAsked || source.unnamed > 0;
     }
     proposed.push_back(part.name);
     parts.push_back(std::move(part));
   }
   std::vector<AddPartsDialog::Answer> answers;
-  if (newCase.empty() || isNameless)
+  if (isAsked)
   {
     const QString name = words(newCase.empty() ? m_model.value().name : newCase);
     const QString primary = newCase.empty() ? presenters::primaryName(m_model.value()) : "CT";
@@ -828,6 +829,7 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
     part.name = answers[n].name;
     part.drawnOn = answers[n].drawnOn;
     part.labelNames = answers[n].labelNames;
+    part.isPerObject = answers[n].isPerObject;
   }
   return true;
 }

@@ -2329,6 +2329,65 @@ TEST_F(Import, AnExportThatFailsKeepsItsChoicesAndOffersTheGridOfTheCt)
   EXPECT_TRUE(fs::exists(folder() / "all.seg.nrrd"));
 }
 
+// A mesh file of several objects: one structure, or one of each.
+TEST_F(Import, ObjectsOfAMeshFileBecomeAStructureEachIfTicked)
+{
+  saveBall("ball");
+  openWindow("ball");
+  std::ofstream file(folder() / "ossicles.obj");
+  file.imbue(std::locale::classic());
+  file << "# SPACE=LPS, unit mm\n";
+  for (const double edge : {1.0, 2.0}) // mm
+    for (const Eigen::Vector3d& corner : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0),
+                                          Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1)})
+    {
+      const Eigen::Vector3d p = kBallCenter + Eigen::Vector3d(2.0 * edge, 0, 0) + edge * corner;
+      file << "v " << p[0] << " " << p[1] << " " << p[2] << "\n";
+    }
+  file << "o malleus\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+          "o incus\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";
+  file.close();
+  const auto names = [this]
+  {
+    QStringList all;
+    for (const scene::MeshPart& mesh : window().model().value().meshes)
+      all += QString::fromStdString(mesh.name);
+    return all;
+  };
+  const auto add = [this](bool isPerObject, const QString& name)
+  {
+    bool isAdded = false;
+    onDialog(
+        [&](QDialog& dialog)
+        {
+          auto* perObject = dialog.findChild<QCheckBox*>("perObject");
+          if (dialog.objectName() != "addParts" || !perObject)
+            return false;
+          EXPECT_TRUE(perObject->text().contains("(2)")) << perObject->text().toStdString();
+          EXPECT_FALSE(perObject->isChecked());
+          auto* edit = dialog.findChild<QLineEdit*>("partName");
+          edit->clear();
+          EXPECT_FALSE(buttonOf(dialog, "Add to")->isEnabled()) << "needs a name";
+          perObject->setChecked(isPerObject);
+          edit->setText(name);
+          EXPECT_TRUE(buttonOf(dialog, "Add to")->isEnabled());
+          isAdded = true;
+          dialog.accept();
+          return true;
+        });
+    dropPath(folder() / "ossicles.obj");
+    EXPECT_TRUE(waitFor([&] { return isAdded && !window().busy(); }));
+    EXPECT_TRUE(settled());
+  };
+  add(false, "whole");
+  ASSERT_TRUE(waitFor([&] { return names().size() == 1; })) << names().join(", ").toStdString();
+  add(true, "");
+  ASSERT_TRUE(waitFor([&] { return names().size() == 3; })) << names().join(", ").toStdString();
+  add(true, "left");
+  ASSERT_TRUE(waitFor([&] { return names().size() == 5; })) << names().join(", ").toStdString();
+  EXPECT_EQ(names(), QStringList({"whole", "malleus", "incus", "left malleus", "left incus"}));
+}
+
 // A label map without names asks for a table of them.
 TEST_F(Import, NamesOfALabelMapComeFromATableThatIsChosen)
 {

@@ -134,6 +134,9 @@ const std::vector<Hint>& hints()
       {"; a DICOM segmentation is read as structures \\(--labels\\)",
        "; a DICOM segmentation is read as structures"},
       {"; state its coordinate system and unit \\(--mesh-frame, --mesh-unit\\)", ""},
+      {"; --mesh-parts gives one of each",
+       "; to have one of each, add it again with “One structure per object”"},
+      {"; add it as one, without --mesh-parts", "; add it as one structure"},
       {"region of it \\(--roi\\)", "region of it"},
       {", or say --(ct|mr|labels)-frame ras \\(NIfTI's own\\) or lps \\(DICOM, ITK\\) if you know "
        "it",

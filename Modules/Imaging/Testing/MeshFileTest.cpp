@@ -15,6 +15,7 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include "TestFiles.h"
+#include "petrous/Volume/MeshMeasure.h"
 
 namespace petrous::imaging
 {
@@ -44,6 +45,82 @@ void expectBox(const core::TriangleMesh& mesh)
   EXPECT_NEAR(mesh.signedVolume(), 24.0, 1e-9);
   EXPECT_EQ(mesh.bounds()[0], Eigen::Vector3f(10.0F, 20.0F, 30.0F));
   EXPECT_EQ(mesh.bounds()[1], Eigen::Vector3f(12.0F, 23.0F, 34.0F));
+}
+
+TEST(MeshFile, SplitsAFileByItsObjects)
+{
+  const TestFolder folder;
+  // The box and a tetrahedron of 1/6 mm^3 that shares its corner 7, their faces in turns, with
+  // quadrangles, faces that are no triangle, and a vertex of no face.
+  const LoadedMesh loaded = loadMesh(
+      putFile(folder / "turns.obj",
+              "v 10 20 30\nv 12 20 30\nv 12 23 30\nv 10 23 30\nv 10 20 34\nv 12 20 34\nv 12 23 34\n"
+              "v 10 23 34\nv 99 99 99\nv 13 23 34\nv 12 24 34\nv 12 23 35\n"
+              "g box\nf 1 4 3 2\ng tip\nf 7 11 10\nf 7 7 10\ng box\nf 1 1 2\nf 5 6 7 8\n"
+              "g tip\nf 7 10 12\ng none\nf 1 1 2\ng box\nf 1 2 6 5\nf 2 3 7 6\n"
+              "g tip\nf 7 12 11\nf 10 11 12\ng box\nf 3 4 8 7\nf 4 1 5 8\n"));
+  EXPECT_EQ(loaded.objects, (std::vector<std::string>{"box", "tip"}));
+  EXPECT_EQ(loaded.objectOf,
+            (std::vector<std::uint32_t>{0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0}));
+  const auto parts = splitByObject(loaded);
+  ASSERT_EQ(parts.size(), 2U);
+  expectBox(parts[0]);
+  EXPECT_EQ(parts[1].vertices.size(), 4U);
+  EXPECT_EQ(parts[1].triangles.size(), 4U);
+  EXPECT_TRUE(parts[1].isClosed());
+  EXPECT_NEAR(volume::measure(parts[0]).volume.value(), 24.0, 1e-5);
+  EXPECT_NEAR(volume::measure(parts[1]).volume.value(), 1.0 / 6.0, 1e-5);
+  EXPECT_NEAR(loaded.mesh.signedVolume(), 24.0 + 1.0 / 6.0, 1e-5);
+
+  const LoadedMesh one = loadMesh(putFile(folder / "box.obj", kBoxObj));
+  EXPECT_TRUE(one.objectOf.empty());
+  EXPECT_EQ(objectCount(folder / "box.obj"), 1U);
+  EXPECT_EQ(objectCount(folder / "turns.obj"), 2U);
+  ASSERT_EQ(splitByObject(one).size(), 1U);
+  EXPECT_EQ(splitByObject(one)[0].triangles, one.mesh.triangles);
+}
+
+TEST(MeshFile, SplitsSolidsThatShareAVertexAndAName)
+{
+  const TestFolder folder;
+  using Corner = std::array<int, 3>;
+  const auto facet = [](const Corner& a, const Corner& b, const Corner& c)
+  {
+    std::string text = "facet normal 0 0 0\nouter loop\n";
+    for (const Corner& p : {a, b, c})
+      text += "vertex " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " +
+              std::to_string(p[2]) + "\n";
+    return text + "endloop\nendfacet\n";
+  };
+  const auto tetrahedron = [&facet](int x) // from (x, 0, 0)
+  {
+    const Corner a{x, 0, 0};
+    const Corner b{x + 1, 0, 0};
+    const Corner c{x, 1, 0};
+    const Corner d{x, 0, 1};
+    return facet(a, c, b) + facet(a, a, b) + facet(a, b, d) + facet(a, d, c) + facet(b, c, d);
+  };
+  const LoadedMesh loaded =
+      loadMesh(putFile(folder / "two.stl",
+                       "solid nothing\nendsolid nothing\nsolid bone\n" + tetrahedron(0) +
+                           "endsolid bone\nsolid flat\n" + facet({0, 0, 0}, {0, 0, 0}, {1, 0, 0}) +
+                           "endsolid flat\nsolid bone\n" + tetrahedron(1) + "endsolid bone\n"));
+  EXPECT_EQ(loaded.objects, (std::vector<std::string>{"bone", "bone"}));
+  EXPECT_EQ(objectCount(folder / "two.stl"), 2U);
+  writeMesh(folder / "binary.stl", loaded.mesh);
+  EXPECT_EQ(objectCount(folder / "binary.stl"), 1U);
+  EXPECT_EQ(loaded.objectOf, (std::vector<std::uint32_t>{0, 0, 0, 0, 1, 1, 1, 1}));
+  EXPECT_EQ(loaded.mesh.vertices.size(), 7U) << "one is shared";
+  const auto parts = splitByObject(loaded);
+  ASSERT_EQ(parts.size(), 2U);
+  for (const core::TriangleMesh& part : parts)
+  {
+    EXPECT_EQ(part.vertices.size(), 4U);
+    EXPECT_TRUE(part.isClosed());
+    EXPECT_NEAR(part.signedVolume(), 1.0 / 6.0, 1e-6);
+  }
+  EXPECT_EQ(parts[0].bounds()[1], Eigen::Vector3f(1.0F, 1.0F, 1.0F));
+  EXPECT_EQ(parts[1].bounds()[0], Eigen::Vector3f(1.0F, 0.0F, 0.0F));
 }
 
 TEST(MeshFile, NamesTheObjectsThatHaveTriangles)

@@ -972,9 +972,9 @@ struct FolderNames
 };
 
 // A word of no structure and no side may be the patient's name, and is left out of the structures'
-// names, if most of the files of a folder share it or the name of its file may identify the
-// patient.
-FolderNames namesInFolder(const imaging::LoadedLabels& loaded, const IdentityText& identity)
+// names, if most of the files of a folder, or objects of a file, share it or the name of its file
+// may identify the patient.
+FolderNames namesWithoutPatient(const std::vector<std::string>& names, const IdentityText& identity)
 {
   const auto presets = appearance::StructurePresets::builtIn();
   const auto isWordChar = [](unsigned char c) { return c >= 0x80 || std::isalnum(c) != 0; };
@@ -991,41 +991,71 @@ FolderNames namesInFolder(const imaging::LoadedLabels& loaded, const IdentityTex
     return words;
   };
   std::map<std::string, std::size_t> counts;
-  std::size_t files = 0;
-  for (const auto& map : loaded.maps)
-    for (const volume::Segment& segment : map.segments)
-    {
-      ++files;
-      const auto words = wordsOf(segment.name);
-      for (const std::string& word : std::set<std::string>(words.begin(), words.end()))
-        ++counts[word];
-    }
+  const std::size_t files = names.size();
+  for (const std::string& name : names)
+  {
+    const auto words = wordsOf(name);
+    for (const std::string& word : std::set<std::string>(words.begin(), words.end()))
+      ++counts[word];
+  }
   constexpr std::size_t kTelling = 3; // files, from which on what they share means something
   FolderNames result;
+  for (const std::string& name : names)
+  {
+    std::string kept;
+    bool isWhole = true;
+    // Where the patient's name is known, capitals alone say nothing.
+    const bool mayIdentify =
+        identity.mayIdentify(identity.knowsName() ? scene::lowerCase(name) : name);
+    for (const std::string& word : wordsOf(name))
+    {
+      // "left" alone names nothing, so it is asked beside a word that does.
+      const bool isKnown = !presets.knownWords(word + " nerve").empty() &&
+                           presets.knownWords(word + " nerve") != "nerve";
+      if (isKnown || (files >= kTelling && 2 * counts[word] <= files && !mayIdentify))
+        kept += (kept.empty() ? "" : "_") + word;
+      else
+      {
+        isWhole = false;
+        result.leftOut.insert(word);
+      }
+    }
+    result.names[name] = isWhole ? name : kept;
+  }
+  return result;
+}
+
+FolderNames namesInFolder(const imaging::LoadedLabels& loaded, const IdentityText& identity)
+{
+  std::vector<std::string> names;
   for (const auto& map : loaded.maps)
     for (const volume::Segment& segment : map.segments)
-    {
-      std::string kept;
-      bool isWhole = true;
-      // Where the patient's name is known, capitals alone say nothing.
-      const bool mayIdentify = identity.mayIdentify(
-          identity.knowsName() ? scene::lowerCase(segment.name) : segment.name);
-      for (const std::string& word : wordsOf(segment.name))
-      {
-        // "left" alone names nothing, so it is asked beside a word that does.
-        const bool isKnown = !presets.knownWords(word + " nerve").empty() &&
-                             presets.knownWords(word + " nerve") != "nerve";
-        if (isKnown || (files >= kTelling && 2 * counts[word] <= files && !mayIdentify))
-          kept += (kept.empty() ? "" : "_") + word;
-        else
-        {
-          isWhole = false;
-          result.leftOut.insert(word);
-        }
-      }
-      result.names[segment.name] = isWhole ? segment.name : kept;
-    }
-  return result;
+      names.push_back(segment.name);
+  return namesWithoutPatient(names, identity);
+}
+
+// Of the files of a folder, or the objects of a file.
+std::string leftOutNote(const FolderNames& folder, bool isFolder)
+{
+  const std::size_t count = folder.leftOut.size();
+  return std::to_string(count) + (count == 1 ? " word" : " words") +
+         (isFolder ? " of the files' names" : " of the objects' names") +
+         ", which may be a patient's, " + (count == 1 ? "was" : "were") +
+         " left out of the structures' names";
+}
+
+std::string takenNote(const std::vector<std::string>& taken)
+{
+  return scene::listed(taken) + " left out as asked, as the case has " +
+         (taken.size() == 1 ? "a part of this name" : "parts of these names") + " already";
+}
+
+std::string numberedNote(const std::vector<std::string>& numbered, bool isFolder)
+{
+  return scene::listed(numbered) + (numbered.size() == 1 ? " has" : " have") +
+         " a number, as other " +
+         (isFolder ? "files of the folder give" : "structures of the file have") +
+         " names that read the same; if a structure is there twice, remove one";
 }
 
 // The name that a file of several structures gives one, made valid: one odd name must not refuse
@@ -1114,10 +1144,8 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
   const FolderNames folder =
       isFolder ? namesInFolder(loaded, IdentityText(value, salted)) : FolderNames();
   const auto& ofFolder = folder.names;
-  if (const std::size_t count = folder.leftOut.size(); count > 0)
-    notes.push_back(std::to_string(count) + (count == 1 ? " word" : " words") +
-                    " of the files' names, which may be a patient's, " +
-                    (count == 1 ? "was" : "were") + " left out of the structures' names");
+  if (!folder.leftOut.empty())
+    notes.push_back(leftOutNote(folder, isFolder));
   if (!loaded.leftOut.empty()) // their names may be a patient's
   {
     std::vector<std::string> known;
@@ -1279,14 +1307,9 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     notes.push_back(scene::listed(empty) + " left out, as no voxel carries " +
                     (empty.size() == 1 ? "it" : "them"));
   if (!taken.empty())
-    notes.push_back(scene::listed(taken) + " left out as asked, as the case has " +
-                    (taken.size() == 1 ? "a part of this name" : "parts of these names") +
-                    " already");
+    notes.push_back(takenNote(taken));
   if (!numbered.empty())
-    notes.push_back(scene::listed(numbered) + (numbered.size() == 1 ? " has" : " have") +
-                    " a number, as other " +
-                    (isFolder ? "files of the folder give" : "structures of the file have") +
-                    " names that read the same; if a structure is there twice, remove one");
+    notes.push_back(numberedNote(numbered, isFolder));
   auto& first = value.labels[before].notes;
   first.insert(first.begin(), notes.begin(), notes.end());
   if (report)
@@ -1307,50 +1330,147 @@ void requireNear(const fs::path& path, const core::TriangleMesh& mesh,
       " mm; look for a coordinate without its decimal point, and give it in mm");
 }
 
-void addMesh(scene::Case& value, const PartSource& source, const core::Progress& progress)
+// What a mesh file is called as one part, new to the case.
+std::string meshName(const scene::Case& value, const PartSource& source,
+                     std::vector<std::string>& notes)
 {
-  scene::MeshPart part;
-  std::vector<std::string> notes;
-  part.name = source.name.empty() ? nameFromFile(
-                                        source.path, "mesh",
-                                        [&value](const std::string& name)
-                                        { return !scene::partReadAs(value, name).empty(); },
-                                        notes)
-                                  : source.name;
-  if (source.name.empty() && !scene::partReadAs(value, part.name).empty())
+  const auto isTaken = [&value](const std::string& name)
+  { return !scene::partReadAs(value, name).empty(); };
+  std::string wanted =
+      source.name.empty() ? nameFromFile(source.path, "mesh", isTaken, notes) : source.name;
+  if (source.name.empty() && isTaken(wanted))
   {
-    part.name = scene::freeName(part.name, [&value](const std::string& name)
-                                { return !scene::partReadAs(value, name).empty(); });
+    wanted = scene::freeName(wanted, isTaken);
     notes.push_back("named so as another part has the name of its file");
   }
-  const std::string wanted = part.name;
-  part.name = askedName(value, source, wanted, {}, notes);
-  checkNewName(value, source.path, part.name, wanted);
+  const std::string name = askedName(value, source, wanted, {}, notes);
+  checkNewName(value, source.path, name, wanted);
+  return name;
+}
+
+/// The image on which a mesh was drawn.
+struct MeshImage
+{
+  const core::GridGeometry& grid;
+  std::string name;
+};
+
+// `part`: with its name and the notes about its file.
+void addMeshPart(scene::Case& value, scene::MeshPart part, core::TriangleMesh mesh,
+                 const MeshImage& image, appearance::DistinctColors& colors)
+{
+  if (std::string note = outsideImage(mesh, image.grid, image.name); !note.empty())
+    part.notes.push_back(std::move(note));
+  for (std::string& note : formNotes(mesh))
+    part.notes.push_back(std::move(note));
+  part.triangles = mesh.triangles.size();
+  part.mesh = std::make_shared<const core::TriangleMesh>(std::move(mesh));
+  part.look = appearance::StructurePresets::builtIn().lookFor(part.name);
+  if (isUnknown(part.look))
+    part.look.color = colors.next();
+  else
+    colors.take(part.look.color);
+  value.meshes.push_back(std::move(part));
+}
+
+// Each object of a mesh file as a part of its own. `shared`: what is of all of them; its notes are
+// the first one's.
+void addObjects(scene::Case& value, const PartSource& source, const scene::MeshPart& shared,
+                imaging::LoadedMesh loaded, const MeshImage& image,
+                const scene::IdentitySalt& salted, const core::Progress& progress)
+{
+  constexpr std::size_t kMost = 1000; // as noteManyValues
+  const std::vector<std::string> objects = loaded.objects;
+  const std::size_t count = objects.size();
+  if (count > kMost)
+    throw core::InvalidParameter(source.path.string() + ": holds " + std::to_string(count) +
+                                 " objects, and at most " + std::to_string(kMost) +
+                                 " are taken as structures; add it as one, without --mesh-parts");
+  std::vector<std::string> notes;
+  const FolderNames safe = namesWithoutPatient(objects, IdentityText(value, salted));
+  if (!safe.leftOut.empty())
+    notes.push_back(leftOutNote(safe, false));
+  std::vector<core::TriangleMesh> meshes = imaging::splitByObject(loaded);
+  loaded = {};
+  std::vector<std::string> names; // that the objects would have
+  const auto isOfSource = [&names](const std::string& name)
+  {
+    return std::any_of(names.begin(), names.end(),
+                       [read = scene::asRead(name)](const auto& other)
+                       { return scene::asRead(other) == read; });
+  };
+  const auto isTaken = [&](const std::string& name)
+  { return !scene::partReadAs(value, name).empty() || isOfSource(name); };
+  std::vector<std::string> numbered;
+  std::vector<std::string> taken;
+  const std::size_t before = value.meshes.size();
+  appearance::DistinctColors colors(colorsOf(value));
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    progress.check("reading mesh");
+    const std::string& own = safe.names.at(objects[n]);
+    std::string wanted = source.name.empty() ? own : source.name + (own.empty() ? "" : " " + own);
+    const bool isTwice = isOfSource(wanted);
+    if (own.empty() || isTwice)
+      wanted = scene::freeName(wanted.empty() ? "structure" : wanted, isTaken);
+    if (isTwice && !own.empty())
+      numbered.push_back(wanted);
+    wanted = validName(wanted, isOfSource, notes);
+    names.push_back(wanted);
+    scene::MeshPart part = shared;
+    part.notes.clear();
+    part.name = askedName(value, source, wanted, {}, notes);
+    checkName(source.path, part.name);
+    if (!scene::partReadAs(value, part.name).empty()) // all that are taken are told at once
+      taken.push_back(wanted);
+    else
+      addMeshPart(value, std::move(part), std::move(meshes[n]), image, colors);
+  }
+  if (!taken.empty() && (!source.skipsTaken || taken.size() == count))
+    throw NamesTaken(source.path, taken, count - taken.size());
+  if (!taken.empty())
+    notes.push_back(takenNote(taken));
+  if (!numbered.empty())
+    notes.push_back(numberedNote(numbered, false));
+  notes.insert(notes.end(), shared.notes.begin(), shared.notes.end());
+  if (!notes.empty())
+    notes.insert(notes.begin(), "is one of " + std::to_string(count) +
+                                    " objects of its file; what is noted here of names, "
+                                    "coordinates and unit is of all of them");
+  auto& first = value.meshes[before].notes;
+  first.insert(first.begin(), notes.begin(), notes.end());
+  core::log::info("import: " + std::to_string(count - taken.size()) + " meshes of a file's " +
+                  std::to_string(count) + " objects");
+}
+
+void addMesh(scene::Case& value, const PartSource& source, const scene::IdentitySalt& salted,
+             const core::Progress& progress)
+{
+  scene::MeshPart part;
+  if (!source.isPerObject)
+    part.name = meshName(value, source, part.notes);
   if (!source.drawnOn.empty())
     part.drawnOn = drawnOnNamed(value, source);
   auto loaded = imaging::loadMesh(source.path, source.isRas, source.unit, progress.part(0.0, 0.9));
+  const bool isSplit = source.isPerObject && !loaded.objectOf.empty();
+  if (source.isPerObject && !isSplit)
+    part.name = meshName(value, source, part.notes);
   const scene::ImagePart* mr = scene::findMr(value, part.drawnOn);
-  const std::string image =
-      mr ? "the MR on which it was drawn" : std::string("the ") + primaryName(value);
-  if (std::string note = judgeMeshSpace(source.path, loaded, mr ? *mr : value.ct, image);
+  const MeshImage image{mr ? mr->geometry : value.ct.geometry,
+                        mr ? "the MR on which it was drawn"
+                           : std::string("the ") + primaryName(value)};
+  if (std::string note = judgeMeshSpace(source.path, loaded, mr ? *mr : value.ct, image.name);
       !note.empty())
-    notes.push_back(std::move(note));
-  const core::GridGeometry& grid = mr ? mr->geometry : value.ct.geometry;
-  requireNear(source.path, loaded.mesh, grid, image);
-  if (std::string note = outsideImage(loaded.mesh, grid, image); !note.empty())
-    notes.push_back(std::move(note));
-  for (std::string& note : formNotes(loaded))
-    notes.push_back(std::move(note));
-  part.notes = std::move(loaded.notes);
-  part.notes.insert(part.notes.begin(), notes.begin(), notes.end());
-  auto mesh = std::make_shared<core::TriangleMesh>(std::move(loaded.mesh));
-  part.triangles = mesh->triangles.size();
-  core::log::info("import: mesh of " + std::to_string(part.triangles) + " triangles");
-  part.mesh = std::shared_ptr<const core::TriangleMesh>(std::move(mesh));
-  part.look = appearance::StructurePresets::builtIn().lookFor(part.name);
-  if (isUnknown(part.look))
-    part.look.color = appearance::DistinctColors(colorsOf(value)).next();
-  value.meshes.push_back(std::move(part));
+    part.notes.push_back(std::move(note));
+  requireNear(source.path, loaded.mesh, image.grid, image.name);
+  part.notes.insert(part.notes.end(), loaded.notes.begin(), loaded.notes.end());
+  core::log::info("import: mesh of " + std::to_string(loaded.mesh.triangles.size()) + " triangles");
+  if (isSplit)
+    return addObjects(value, source, part, std::move(loaded), image, salted, progress);
+  if (std::string note = objectsNote(loaded); !note.empty())
+    part.notes.push_back(std::move(note));
+  appearance::DistinctColors colors(colorsOf(value));
+  addMeshPart(value, std::move(part), std::move(loaded.mesh), image, colors);
 }
 
 // The names of parts that are given in one go, by what they come from: one that another of them has
@@ -1715,7 +1835,7 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
   for (const PartSource& source : parts.labels)
     given.record(next, source, [&] { addLabels(next, source, parts, share(), &reports); });
   for (const PartSource& source : parts.meshes)
-    given.record(next, source, [&] { addMesh(next, source, share()); });
+    given.record(next, source, [&] { addMesh(next, source, parts.salted, share()); });
   for (const auto* kind : {&parts.mr, &parts.labels, &parts.meshes})
     for (const PartSource& source : *kind)
       next.origins.push_back({source.path, fs::file_time_type::clock::now()});

@@ -7,25 +7,28 @@
 namespace petrous::presenters
 {
 
-std::vector<std::string> formNotes(const imaging::LoadedMesh& loaded)
+std::string objectsNote(const imaging::LoadedMesh& loaded)
 {
   constexpr std::size_t kMostQuoted = 8;
+  const std::size_t count = loaded.objects.size();
+  if (count < 2)
+    return {};
+  std::vector<std::string> known;
+  for (const std::string& object : loaded.objects)
+    if (const FileName name = fileName(object);
+        name.isWhole && !name.name.empty() && known.size() < kMostQuoted)
+      known.push_back(name.name);
+  return "holds " + std::to_string(count) + " objects" +
+         (known.empty()           ? std::string()
+          : known.size() == count ? ": " + scene::listed(known)
+                                  : ", among them " + scene::listed(known)) +
+         ", taken as one structure; --mesh-parts gives one of each";
+}
+
+std::vector<std::string> formNotes(const core::TriangleMesh& mesh)
+{
   std::vector<std::string> notes;
-  if (const std::size_t count = loaded.objects.size(); count > 1)
-  {
-    std::vector<std::string> known;
-    for (const std::string& object : loaded.objects)
-      if (const FileName name = fileName(object);
-          name.isWhole && !name.name.empty() && known.size() < kMostQuoted)
-        known.push_back(name.name);
-    notes.push_back("holds " + std::to_string(count) + " objects" +
-                    (known.empty()           ? std::string()
-                     : known.size() == count ? ": " + scene::listed(known)
-                                             : ", among them " + scene::listed(known)) +
-                    ", taken as one structure; to have a structure of each, save each as a file "
-                    "of its own");
-  }
-  const volume::MeshMeasure form = volume::measure(loaded.mesh);
+  const volume::MeshMeasure form = volume::measure(mesh);
   if (form.reversedParts > 0)
     notes.push_back("has " + std::to_string(form.parts) + " parts, of which " +
                     std::to_string(form.reversedParts) +
@@ -43,7 +46,7 @@ std::vector<std::string> formNotes(const imaging::LoadedMesh& loaded)
                          ? " part in another that faces the same way; it bounds nothing"
                          : " parts in another that face the same way; they bound nothing"));
   if (form.doubled > 0)
-    notes.push_back(2 * form.doubled == loaded.mesh.triangles.size()
+    notes.push_back(2 * form.doubled == mesh.triangles.size()
                         ? std::string("has each triangle twice; it counts once")
                         : "has " + std::to_string(form.doubled) +
                               " triangles that are there already; they count once");

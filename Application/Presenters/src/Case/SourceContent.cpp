@@ -441,6 +441,14 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
     result.content = Content::Mesh;
     result.isNameless = !fileName(path).isWhole;
     result.why = "is a surface of triangles";
+    try
+    {
+      result.structureCount = imaging::objectCount(path, progress);
+    }
+    catch (const imaging::FileError&)
+    {
+      // told when it is added
+    }
     return result;
   }
   if ((!format || format->reads == imaging::kDicom) && imaging::isDicomSegmentation(path))

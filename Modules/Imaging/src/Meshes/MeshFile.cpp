@@ -170,14 +170,53 @@ void MeshBuilder::failUnreadable(const std::string& what) const
        "is damaged: " + what + "; export it again from where it came");
 }
 
-core::TriangleMesh MeshBuilder::take()
+LoadedMesh MeshBuilder::take()
 {
   if (m_mesh.triangles.empty())
     fail(FileError::Reason::Unsupported, m_path,
          "holds no triangle; a surface of at least one is needed");
   check();
   dropUnusedVertices(m_mesh);
-  return std::move(m_mesh);
+  LoadedMesh loaded;
+  loaded.mesh = std::move(m_mesh);
+  return loaded;
+}
+
+void MeshObjects::begin(std::string name, bool isApart)
+{
+  m_name = std::move(name);
+  m_isApart = isApart;
+  m_isBegun = true;
+}
+
+void MeshObjects::record(std::size_t first, std::size_t end)
+{
+  if (!m_isBegun || first == end)
+    return;
+  m_isBegun = false;
+  const auto next = static_cast<std::uint32_t>(m_names.size());
+  std::uint32_t object = next;
+  if (!m_isApart)
+    object = m_known.try_emplace(m_name, next).first->second;
+  if (object == next)
+    m_names.push_back(m_name);
+  m_runs.push_back({first, object});
+}
+
+void MeshObjects::moveTo(LoadedMesh& loaded)
+{
+  loaded.objects = std::move(m_names);
+  loaded.objectOf.clear();
+  if (loaded.objects.size() < 2)
+    return;
+  loaded.objectOf.resize(loaded.mesh.triangles.size());
+  for (std::size_t r = 0; r < m_runs.size(); ++r)
+  {
+    const std::size_t end =
+        r + 1 < m_runs.size() ? m_runs[r + 1].first : loaded.mesh.triangles.size();
+    for (std::size_t t = m_runs[r].first; t < end; ++t)
+      loaded.objectOf[t] = m_runs[r].object;
+  }
 }
 
 LoadedMesh loadMesh(const std::filesystem::path& path, const std::optional<bool>& isRas,
@@ -191,12 +230,7 @@ LoadedMesh loadMesh(const std::filesystem::path& path, const std::optional<bool>
   checkFormat(path, format->name);
   const std::string bytes = readWholeFile(path, progress.part(0.0, 0.4));
   progress.report(0.4, "reading mesh");
-  LoadedMesh loaded;
-  loaded.mesh = format->parseMesh(path, bytes, progress);
-  if (format->parseMesh == parseObj)
-    loaded.objects = objObjects(bytes);
-  else if (format->parseMesh == parseStl)
-    loaded.objects = stlObjects(bytes);
+  LoadedMesh loaded = format->parseMesh(path, bytes, progress);
   const std::string_view start = std::string_view(bytes).substr(0, kFrameWithin);
   const bool saysRas = start.find("SPACE=RAS") != start.npos;
   const bool saysFrame = saysRas || start.find("SPACE=LPS") != start.npos;
@@ -220,6 +254,57 @@ LoadedMesh loadMesh(const std::filesystem::path& path, const std::optional<bool>
     loaded.notes.emplace_back("has a unit of " + core::generalText(*unit) +
                               " mm, as given; brought to mm");
   return loaded;
+}
+
+std::vector<core::TriangleMesh> splitByObject(const LoadedMesh& loaded)
+{
+  if (loaded.objectOf.empty())
+    return {loaded.mesh};
+  const core::TriangleMesh& whole = loaded.mesh;
+  std::vector<core::TriangleMesh> parts(loaded.objects.size());
+  for (std::size_t t = 0; t < whole.triangles.size(); ++t)
+    parts[loaded.objectOf[t]].triangles.push_back(whole.triangles[t]);
+  constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> place(whole.vertices.size(), kUnused); // in the part
+  std::vector<std::uint32_t> used;                                  // by the part
+  for (core::TriangleMesh& part : parts)
+  {
+    for (auto& triangle : part.triangles)
+      for (std::uint32_t& corner : triangle)
+      {
+        if (place[corner] == kUnused)
+        {
+          place[corner] = static_cast<std::uint32_t>(used.size());
+          used.push_back(corner);
+        }
+        corner = place[corner];
+      }
+    part.vertices.reserve(used.size());
+    for (const std::uint32_t vertex : used)
+    {
+      part.vertices.push_back(whole.vertices[vertex]);
+      place[vertex] = kUnused;
+    }
+    used.clear();
+  }
+  return parts;
+}
+
+std::size_t objectCount(const std::filesystem::path& path, const core::Progress& progress)
+{
+  const FileFormat* format = formatOf(path);
+  if (format && format->parseMesh == parseStl)
+  {
+    constexpr std::uintmax_t kFirstWord = 512; // bytes that hold it
+    const std::string start = readBytes(path, kFirstWord);
+    std::string_view rest = start;
+    if (takeWord(rest) != "solid")
+      return 1;
+  }
+  else if (format && format->parseMesh && format->parseMesh != parseObj)
+    return 1;
+  return std::max<std::size_t>(loadMesh(path, std::nullopt, std::nullopt, progress).objects.size(),
+                               1);
 }
 
 core::TriangleMesh readMesh(const std::filesystem::path& path)

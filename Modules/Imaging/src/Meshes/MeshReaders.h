@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "petrous/Core/Progress.h"
@@ -34,10 +35,11 @@ public:
   }
   void check() const { m_progress.check("reading mesh"); }
   std::size_t vertexCount() const noexcept { return m_mesh.vertices.size(); }
+  std::size_t triangleCount() const noexcept { return m_mesh.triangles.size(); }
   [[noreturn]] void failUnreadable(const std::string& what) const;
 
-  /// Throws for a mesh without triangles.
-  core::TriangleMesh take();
+  /// The mesh, as the file counts. Throws for one without triangles.
+  LoadedMesh take();
 
 private:
   std::filesystem::path m_path;
@@ -46,19 +48,43 @@ private:
   core::TriangleMesh m_mesh;
 };
 
-// Of the table of formats: parsers of a whole file, and whole files in bytes.
-core::TriangleMesh parseObj(const std::filesystem::path& path, std::string_view bytes,
-                            const core::Progress& progress);
-core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view bytes,
-                            const core::Progress& progress);
-core::TriangleMesh parsePly(const std::filesystem::path& path, std::string_view bytes,
-                            const core::Progress& progress);
-core::TriangleMesh parseVtp(const std::filesystem::path& path, std::string_view bytes,
-                            const core::Progress& progress);
+/// Collects which triangles of a file are of which object. Only objects that have triangles count.
+class MeshObjects
+{
+public:
+  /// The triangles from here on are of the object of this name: of the one that has it already, or,
+  /// if `isApart`, of another. Before the first they are of one without a name.
+  void begin(std::string name, bool isApart = false);
+  /// After a polygon: the triangles from `first` up to `end` are of the object that was begun.
+  void record(std::size_t first, std::size_t end);
+  std::size_t count() const noexcept { return m_names.size(); }
 
-/// Of a file that parses: names of the objects that have triangles, each once.
-std::vector<std::string> objObjects(std::string_view bytes);
-std::vector<std::string> stlObjects(std::string_view bytes); // of a binary one none
+  /// `loaded`: of all triangles that were recorded, and no others.
+  void moveTo(LoadedMesh& loaded);
+
+private:
+  struct Run
+  {
+    std::size_t first; // triangle
+    std::uint32_t object;
+  };
+  std::string m_name;
+  bool m_isBegun = true; // since the last triangle
+  bool m_isApart = false;
+  std::vector<std::string> m_names;
+  std::unordered_map<std::string, std::uint32_t> m_known;
+  std::vector<Run> m_runs;
+};
+
+// Of the table of formats: parsers of a whole file, and whole files in bytes.
+LoadedMesh parseObj(const std::filesystem::path& path, std::string_view bytes,
+                    const core::Progress& progress);
+LoadedMesh parseStl(const std::filesystem::path& path, std::string_view bytes,
+                    const core::Progress& progress);
+LoadedMesh parsePly(const std::filesystem::path& path, std::string_view bytes,
+                    const core::Progress& progress);
+LoadedMesh parseVtp(const std::filesystem::path& path, std::string_view bytes,
+                    const core::Progress& progress);
 
 std::string objText(const core::TriangleMesh& mesh, const MeshColor& color);
 std::string stlBytes(const core::TriangleMesh& mesh, const MeshColor& color);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <string>
-#include <utility>
 
 #include "FileHelpers.h"
 
@@ -53,12 +52,14 @@ std::string_view takeRecord(std::string_view& rest, std::string& joined)
 
 } // namespace
 
-core::TriangleMesh parseObj(const std::filesystem::path& path, std::string_view bytes,
-                            const core::Progress& progress)
+LoadedMesh parseObj(const std::filesystem::path& path, std::string_view bytes,
+                    const core::Progress& progress)
 {
   MeshBuilder builder(path, progress);
   std::string joined;
   std::vector<std::int64_t> corners;
+  MeshObjects objects;
+  MeshObjects groups;
   while (!bytes.empty())
   {
     builder.step();
@@ -83,51 +84,21 @@ core::TriangleMesh parseObj(const std::filesystem::path& path, std::string_view 
       corners.clear();
       for (auto word = takeWord(line); !word.empty(); word = takeWord(line))
         corners.push_back(cornerOf(builder, word));
+      const std::size_t first = builder.triangleCount();
       builder.addPolygon(corners);
+      objects.record(first, builder.triangleCount());
+      groups.record(first, builder.triangleCount());
     }
+    else if (keyword == "o")
+      objects.begin(std::string(trimmed(line)));
+    else if (keyword == "g")
+      groups.begin(std::string(trimmed(line)));
     else if (!isKeyword(keyword))
       builder.failUnreadable("a line is not an OBJ record");
   }
-  return builder.take();
-}
-
-std::vector<std::string> objObjects(std::string_view bytes)
-{
-  std::vector<std::string> objects;
-  std::vector<std::string> groups;
-  std::string object;
-  std::string group;
-  bool isObjectNew = true; // since the last face
-  bool isGroupNew = true;
-  const auto add = [](std::vector<std::string>& names, const std::string& name)
-  {
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      names.push_back(name);
-  };
-  std::string joined;
-  while (!bytes.empty())
-  {
-    std::string_view line = takeRecord(bytes, joined);
-    const std::string_view keyword = takeWord(line);
-    if (keyword == "o")
-    {
-      object = trimmed(line);
-      isObjectNew = true;
-    }
-    else if (keyword == "g")
-    {
-      group = trimmed(line);
-      isGroupNew = true;
-    }
-    else if (keyword == "f")
-    {
-      if (std::exchange(isObjectNew, false))
-        add(objects, object);
-      if (std::exchange(isGroupNew, false))
-        add(groups, group);
-    }
-  }
-  return objects.size() > 1 ? objects : groups;
+  LoadedMesh loaded = builder.take();
+  (objects.count() > 1 ? objects : groups).moveTo(loaded);
+  return loaded;
 }
 
 } // namespace petrous::imaging

@@ -77,7 +77,7 @@ public:
   {
   }
 
-  core::TriangleMesh parse()
+  LoadedMesh parse()
   {
     readHeader();
     for (const Element& element : m_elements)
@@ -298,8 +298,8 @@ private:
 
 } // namespace
 
-core::TriangleMesh parsePly(const std::filesystem::path& path, std::string_view bytes,
-                            const core::Progress& progress)
+LoadedMesh parsePly(const std::filesystem::path& path, std::string_view bytes,
+                    const core::Progress& progress)
 {
   return PlyParser(path, bytes, progress).parse();
 }

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <string>
 #include <unordered_map>
-#include <utility>
 
 #include "FileHelpers.h"
 
@@ -68,8 +67,8 @@ bool isBinary(std::string_view bytes)
   return bytes.size() == kPrefixBytes + std::uint64_t{facets} * kFacetBytes;
 }
 
-core::TriangleMesh parseBinary(const std::filesystem::path& path, std::string_view bytes,
-                               std::size_t facets, const core::Progress& progress)
+LoadedMesh parseBinary(const std::filesystem::path& path, std::string_view bytes,
+                       std::size_t facets, const core::Progress& progress)
 {
   MeshBuilder builder(path, progress);
   builder.reserve(facets / 2, facets);
@@ -86,12 +85,13 @@ core::TriangleMesh parseBinary(const std::filesystem::path& path, std::string_vi
   return builder.take();
 }
 
-core::TriangleMesh parseText(const std::filesystem::path& path, std::string_view bytes,
-                             const core::Progress& progress)
+LoadedMesh parseText(const std::filesystem::path& path, std::string_view bytes,
+                     const core::Progress& progress)
 {
   MeshBuilder builder(path, progress);
   Merger merger(builder);
   std::vector<std::int64_t> corners;
+  MeshObjects solids;
   bool closed = false;
   while (!bytes.empty())
   {
@@ -114,23 +114,32 @@ core::TriangleMesh parseText(const std::filesystem::path& path, std::string_view
     {
       if (corners.size() != 3)
         builder.failUnreadable("a facet has not three corners");
+      const std::size_t first = builder.triangleCount();
       builder.addPolygon(corners);
+      solids.record(first, builder.triangleCount());
       corners.clear();
     }
     else if (word == "solid" || word == "endsolid")
+    {
       closed = word == "endsolid";
+      if (!closed)
+        solids.begin(std::string(trimmed(line)),
+                     true); // solids are apart even if they share a name
+    }
     else if (!word.empty() && word != "facet" && word != "outer" && word != "endfacet")
       builder.failUnreadable("a line does not belong to an ASCII STL");
   }
   if (!closed || !corners.empty())
     builder.failUnreadable("it breaks off before 'endsolid'");
-  return builder.take();
+  LoadedMesh loaded = builder.take();
+  solids.moveTo(loaded);
+  return loaded;
 }
 
 } // namespace
 
-core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view bytes,
-                            const core::Progress& progress)
+LoadedMesh parseStl(const std::filesystem::path& path, std::string_view bytes,
+                    const core::Progress& progress)
 {
   std::uint32_t facets = 0;
   if (bytes.size() >= kPrefixBytes)
@@ -145,28 +154,6 @@ core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view 
            std::to_string(facets) + " triangles that it counts has " +
            std::to_string(kPrefixBytes + std::uint64_t{facets} * kFacetBytes) +
            "; copy it again from where it came");
-}
-
-std::vector<std::string> stlObjects(std::string_view bytes)
-{
-  std::vector<std::string> objects;
-  if (isBinary(bytes))
-    return objects;
-  std::string name;
-  bool isNew = false; // since the last facet
-  while (!bytes.empty())
-  {
-    std::string_view line = takeLine(bytes);
-    const std::string_view word = takeWord(line);
-    if (word == "solid")
-    {
-      name = trimmed(line);
-      isNew = true;
-    }
-    else if (word == "facet" && std::exchange(isNew, false))
-      objects.push_back(name); // solids are apart even if they share a name
-  }
-  return objects;
 }
 
 } // namespace petrous::imaging

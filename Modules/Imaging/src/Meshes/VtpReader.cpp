@@ -606,8 +606,8 @@ void forEachCell(const Cells& cells, std::uint64_t firstPoint, std::uint64_t poi
 
 } // namespace
 
-core::TriangleMesh parseVtp(const std::filesystem::path& path, std::string_view bytes,
-                            const core::Progress& progress)
+LoadedMesh parseVtp(const std::filesystem::path& path, std::string_view bytes,
+                    const core::Progress& progress)
 try
 {
   MeshBuilder builder(path, progress);

@@ -43,13 +43,17 @@ struct PartSource
   std::optional<bool> assumeRas = std::nullopt;
   /// Structures: a table of names for this file alone; empty: PartSources::labelNames.
   std::filesystem::path labelNames = {};
-  /// Structures: those whose names are taken are left out; otherwise none is added.
+  /// Structures, and meshes of a file's objects: those whose names are taken are left out;
+  /// otherwise none is added.
   bool skipsTaken = false;
   /// Names that are taken get a number: "nerve 2".
   bool numbersTaken = false;
   /// Other names than the part, or its structures, would have.
   std::map<std::string, std::string> newNames = {};
   std::string description = {}; ///< MR: SourceContent's
+  /// Meshes: of a file that holds several objects each becomes a part of its own, named as
+  /// structures of a file are: "NAME object", without words that may be a patient's name.
+  bool isPerObject = false;
 
   /// "NAME=FILE" or "FILE". A string that is the path of an existing file is a FILE.
   static PartSource parse(const std::string& text);

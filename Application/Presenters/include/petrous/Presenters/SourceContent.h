@@ -70,7 +70,7 @@ struct SourceContent
   std::vector<SeriesContent> series = {};
   /// Structures of a label map that neither it nor a table beside it names.
   std::size_t unnamed = 0;
-  std::size_t structureCount = 0;           ///< of a label map; 0: not known
+  std::size_t structureCount = 0;           ///< of a label map; objects of a mesh; 0: not known
   std::vector<std::string> structures = {}; ///< of a folder of masks (maskNames)
   bool isTooLarge = false; ///< an image file that the memory does not hold: a region of it may do
   /// A file that leaves open which side of the patient is left (imaging::assumedRasOf).

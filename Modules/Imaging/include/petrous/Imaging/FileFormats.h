@@ -16,6 +16,7 @@ namespace petrous::imaging
 
 class OutputFile;
 class VoxelSource;
+struct LoadedMesh;
 struct VoxelsToWrite;
 
 /// What a file can hold; combined as bits.
@@ -44,8 +45,8 @@ struct FileFormat
   // Private to the module; null for what is not read or written so.
   void (VoxelSource::*openVoxels)();
   void (*writeVoxels)(OutputFile& file, const VoxelsToWrite& voxels);
-  core::TriangleMesh (*parseMesh)(const std::filesystem::path& path, std::string_view bytes,
-                                  const core::Progress& progress);
+  LoadedMesh (*parseMesh)(const std::filesystem::path& path, std::string_view bytes,
+                          const core::Progress& progress);
   std::string (*meshBytes)(const core::TriangleMesh& mesh,
                            const std::optional<std::array<float, 3>>& color);
 };

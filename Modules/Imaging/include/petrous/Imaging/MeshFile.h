@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -32,6 +34,8 @@ struct LoadedMesh
   /// Names of the objects (OBJ: o, or else g; text STL: solid) that have triangles, in the order of
   /// the file; an object without a name has an empty one. They may identify the patient.
   std::vector<std::string> objects;
+  /// Of each triangle: its object, an index into `objects`; empty unless there are several.
+  std::vector<std::uint32_t> objectOf;
 };
 
 /// Reads a surface from OBJ, STL (text or binary), PLY (text or binary) or VTP (VTK XML PolyData:
@@ -48,6 +52,15 @@ LoadedMesh loadMesh(const std::filesystem::path& path,
                     const std::optional<bool>& isRas = std::nullopt,
                     const std::optional<double>& unit = std::nullopt,
                     const core::Progress& progress = {});
+
+/// The objects of a file that holds several, in the order of LoadedMesh::objects: each with its
+/// triangles in their order, and the vertices that it uses, numbered anew. Of a file of one object
+/// the mesh as it is.
+std::vector<core::TriangleMesh> splitByObject(const LoadedMesh& loaded);
+
+/// How many objects loadMesh finds in a file, at least 1. Of formats that hold no more (PLY, VTP,
+/// binary STL) the file is not read. Throws as loadMesh does.
+std::size_t objectCount(const std::filesystem::path& path, const core::Progress& progress = {});
 
 /// Like loadMesh, without the notes.
 core::TriangleMesh readMesh(const std::filesystem::path& path);

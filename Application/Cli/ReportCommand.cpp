@@ -1,4 +1,3 @@
-#include <ctime>
 #include <memory>
 #include <string>
 
@@ -9,6 +8,7 @@
 #ifdef PETROUS_PDF
 #include "PdfReport.h"
 #endif
+#include "petrous/Core/LocalTime.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Presenters/IdentityText.h"
 #include "petrous/Presenters/PlanReport.h"
@@ -47,16 +47,6 @@ std::string pdfOf(const presenters::PlanReport& report, const core::Progress& pr
   static_cast<void>(progress);
   throw UsageError("report: this program was built without Qt and writes .html only");
 #endif
-}
-
-std::string today()
-{
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  ::localtime_r(&now, &local);
-  char text[16];
-  std::strftime(text, sizeof text, "%Y-%m-%d", &local);
-  return text;
 }
 
 nlohmann::json cellJson(const presenters::ReportCell& cell)
@@ -111,7 +101,7 @@ void report(Context& context, const Options& options)
                                              : presenters::ReportLanguage::English;
   wanted.keepIdentity = options.keepIdentity;
   wanted.withDate = !options.withoutDate;
-  wanted.made = today();
+  wanted.made = core::today();
   wanted.version = PETROUS_VERSION;
   wanted.mayIdentify = [&identity](const std::string& text) { return identity.mayIdentify(text); };
   wanted.mayIdentifySentence = [&identity](const std::string& text)

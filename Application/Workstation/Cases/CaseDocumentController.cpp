@@ -359,7 +359,7 @@ void CaseDocumentController::bringBack()
   const std::string id = m_model.value().id;
   const std::string deleted = deletedName(m_model.library(), m_model.value());
   const std::string name = deleted.empty() ? m_model.value().name : deleted;
-  m_model.beginOpen(name); // else its journal would count as that of another program
+  m_model.beginOpen(m_model.value().name); // else its journal would count as another program's
   work(tr("Bringing back %1").arg(words(name)),
        [this, name, id,
         library = m_model.library()](const core::Progress&) mutable -> BackgroundWork::Reply

@@ -686,6 +686,56 @@ TEST_F(Drill, ACaseThatAnotherProgramDeletedIsBroughtBackAndSaved)
   EXPECT_FALSE(isOffered("bringBack"));
 }
 
+// A later case of its name was deleted after it; that one stays deleted.
+TEST_F(Drill, OfTwoDeletedCasesOfOneNameTheOpenOneIsBroughtBack)
+{
+  saveBall("ball");
+  openWindow();
+  library::Library other = library();
+  const std::string id = other.open("ball").id;
+  other.remove("ball");
+  saveBall("ball");
+  const std::string later = other.open("ball").id;
+  ASSERT_NE(later, id);
+  other.remove("ball");
+  auto* banner = window().findChild<Banner*>("unsavedBanner");
+  drill(500);
+  ASSERT_TRUE(banner->isVisible());
+  ASSERT_TRUE(banner->findChild<QPushButton*>("bringBack")->isVisible())
+      << banner->text().toStdString();
+  banner->findChild<QPushButton*>("bringBack")->click();
+  EXPECT_TRUE(waitFor([&] { return !banner->isVisible() && settled(); }))
+      << banner->text().toStdString();
+  const scene::Case back = other.open("ball");
+  EXPECT_EQ(back.id, id);
+  EXPECT_EQ(back.dissection.strokes().size(), 1u);
+  EXPECT_EQ(other.deletedName(later), "ball");
+}
+
+// Its journal, which this window writes under the old name, is not another program's.
+TEST_F(Drill, ACaseThatWasRenamedAndDeletedIsBroughtBackUnderItsNewName)
+{
+  saveBall("ball");
+  openWindow();
+  library::Library other = library();
+  const std::string id = other.open("ball").id;
+  other.rename("ball", "sphere");
+  other.remove("sphere");
+  auto* banner = window().findChild<Banner*>("unsavedBanner");
+  drill(500);
+  ASSERT_TRUE(banner->isVisible());
+  ASSERT_TRUE(banner->findChild<QPushButton*>("bringBack")->isVisible())
+      << banner->text().toStdString();
+  banner->findChild<QPushButton*>("bringBack")->click();
+  EXPECT_TRUE(waitFor([&] { return !banner->isVisible() && settled(); }))
+      << banner->text().toStdString();
+  ASSERT_TRUE(other.contains("sphere"));
+  const scene::Case back = other.open("sphere");
+  EXPECT_EQ(back.id, id);
+  EXPECT_EQ(back.dissection.strokes().size(), 1u);
+  EXPECT_FALSE(other.contains("ball"));
+}
+
 // It ends when it is chosen again and with the program; another burr begins another file.
 TEST_F(Drill, ASessionIsRecordedAndTheCommandRepeatsItToTheBit)
 {

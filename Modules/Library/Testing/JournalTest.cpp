@@ -281,6 +281,157 @@ TEST(Journal, OfAnotherStateOfTheCaseIsSetAsideAndNamed)
   EXPECT_EQ(killed.library.list().size(), 1u);
 }
 
+// The case is open and nothing is drilled yet when another program renames it.
+TEST(Journal, IsMadeUnderTheNameThatItsCaseHasByNow)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value);
+  Library other(folder.path());
+  other.rename("ear", "left ear");
+  drillLine(value, journal, 0, 4);
+  EXPECT_TRUE(fs::exists(folder.path() / "cases/left ear.journal"));
+  EXPECT_FALSE(fs::exists(folder.path() / "cases/ear.journal"));
+  EXPECT_EQ(test::refusal([&] { other.rename("left ear", "ear"); }).first,
+            LibraryError::Reason::Conflict)
+      << "it is drilled";
+  {
+    const Killed killed(library);
+    EXPECT_EQ(killed.library.unrecovered(), std::vector<std::string>{"left ear"});
+    scene::Case back = killed.library.open("left ear");
+    killed.library.loadDissection(back);
+    EXPECT_EQ(voxelsOf(back), voxelsOf(value));
+  }
+  // A save goes on with the new name, and takes the journal's place.
+  scene::Case snapshot = value;
+  snapshot.dissection.unload();
+  drillLine(value, journal, 3, 4);
+  library.save(snapshot);
+  ASSERT_EQ(snapshot.name, "left ear");
+  journal.saved(snapshot);
+  const Killed after(library);
+  scene::Case back = after.library.open("left ear");
+  after.library.loadDissection(back);
+  EXPECT_EQ(voxelsOf(back), voxelsOf(value));
+  EXPECT_EQ(back.dissection.strokes().size(), 2u);
+}
+
+// As if the case was renamed just when the journal was made, or moved there by hand.
+TEST(Journal, IsFoundByTheIdOfItsCase)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value);
+  drillLine(value, journal, 0, 4);
+  const fs::path misplaced = "cases/old name.journal";
+  const auto killedAt = [&](const std::string& name)
+  {
+    auto killed = std::make_unique<Killed>(library);
+    fs::rename(killed->journal(), killed->folder.path() / misplaced);
+    fs::rename(killed->folder.path() / "cases/ear.json",
+               killed->folder.path() / "cases" / (name + ".json"));
+    return killed;
+  };
+  const auto strokes = [](const Library& where, const std::string& name)
+  { return where.open(name).dissection.strokes().size(); };
+
+  const auto opened = killedAt("ear");
+  EXPECT_EQ(opened->library.unrecovered(), std::vector<std::string>{"ear"});
+  EXPECT_EQ(voxelsOf(opened->open()), voxelsOf(value));
+  EXPECT_FALSE(fs::exists(opened->folder.path() / misplaced));
+  ASSERT_EQ(opened->notices.size(), 1u);
+  EXPECT_NE(opened->notices[0].find("1 stroke came back"), std::string::npos);
+
+  const auto copied = killedAt("left ear");
+  copied->library.copy("left ear", "copy");
+  EXPECT_EQ(strokes(copied->library, "copy"), 1u);
+  EXPECT_EQ(strokes(copied->library, "left ear"), 1u);
+
+  const auto renamed = killedAt("left ear");
+  renamed->library.rename("left ear", "right ear");
+  EXPECT_EQ(strokes(renamed->library, "right ear"), 1u);
+
+  // A new case gets the old name; what was drilled stays with the other.
+  const auto taken = killedAt("left ear");
+  savedCase(taken->library, "old name");
+  EXPECT_EQ(strokes(taken->library, "old name"), 0u);
+  EXPECT_EQ(strokes(taken->library, "left ear"), 1u);
+  EXPECT_EQ(strokes(taken->library, "old name"), 0u);
+
+  const auto deleted = killedAt("left ear");
+  deleted->library.remove("left ear");
+  savedCase(deleted->library, "old name");
+  savedCase(deleted->library, "left ear");
+  EXPECT_EQ(strokes(deleted->library, "old name"), 0u);
+  EXPECT_EQ(strokes(deleted->library, "left ear"), 0u);
+  deleted->library.remove("left ear");
+  deleted->library.undelete("left ear", value.id);
+  EXPECT_EQ(strokes(deleted->library, "left ear"), 1u);
+
+  const auto collected = killedAt("left ear");
+  collected->library.remove("left ear");
+  fs::rename(collected->folder.path() / "cases/old name.journal.deleted-1",
+             collected->folder.path() / misplaced); // killed in between
+  savedCase(collected->library, "left ear");
+  collected->library.collectGarbage();
+  EXPECT_FALSE(fs::exists(collected->folder.path() / misplaced));
+  const auto kept = killedAt("left ear");
+  savedCase(kept->library, "old name");
+  kept->library.remove("old name");
+  kept->library.collectGarbage();
+  EXPECT_EQ(strokes(kept->library, "left ear"), 1u);
+}
+
+// Both cases have the same CT, revision and no strokes: by its content, it would fit either.
+TEST(Journal, OfADeletedCaseIsNotThatOfTheNextOneOfItsName)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value);
+  Library other(folder.path());
+  other.remove("ear");
+  scene::Case next = savedCase(other);
+  ASSERT_EQ(next.ct.object, value.ct.object);
+  ASSERT_EQ(next.revision, value.revision);
+  drillLine(value, journal, 0, 4);
+  EXPECT_EQ(other.open("ear").dissection.strokes().size(), 0u);
+  EXPECT_NO_THROW(other.refuseWhereDrilled("ear")) << "it is the other that is drilled";
+  Journal nextJournal(other, next);
+  drillLine(next, nextJournal, 3, 4);
+  drillLine(next, nextJournal, 6, 4);
+
+  Killed killed(library);
+  EXPECT_EQ(voxelsOf(killed.open()), voxelsOf(next));
+  killed.library.rename("ear", "next");
+  killed.library.undelete("ear");
+  EXPECT_EQ(voxelsOf(killed.open()), voxelsOf(value));
+  EXPECT_EQ(killed.library.open("next").dissection.strokes().size(), 2u);
+}
+
+// What cannot be saved where it lies is told, and stays for the time when it can.
+TEST(Journal, UnderAnotherNameStaysInALibraryThatCannotBeWritten)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value);
+  drillLine(value, journal, 0, 4);
+  Killed killed(library);
+  const fs::path misplaced = killed.folder.path() / "cases/old name.journal";
+  fs::rename(killed.journal(), misplaced);
+  fs::rename(killed.folder.path() / "objects", killed.folder.path() / "gone");
+  std::ofstream(killed.folder.path() / "objects") << "a file stands here";
+  EXPECT_EQ(killed.library.open("ear").dissection.strokes().size(), 0u);
+  EXPECT_NE(killed.notices.at(0).find("old name.journal"), std::string::npos) << killed.notices[0];
+  EXPECT_TRUE(fs::exists(misplaced));
+  fs::remove(killed.folder.path() / "objects");
+  fs::rename(killed.folder.path() / "gone", killed.folder.path() / "objects");
+  EXPECT_EQ(voxelsOf(killed.open()), voxelsOf(value));
+}
+
 TEST(Journal, ADamagedEndCostsOnlyTheEnd)
 {
   const TemporaryFolder folder;
@@ -328,6 +479,9 @@ TEST(Journal, OneThatFitsNothingIsSetAside)
   stroke.bytes.resize(7);
   expectAside(head + encoded(stroke));
   JournalHead other = content.head;
+  other.caseId = std::string(32, '0');
+  expectAside(encoded(other) + bytes.substr(head.size()));
+  other.caseId.clear(); // as an older program wrote it
   other.caseName = "eye";
   expectAside(encoded(other) + bytes.substr(head.size()));
   expectAside(std::string(1000, 'x'));

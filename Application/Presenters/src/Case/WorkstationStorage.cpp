@@ -325,7 +325,8 @@ void WorkstationModel::stored(const StoreTask& done)
   const auto& strokes = saved.dissection.strokes();
   for (std::size_t n = 0; n < std::min(m_case->dissection.strokes().size(), strokes.size()); ++n)
     m_case->dissection.setStored(n, strokes[n]->object, strokes[n]->packed);
-  const bool other = done.source || m_case->name != saved.name;
+  // Under another name alone it may be the same, which another program has renamed.
+  const bool other = done.source || !m_saved || m_saved->id != saved.id;
   m_case->name = saved.name;
   if (done.source)
   {

@@ -1,8 +1,9 @@
 #include "petrous/Presenters/Recordings.h"
 
 #include <algorithm>
-#include <ctime>
 #include <string_view>
+
+#include "petrous/Core/LocalTime.h"
 
 namespace petrous::presenters
 {
@@ -16,12 +17,7 @@ std::filesystem::path newRecording(const library::Library& library, const scene:
     throw core::Error(core::Fault::Refused, folder.string() +
                                                 ": cannot be made (no permission or a full disk); "
                                                 "choose another place for the recording");
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  ::localtime_r(&now, &local);
-  char when[32];
-  std::strftime(when, sizeof when, " %Y-%m-%d %H-%M-%S", &local);
-  return unusedName(folder / (value.name + when + ".ticks"));
+  return unusedName(folder / (value.name + core::localTime(" %Y-%m-%d %H-%M-%S") + ".ticks"));
 }
 
 std::vector<std::filesystem::path> recordingsOf(const library::Library& library,

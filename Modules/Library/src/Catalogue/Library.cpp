@@ -510,10 +510,9 @@ scene::Case Library::open(const std::string& name) const
   };
   scene::Case value = read();
   noticeDoubts(value, isUnchanged); // before recovery saves it
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(journalPath(m_folder, name), error)))
+  if (const fs::path journal = journalOf(m_folder, name, value.id); !journal.empty())
   {
-    const std::string words = recover(*this, value, read);
+    const std::string words = recover(*this, value, journal, read);
     if (!words.empty())
       core::log::warning("library: a journal of a session that ended unexpectedly");
     if (m_notice && !words.empty())

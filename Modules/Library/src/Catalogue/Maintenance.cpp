@@ -42,9 +42,10 @@ bool isAsideOf(const std::string& journal, const std::string& file)
          file.find_first_not_of("0123456789", start.size()) == file.npos;
 }
 
-// The journals of a case, including those set aside. `ending`: of a deleted case's (deletedEnding).
+// The journals of a case, by its name and its ID, including those set aside. `ending`: of a deleted
+// case's (deletedEnding).
 std::vector<fs::path> journalsOf(const fs::path& library, const std::string& name,
-                                 const std::string& ending = {})
+                                 const std::string& id, const std::string& ending = {})
 {
   const fs::path journal = journalPath(library, name);
   std::vector<fs::path> journals;
@@ -58,7 +59,10 @@ std::vector<fs::path> journalsOf(const fs::path& library, const std::string& nam
       continue;
     file.resize(file.size() - ending.size());
     const std::string own = journal.filename().string();
-    if (file == own || file == own + ".new" || isAsideOf(own, file))
+    if (file == own || file == own + ".new" || isAsideOf(own, file)
+            ? !isOfOtherCase(entry->path(), id)
+            : !id.empty() && fs::path(file).extension() == ".journal" &&
+                  caseIdIn(entry->path()) == id)
       journals.push_back(entry->path());
   }
   return journals;
@@ -121,14 +125,21 @@ void removeFile(const fs::path& path)
 namespace
 {
 
-bool isDrilled(const fs::path& library, const std::string& name)
+bool isDrilled(const fs::path& library, const std::string& name, const std::string& id)
 {
   std::error_code error;
-  const fs::path path = journalPath(library, name);
+  const fs::path path = journalOf(library, name, id);
   if (!fs::is_regular_file(path, error))
     return false;
   const JournalFile journal(path);
   return journal.there() && !journal.held();
+}
+
+void refuseDrilled(const fs::path& library, const std::string& name, const std::string& id)
+{
+  if (isDrilled(library, name, id))
+    throw LibraryError(Reason::Conflict,
+                       "case '" + name + "' is being drilled by another process; end that first");
 }
 
 } // namespace
@@ -144,10 +155,18 @@ std::vector<std::string> Library::unrecovered() const
     const std::string file = entry->path().filename().string();
     if (entry->path().extension() != kEnding)
       continue;
-    const std::string name = file.substr(0, file.size() - kEnding.size());
+    std::string name = file.substr(0, file.size() - kEnding.size());
+    const std::string id = caseIdIn(entry->path());
+    if (!id.empty() && idIn(manifestPath(name), name) != id)
+    {
+      const std::vector<std::string> renamed = namesOf(m_folder / "cases", id);
+      if (renamed.empty())
+        continue;
+      name = renamed.front();
+    }
     std::error_code unknown;
     const auto written = fs::last_write_time(entry->path(), unknown);
-    if (!unknown && fs::exists(manifestPath(name), unknown) && !isDrilled(m_folder, name))
+    if (!unknown && fs::exists(manifestPath(name), unknown) && !isDrilled(m_folder, name, id))
       found.emplace_back(written, name);
   }
   std::sort(found.rbegin(), found.rend());
@@ -159,20 +178,18 @@ std::vector<std::string> Library::unrecovered() const
 
 void Library::refuseWhereDrilled(const std::string& name) const
 {
-  if (isDrilled(m_folder, name))
-    throw LibraryError(Reason::Conflict,
-                       "case '" + name + "' is being drilled by another process; end that first");
+  refuseDrilled(m_folder, name, idIn(manifestPath(name), name));
 }
 
 namespace
 {
 
-// A journal belongs to the case of its name; under another name it would never be recovered.
-void refuseWhereUnrecovered(const fs::path& library, const std::string& name)
+// Older programs' journals belong to the case of their name; under another name they would never be
+// recovered.
+void refuseWhereUnrecovered(const fs::path& library, const std::string& name, const std::string& id)
 {
-  const fs::path journal = journalPath(library, name);
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(journal, error)))
+  const fs::path journal = journalOf(library, name, id);
+  if (!journal.empty())
     throw LibraryError(Reason::Conflict,
                        "case '" + name + "': " + core::printable(journal) +
                            " holds what a session drilled and did not save; open the case first, "
@@ -232,8 +249,9 @@ void Library::rename(const std::string& from, const std::string& to)
   }();
   const core::FileLock lock = lockForWriting();
   refuseWhereDrilled(from);
-  refuseWhereUnrecovered(m_folder, from);
   checkedManifestPath(from);
+  const std::string id = idIn(path, from);
+  refuseWhereUnrecovered(m_folder, from, id);
   refuseTakenName(m_folder, to, from);
   setOrphanAside(m_folder, to);
   // What it is called stands in the manifest too, and a former name must not leave with it. Where a
@@ -245,9 +263,12 @@ void Library::rename(const std::string& from, const std::string& to)
   onDisk = moveFile(path, manifestPath(to)) && onDisk;
   // The case is renamed: nothing throws from here on.
   const std::string old = journalPath(m_folder, from).string();
-  for (const fs::path& journal : journalsOf(m_folder, from))
+  for (const fs::path& journal : journalsOf(m_folder, from, id))
     try
     {
+      // Of a program that began to drill just now: it has its case's ID, and goes on here.
+      if (!id.empty() && journal.extension() == ".journal")
+        continue;
       const fs::path renamed =
           journalPath(m_folder, to).string() + journal.string().substr(old.size());
       if (!fs::exists(fs::symlink_status(renamed)))
@@ -288,7 +309,7 @@ void Library::remove(const std::string& name)
   // The manifest first: a kill then leaves journals that are set aside when the name is used again,
   // or are still in place when the case is brought back.
   bool onDisk = moveFile(path, path.string() + ending);
-  for (const fs::path& journal : journalsOf(m_folder, name))
+  for (const fs::path& journal : journalsOf(m_folder, name, id))
     try
     {
       onDisk = moveFile(journal, journal.string() + ending) && onDisk;
@@ -363,13 +384,16 @@ void Library::undelete(const std::string& name, const std::string& id)
     throw LibraryError(Reason::Damaged, std::string(error.what()) + "; deleted case '" + name +
                                             "' cannot be brought back as it is, and stays deleted");
   }
-  refuseWhereDrilled(name);
-  for (const fs::path& journal : journalsOf(m_folder, name, ending))
+  const std::string ownId = idIn(file->manifest, name);
+  refuseDrilled(m_folder, name, ownId);
+  for (const fs::path& journal : journalsOf(m_folder, name, ownId, ending))
   {
     const std::string text = journal.string();
-    const fs::path back = text.substr(0, text.size() - ending.size());
+    fs::path back = text.substr(0, text.size() - ending.size());
     if (back == journalPath(m_folder, name))
       setOrphanAside(m_folder, name);
+    if (fs::exists(fs::symlink_status(back)) && caseIdIn(journal) == ownId)
+      back = newJournalPath(m_folder, ownId, ownId);
     if (!fs::exists(fs::symlink_status(back)))
       moveFile(journal, back);
   }
@@ -726,12 +750,16 @@ Collected Library::collectGarbage(const core::Progress& progress)
   for (const DeletedFile& file : deletedIn(m_folder / "cases"))
   {
     // Journals first: what was drilled in a case that is gone would be found by nothing.
-    for (const fs::path& journal : journalsOf(m_folder, file.name, deletedEnding(file.number)))
+    const std::string id = idIn(file.manifest, file.name);
+    for (const fs::path& journal : journalsOf(m_folder, file.name, id, deletedEnding(file.number)))
       removeFile(journal);
-    // Of a deletion that was killed. Beside another case of that name they are that one's.
-    if (!contains(file.name) && !isDrilled(m_folder, file.name))
-      for (const fs::path& journal : journalsOf(m_folder, file.name))
-        removeFile(journal);
+    // Of a deletion that was killed, or drilled after it. Without an ID they are those of another
+    // case of that name, if there is one.
+    if (!isDrilled(m_folder, file.name, id))
+      for (const fs::path& journal : journalsOf(m_folder, file.name, id))
+        if (const std::string of = caseIdIn(journal);
+            of.empty() ? !contains(file.name) : ids.count(of) == 0)
+          removeFile(journal);
     if (!contains(file.name)) // they may be of that one
       renameRecordings(m_folder, file.name, {});
     removeFile(file.manifest);

@@ -382,6 +382,51 @@ Catalogue::Entry entryOf(const scene::Case& value, const FileState& state)
   return entry;
 }
 
+namespace
+{
+
+bool hasCase(const fs::path& cases, const std::string& id)
+{
+  if (id.empty())
+    return false;
+  const std::vector<DeletedFile> deleted = deletedIn(cases);
+  return !namesOf(cases, id).empty() ||
+         std::any_of(deleted.begin(), deleted.end(),
+                     [&id](const DeletedFile& one) { return idIn(one.manifest, one.name) == id; });
+}
+
+} // namespace
+
+fs::path journalOf(const fs::path& library, const std::string& name, const std::string& id)
+{
+  const fs::path own = journalPath(library, name);
+  std::error_code error;
+  const bool isThere = fs::exists(fs::symlink_status(own, error));
+  if (isThere && !isOfOtherCase(own, id))
+    return own;
+  for (fs::directory_iterator entry(own.parent_path(), error), end;
+       !id.empty() && !error && entry != end; entry.increment(error))
+    if (entry->path().extension() == ".journal" && caseIdIn(entry->path()) == id)
+      return entry->path();
+  return isThere && !hasCase(own.parent_path(), caseIdIn(own)) ? own : fs::path();
+}
+
+fs::path newJournalPath(const fs::path& library, const std::string& name, const std::string& id)
+{
+  const fs::path cases = library / "cases";
+  const std::string there = idIn(cases / (name + ".json"), name);
+  std::string now = name;
+  if (!id.empty() && there != id)
+  {
+    const std::vector<std::string> names = namesOf(cases, id);
+    now = names.size() == 1 ? names.front() : there.empty() ? name : id;
+  }
+  if (isOfOtherCase(journalPath(library, now), id))
+    now = id;
+  scene::checkCaseName(now);
+  return journalPath(library, now);
+}
+
 void setOrphanAside(const fs::path& library, const std::string& name)
 {
   const fs::path path = journalPath(library, name);
@@ -390,7 +435,16 @@ void setOrphanAside(const fs::path& library, const std::string& name)
     throw LibraryError(Reason::Conflict, "case '" + name +
                                              "' was removed, and another process is still "
                                              "drilling in it; end that first");
-  if (journal.there())
+  if (!journal.there())
+    return;
+  const std::string id = caseIdIn(path);
+  const bool isKept = hasCase(path.parent_path(), id);
+  if (isKept)
+    scene::checkCaseName(id);
+  const fs::path kept = journalPath(library, id);
+  if (isKept && !fs::exists(fs::symlink_status(kept)))
+    moveFile(path, kept);
+  else
     setAside(path);
 }
 

@@ -120,8 +120,20 @@ std::optional<FileState> stateOf(const std::filesystem::path& path);
 
 Catalogue::Entry entryOf(const scene::Case& value, const FileState& state);
 
-/// Sets aside a journal without a case, which must not be taken for that of a new case of this
-/// name. Throws LibraryError, Conflict if another process is still writing it.
+/// The journal of a case: the one with its ID, whatever its name, or the one with its name, unless
+/// that is of another case that is here or deleted. Empty if there is none. `id` may be empty.
+std::filesystem::path journalOf(const std::filesystem::path& library, const std::string& name,
+                                const std::string& id);
+
+/// Where the journal of a case is made that was opened under this name: under the name that it has
+/// now, or under its ID if another case has its name. Throws LibraryError, and InvalidParameter if
+/// that ID cannot be a name.
+std::filesystem::path newJournalPath(const std::filesystem::path& library, const std::string& name,
+                                     const std::string& id);
+
+/// Clears the name of a new case of a journal that is of another case: if that one is here or
+/// deleted, the journal gets its ID as name, where journalOf finds it; else it is set aside. Throws
+/// LibraryError, Conflict if another process is still writing it.
 void setOrphanAside(const std::filesystem::path& library, const std::string& name);
 
 } // namespace petrous::library

@@ -4,6 +4,7 @@
 
 #include "Graft.h"
 #include "JournalFile.h"
+#include "ManifestFile.h"
 #include "petrous/Dissection/StrokeCodec.h"
 #include "petrous/Scene/HistoryText.h"
 
@@ -23,6 +24,23 @@ SavedState::SavedState(const scene::Case& saved)
     strokes.push_back(stroke->object);
 }
 
+namespace
+{
+
+// Sets aside a journal that Library::open could not recover, and reported. Throws LibraryError:
+// Conflict if another process is drilling in the case.
+void clearOfJournal(const fs::path& path, const std::string& name)
+{
+  const JournalFile other(path);
+  if (other.there() && !other.held())
+    throw LibraryError(LibraryError::Reason::Conflict,
+                       "case '" + name + "' is being drilled by another process; end that first");
+  if (other.there())
+    setAside(path);
+}
+
+} // namespace
+
 Journal::Journal(const Library& library, SavedState saved, Measure measure)
   : m_folder(library.folder())
   , m_base(std::move(saved))
@@ -30,14 +48,7 @@ Journal::Journal(const Library& library, SavedState saved, Measure measure)
   , m_written(m_base.strokes.size())
   , m_history(m_base.history)
 {
-  const fs::path path = journalPath(m_folder, m_base.name);
-  const JournalFile other(path);
-  if (other.there() && !other.held())
-    throw LibraryError(LibraryError::Reason::Conflict,
-                       "case '" + m_base.name +
-                           "' is being drilled by another process; end that first");
-  if (other.there())
-    setAside(path); // Library::open could not recover it, and reported that
+  clearOfJournal(journalOf(m_folder, m_base.name, m_base.id), m_base.name);
 }
 
 void Journal::claim()
@@ -55,9 +66,10 @@ void Journal::leave()
 
 void Journal::makeFile()
 {
-  const fs::path path = journalPath(m_folder, m_base.name);
-  if (const JournalFile other(path); other.there() && other.held())
-    setAside(path); // of a process that was killed since this object was created
+  // What is there is of a process that was killed since this object was created.
+  clearOfJournal(journalOf(m_folder, m_base.name, m_base.id), m_base.name);
+  const fs::path path = newJournalPath(m_folder, m_base.name, m_base.id);
+  clearOfJournal(path, m_base.name);
   m_file = std::make_unique<JournalFile>(path, JournalHead(m_base));
 }
 
@@ -171,7 +183,6 @@ void Journal::saved(SavedState now)
     else if (kept.strokes >= strokes)
       left.push_back(kept);
   }
-  const fs::path path = journalPath(m_folder, now.name);
   if (left.empty() && m_file)
   {
     m_file->remove();
@@ -182,6 +193,7 @@ void Journal::saved(SavedState now)
     std::string bytes;
     for (const Kept& kept : left)
       bytes += kept.frame;
+    const fs::path path = newJournalPath(m_folder, now.name, now.id);
     const fs::path next = path.string() + ".new";
     std::error_code ignored;
     fs::remove(next, ignored); // of a process that was killed here
@@ -196,8 +208,7 @@ void Journal::saved(SavedState now)
       file->remove();
       throw;
     }
-    if (now.name != m_base.name)
-      m_file->remove();
+    m_file->remove(); // unless it was replaced
     m_file = std::move(file);
   }
   m_kept = std::move(left);

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <fstream>
 #include <limits>
 #include <utility>
 
@@ -106,6 +107,7 @@ bool headIn(const JournalFrame& frame, JournalHead& head)
   head.ct = text("ct");
   head.strokesHash = text("strokes_sha256");
   head.history = text("history");
+  head.caseId = text("case_id");
   return true;
 }
 
@@ -141,7 +143,13 @@ JournalHead::JournalHead(const SavedState& base)
   , ct(base.ct)
   , strokesHash(hashOfNames(base.strokes))
   , history(scene::toText(base.history))
+  , caseId(base.id)
 {
+}
+
+bool JournalHead::isOf(const scene::Case& value) const
+{
+  return caseId.empty() ? caseName == value.name : caseId == value.id;
 }
 
 JournalFrame frameOf(JournalFrame::Kind kind, dissection::Stroke stroke)
@@ -173,6 +181,8 @@ std::string encoded(const JournalHead& head)
     j["strokes_sha256"] = head.strokesHash;
     j["history"] = head.history;
   }
+  if (!head.caseId.empty())
+    j["case_id"] = head.caseId;
   return encoded(JournalFrame{JournalFrame::Kind::Head, j.dump(), {}});
 }
 
@@ -199,6 +209,30 @@ JournalContent journalFrom(std::string_view bytes)
 fs::path journalPath(const fs::path& library, const std::string& name)
 {
   return library / "cases" / (name + ".journal");
+}
+
+std::string caseIdIn(const fs::path& journal) noexcept
+try
+{
+  if (!fs::is_regular_file(journal)) // a pipe would be waited for
+    return {};
+  std::ifstream file(journal, std::ios::binary);
+  std::string bytes(kBefore, '\0');
+  if (!file.read(bytes.data(), kBefore) || numberIn(bytes, 8) > kMaxHead)
+    return {};
+  bytes.resize(kBefore + static_cast<std::size_t>(numberIn(bytes, 8)));
+  file.read(&bytes[kBefore], static_cast<std::streamsize>(bytes.size() - kBefore));
+  return file ? journalFrom(bytes).head.caseId : std::string();
+}
+catch (const std::exception&)
+{
+  return {};
+}
+
+bool isOfOtherCase(const fs::path& journal, const std::string& id) noexcept
+{
+  const std::string other = id.empty() ? std::string() : caseIdIn(journal);
+  return !other.empty() && other != id;
 }
 
 fs::path setAside(const fs::path& journal)
@@ -361,7 +395,10 @@ void JournalFile::moveTo(const fs::path& path)
 
 void JournalFile::remove() noexcept
 {
-  ::unlink(m_path.c_str());
+  struct stat own = {}, there = {};
+  if (::fstat(m_descriptor, &own) == 0 && ::lstat(m_path.c_str(), &there) == 0 &&
+      own.st_dev == there.st_dev && own.st_ino == there.st_ino)
+    ::unlink(m_path.c_str());
   if (m_descriptor >= 0)
     ::close(std::exchange(m_descriptor, -1));
 }

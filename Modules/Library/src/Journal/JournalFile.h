@@ -29,7 +29,7 @@ struct JournalFrame
 };
 
 /// The state that the journal continues. The members after `strokes` are missing in journals of
-/// older programs.
+/// older programs, and `caseId` also where the case has none.
 struct JournalHead
 {
   JournalHead() = default;
@@ -41,6 +41,10 @@ struct JournalHead
   std::string ct;             ///< object name
   std::string strokesHash;    ///< of their object names
   std::string history;        ///< scene::toText
+  std::string caseId;
+
+  /// By the ID, else by the name: the case may have another name by now.
+  bool isOf(const scene::Case& value) const;
 };
 
 /// JournalHead::strokesHash of these strokes.
@@ -67,8 +71,15 @@ std::string encoded(const JournalHead& head);
 /// Throws only bad_alloc: unreadable content is reported as left over.
 JournalContent journalFrom(std::string_view bytes);
 
-/// Path of the journal of a case.
+/// Path of the journal of a case, unless it was renamed while open (journalOf in ManifestFile.h).
 std::filesystem::path journalPath(const std::filesystem::path& library, const std::string& name);
+
+/// JournalHead::caseId of a file, which is not locked for that; empty if it has none or cannot be
+/// read.
+std::string caseIdIn(const std::filesystem::path& journal) noexcept;
+
+/// Whether it is known to belong to another case than that of this ID; false if that is empty.
+bool isOfOtherCase(const std::filesystem::path& journal, const std::string& id) noexcept;
 
 /// Renames an unusable journal to an unused name and returns that. Throws LibraryError.
 std::filesystem::path setAside(const std::filesystem::path& journal);
@@ -91,6 +102,7 @@ public:
   bool there() const noexcept { return m_descriptor >= 0; }
   bool held() const noexcept { return m_held; }
   std::size_t size() const noexcept { return m_size; }
+  const std::filesystem::path& path() const noexcept { return m_path; }
   std::string read() const; ///< the whole file
 
   /// Appends frames, synced to disk on return. Throws LibraryError; the file is then unchanged.
@@ -99,6 +111,7 @@ public:
   /// Atomically replaces the file at `path`. Throws LibraryError.
   void moveTo(const std::filesystem::path& path);
 
+  /// Not another file that is at its path by now.
   void remove() noexcept;
 
 private:

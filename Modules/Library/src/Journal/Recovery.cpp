@@ -40,7 +40,7 @@ Standing standingOf(const JournalContent& content, const scene::Case& value)
   Standing standing;
   const JournalHead& head = content.head;
   const auto& strokes = value.dissection.strokes();
-  if (head.caseName != value.name || head.strokes > strokes.size() ||
+  if (!head.isOf(value) || head.strokes > strokes.size() ||
       (!head.ct.empty() && head.ct != value.ct.object))
     return standing;
   const std::size_t since = strokes.size() - head.strokes;
@@ -131,7 +131,7 @@ std::optional<SavedState> commonState(const JournalContent& content, const scene
 {
   const JournalHead& head = content.head;
   const auto& strokes = value.dissection.strokes();
-  if (head.history.empty() || head.caseName != value.name || head.strokes > strokes.size())
+  if (head.history.empty() || !head.isOf(value) || head.strokes > strokes.size())
     return std::nullopt;
   SavedState base;
   base.name = value.name;
@@ -265,9 +265,9 @@ std::string recoverFrom(JournalFile& file, const fs::path& path, Library& librar
 
 } // namespace
 
-std::string recover(Library library, scene::Case& value, const std::function<scene::Case()>& read)
+std::string recover(Library library, scene::Case& value, const fs::path& path,
+                    const std::function<scene::Case()>& read)
 {
-  const fs::path path = journalPath(library.folder(), value.name);
   try
   {
     JournalFile file(path);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <ctime>
 #include <string_view>
 
 #include <libdeflate.h>
@@ -10,6 +9,7 @@
 #include "AttachmentFiles.h"
 #include "LibraryFolder.h"
 #include "Sha256.h"
+#include "petrous/Core/LocalTime.h"
 #include "petrous/Library/LibraryFiles.h"
 
 namespace petrous::library
@@ -22,16 +22,6 @@ namespace
 {
 
 constexpr std::size_t kHead = 256; // bytes by which a file is known
-
-std::string today()
-{
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  ::localtime_r(&now, &local);
-  char text[16];
-  std::strftime(text, sizeof text, "%Y-%m-%d", &local);
-  return text;
-}
 
 bool isVideo(std::string_view head)
 {
@@ -112,7 +102,7 @@ Attachment described(const AttachOptions& options, Attachment::Kind kind, const 
   attachment.kind = kind;
   attachment.name = options.name.empty() ? neutralName(kind, file) : options.name;
   attachment.note = options.note;
-  attachment.date = options.date.empty() ? today() : options.date;
+  attachment.date = options.date.empty() ? core::today() : options.date;
   return attachment;
 }
 

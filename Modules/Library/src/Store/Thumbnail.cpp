@@ -7,7 +7,6 @@
 
 #include <libdeflate.h>
 
-#include "JournalFile.h"
 #include "LibraryFolder.h"
 #include "ManifestFile.h"
 #include "petrous/Library/Library.h"
@@ -167,13 +166,13 @@ try
   const fs::path& folder = library.folder();
   const fs::path picture = thumbnailPath(folder, summary.id);
   std::error_code error;
-  if (summary.damaged || picture.empty() || fs::exists(journalPath(folder, summary.name)))
+  if (summary.damaged || picture.empty())
     return false;
   const auto drawn = fs::last_write_time(picture, error);
-  if (error)
-    return true;
+  const bool isDrawn = !error;
   const auto saved = fs::last_write_time(folder / "cases" / (summary.name + ".json"), error);
-  return !error && saved > drawn;
+  return (!isDrawn || (!error && saved > drawn)) &&
+         journalOf(folder, summary.name, summary.id).empty();
 }
 catch (const std::exception&)
 {

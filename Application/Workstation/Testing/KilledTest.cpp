@@ -73,6 +73,7 @@ TEST_F(Killed, DISABLED_WindowThatDrills)
   for (int stroke = 0; stroke < 2; ++stroke)
   {
     QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+    EXPECT_TRUE(cuts());
     for (int n = 0; n < (stroke == 0 ? 10 : 600); ++n)
     {
       const QPointF at = middle + QPoint(n % 40, n % 23);

@@ -4270,12 +4270,28 @@
         <translation>Das Padding hatte den Wert %1, der als Gewebe gälte; er wurde durch %#2 ersetzt.</translation>
     </message>
     <message>
-        <source>Values whose highest stored bit is set were read as negative, as the header says (signed, Bits Stored %#1); no bit above tells them from positive ones that are too large. Look whether metal shows as air.</source>
-        <translation>Werte mit gesetztem höchstem Bit wurden als negativ gelesen, wie der Header sagt (mit Vorzeichen, Bits Stored %#1); kein Bit darüber unterscheidet sie von zu großen positiven. Sehen Sie nach, ob Metall als Luft erscheint.</translation>
-    </message>
-    <message>
         <source>reading slices</source>
         <translation>Schichten werden gelesen</translation>
+    </message>
+    <message>
+        <source>%1 says that its pixels are unsigned, and other slices of the series that theirs are signed (Pixel Representation): %#2 value from %#3 up would be negative if it is as the others. Export the series again</source>
+        <translation>%1 gibt seine Bildpunkte ohne Vorzeichen an, andere Schichten der Serie ihre mit Vorzeichen (Pixel Representation): %#2 Wert ab %#3 wäre negativ, wenn sie wie die anderen ist. Exportieren Sie die Serie neu</translation>
+    </message>
+    <message>
+        <source>%1 says that its pixels are unsigned, and other slices of the series that theirs are signed (Pixel Representation): %#2 values from %#3 up would be negative if it is as the others. Export the series again</source>
+        <translation>%1 gibt seine Bildpunkte ohne Vorzeichen an, andere Schichten der Serie ihre mit Vorzeichen (Pixel Representation): %#2 Werte ab %#3 wären negativ, wenn sie wie die anderen ist. Exportieren Sie die Serie neu</translation>
+    </message>
+    <message>
+        <source>Of %#1 slices %#2 says that the pixels are unsigned, the others that they are signed; no value depends on it.</source>
+        <translation>Von %#1 Schichten gibt %#2 die Bildpunkte ohne Vorzeichen an, die anderen mit; kein Wert hängt davon ab.</translation>
+    </message>
+    <message>
+        <source>Of %#1 slices %#2 say that the pixels are unsigned, the others that they are signed; no value depends on it.</source>
+        <translation>Von %#1 Schichten geben %#2 die Bildpunkte ohne Vorzeichen an, die anderen mit; kein Wert hängt davon ab.</translation>
+    </message>
+    <message>
+        <source>Values whose highest stored bit is set were read as negative, as the header says (signed, Bits Stored %#1); no bit above tells them from positive ones that are too large. Look whether metal shows as air.</source>
+        <translation>Werte mit gesetztem höchstem Bit wurden als negativ gelesen, wie der Header sagt (mit Vorzeichen, Bits Stored %#1); kein Bit darüber unterscheidet sie von zu großen positiven. Sehen Sie nach, ob Metall als Luft erscheint.</translation>
     </message>
     <message>
         <source>%#1 pixel has bits beside those stored that the file does not declare (Bits Stored); they were kept, as if stored, as asked. Look whether air or tissue shows as metal there.</source>
@@ -5668,6 +5684,10 @@
     <message>
         <source>is of no surface format that is read; give a %~1 file</source>
         <translation>ist in keinem lesbaren Format für Oberflächen; nehmen Sie eine Datei %~1</translation>
+    </message>
+    <message>
+        <source>states both SPACE=RAS and SPACE=LPS; remove the wrong statement</source>
+        <translation>gibt SPACE=RAS und SPACE=LPS an; entfernen Sie die falsche Angabe</translation>
     </message>
     <message>
         <source>unit mm</source>

@@ -471,7 +471,7 @@ void CaseDocumentController::work(const QString& title, BackgroundWork::Work wor
           return [this, reply = work(progress)]
           {
             endWork();
-            if (!isDialogOpen())
+            if (!m_model.hasCase() || !isDialogOpen())
               return take(reply);
             m_held = reply;
             m_heldAgain.start(kHeldAgain);

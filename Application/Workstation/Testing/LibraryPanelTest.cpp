@@ -330,8 +330,15 @@ TEST_F(LibraryWindow, AnyCaseIsArchivedAndComesBackByDrop)
         dialog.findChild<QPushButton*>("primary")->click();
         return true;
       });
+  bool isTold = false;
+  onMessage(
+      [&isTold](QMessageBox& box)
+      {
+        isTold = box.text().contains("other.petrous");
+        box.accept();
+      });
   act("Archive the case…");
-  ASSERT_TRUE(waitFor([&] { return fs::exists(file) && !window().busy(); }));
+  ASSERT_TRUE(waitFor([&] { return isTold && fs::exists(file) && !window().busy(); }));
   EXPECT_EQ(library::inspectArchive(file).name, "other");
   EXPECT_EQ(window().model().value().name, "ball");
   library().remove("other");

@@ -162,6 +162,42 @@ TEST(DicomReader, ReadsEightAndThirtyTwoBitsAndBigEndian)
     }
 }
 
+// In a slice that wrongly says so air would be metal.
+TEST(DicomReader, RefusesOneUnsignedSliceAmongSignedOnesWhereThatMakesAirMetal)
+{
+  for (const int air : {-1000, 0})
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 4,
+                [air](int k, TestSlice& s)
+                {
+                  s.isSigned = k != 2;
+                  s.cell = [air, k](int i, int j)
+                  { return i == 0 ? 0xFFFFU & static_cast<unsigned>(air) : ramp(i, j, k); };
+                });
+    std::vector<std::string> notes;
+    if (air < 0)
+    {
+      try
+      {
+        readFolder(folder.path());
+        ADD_FAILURE() << "a slice of 64536 HU";
+      }
+      catch (const DicomError& error)
+      {
+        EXPECT_EQ(error.reason(), DicomError::Reason::Unreadable);
+        const std::string why = error.what();
+        EXPECT_NE(why.find("6 values from 32768 up"), why.npos) << why; // a column
+        EXPECT_NE(why.find("Pixel Representation"), why.npos) << why;
+      }
+      continue;
+    }
+    EXPECT_EQ(readFolder(folder.path(), {}, &notes).at(3, 2, 2), ramp(3, 2, 2));
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes[0].find("Of 4 slices 1 says"), notes[0].npos) << notes[0];
+  }
+}
+
 TEST(DicomReader, KeepsALowPaddingAndLeavesItOutOfTheRange)
 {
   const TemporaryFolder folder;

@@ -47,6 +47,23 @@ void expectBox(const core::TriangleMesh& mesh)
   EXPECT_EQ(mesh.bounds()[1], Eigen::Vector3f(12.0F, 23.0F, 34.0F));
 }
 
+TEST(MeshFile, RefusesAFileThatStatesBothFrames)
+{
+  const TestFolder folder;
+  const auto file = putFile(folder / "both.obj", "# SPACE=LPS\n# SPACE=RAS\nv 1 2 3\nv 4 2 3\n"
+                                                 "v 1 5 3\nf 1 2 3\n");
+  try
+  {
+    loadMesh(file);
+    ADD_FAILURE() << "one of the two was believed";
+  }
+  catch (const FileError& error)
+  {
+    EXPECT_EQ(error.reason, FileError::Reason::NoGeometry);
+  }
+  EXPECT_EQ(loadMesh(file, true).mesh.vertices[0], Eigen::Vector3f(-1.0F, -2.0F, 3.0F));
+}
+
 TEST(MeshFile, SplitsAFileByItsObjects)
 {
   const TestFolder folder;

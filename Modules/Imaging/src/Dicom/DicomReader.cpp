@@ -126,6 +126,7 @@ public:
     m_notes = notes;
     if (m_undeclared == UndeclaredBits::Keep)
       judgeKeep();
+    judgeMixedSigns();
     try
     {
       IntensityVolume result = read();
@@ -217,6 +218,48 @@ private:
                ? IntensityVolume(std::shared_ptr<const Volume<T>>(voxels),
                                  static_cast<double>(target))
                : IntensityVolume(std::shared_ptr<const Volume<T>>(voxels));
+  }
+
+  /// Where slices disagree whether pixels are signed, the highest stored bit of an unsigned one
+  /// would make a large value that the others would have as a negative one: air would be metal.
+  void judgeMixedSigns()
+  {
+    std::size_t unlike = 0; // unsigned slices
+    std::size_t count = 0;
+    for (int k = m_box.lower[2]; k < m_box.upper[2]; ++k)
+    {
+      const PixelFormat& pixels = m_slices[static_cast<std::size_t>(k)].pixels;
+      count += pixels.isReal ? 0 : 1;
+      unlike += pixels.isReal || pixels.isSigned ? 0 : 1;
+    }
+    if (unlike == 0 || unlike == count)
+      return;
+    StoredPixels pixels;
+    for (int k = m_box.lower[2]; k < m_box.upper[2]; ++k)
+    {
+      const SliceHeader& slice = m_slices[static_cast<std::size_t>(k)];
+      if (slice.pixels.isReal || slice.pixels.isSigned)
+        continue;
+      m_progress.check("reading slices");
+      decodePixels(slice, pixels, UndeclaredBits::LeaveOut);
+      const PaddingRange<double> padding(slice, true);
+      const double half = std::ldexp(1.0, slice.pixels.bitsStored - 1);
+      std::size_t large = 0;
+      for (std::size_t n = 0; n < pixels.size(); ++n)
+        large += pixels.at(n) >= half && !padding.contains(pixels.at(n)) ? 1 : 0;
+      if (large > 0)
+        throw DicomError(DicomError::Reason::Unreadable,
+                         slice.file.filename().string() +
+                             " says that its pixels are unsigned, and other slices of the series "
+                             "that theirs are signed (Pixel Representation): " +
+                             std::to_string(large) + (large == 1 ? " value" : " values") +
+                             " from " + decimals(rescaled(slice, half), 0) +
+                             " up would be negative if it is as the others. Export the series "
+                             "again");
+    }
+    note("Of " + std::to_string(count) + " slices " + std::to_string(unlike) +
+         (unlike == 1 ? " says" : " say") +
+         " that the pixels are unsigned, the others that they are signed; no value depends on it.");
   }
 
   /// One slice without copies of the sign cannot tell a negative value from a positive one that is

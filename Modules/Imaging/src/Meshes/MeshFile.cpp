@@ -233,7 +233,11 @@ LoadedMesh loadMesh(const std::filesystem::path& path, const std::optional<bool>
   LoadedMesh loaded = format->parseMesh(path, bytes, progress);
   const std::string_view start = std::string_view(bytes).substr(0, kFrameWithin);
   const bool saysRas = start.find("SPACE=RAS") != start.npos;
-  const bool saysFrame = saysRas || start.find("SPACE=LPS") != start.npos;
+  const bool saysLps = start.find("SPACE=LPS") != start.npos;
+  if (saysRas && saysLps && !isRas)
+    fail(FileError::Reason::NoGeometry, path,
+         "states both SPACE=RAS and SPACE=LPS; remove the wrong statement");
+  const bool saysFrame = saysRas || saysLps;
   loaded.isFrameStated = saysFrame;
   loaded.isUnitStated = start.find("unit mm") != start.npos;
   loaded.isFrameGiven = isRas.has_value();

@@ -337,7 +337,8 @@ TEST_F(CaseBuilder, KeepsWhatKnowsThePatientsNameWithoutAccentsAndJoined)
   const auto salted = [](const std::string& hash) { return "salt " + hash; };
   const std::pair<std::string, std::vector<std::string>> patients[] = {
       {"M\u00fcller-K\u00f6nigsmark^Hildegunde",
-       {"Muller", "Konigsmark", "K\u00f6nigsmark", "Mueller 2"}},
+       {"Muller", "Konigsmark", "K\u00f6nigsmark", "Mueller 2", "Muellers Zyste", "tumorkonigsmark",
+        "4711b"}},
       {"\u0141ukasiewicz^\u017baneta", {"Lukasiewicz", "ear of zaneta"}},
       {"van der Meer^Jan-Willem", {"vanderMeer", "JanWillem", "Meer"}},
       {"MUELLER^HANS", {"MuellerHans", "M\u00fcller"}}};
@@ -357,7 +358,7 @@ TEST_F(CaseBuilder, KeepsWhatKnowsThePatientsNameWithoutAccentsAndJoined)
       EXPECT_TRUE(identity.knowsName());
       for (const std::string& text : texts)
         EXPECT_TRUE(identity.mayIdentify(text)) << patient << ": " << text;
-      for (const char* text : {"Kowalski", "left ear", "van"})
+      for (const char* text : {"Kowalski", "left ear", "van", "4712b", "tumors"})
         EXPECT_FALSE(identity.mayIdentify(text)) << patient << ": " << text;
     }
   }

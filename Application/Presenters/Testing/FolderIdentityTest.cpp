@@ -283,7 +283,9 @@ TEST(IdentityOfACase, ThePatientsSurnameAloneIsFound)
       value.ct.patient.nameParts.push_back(saltedKey(part));
   ASSERT_EQ(value.ct.patient.nameParts.size(), 2U);
   const IdentityText identity(value, salted);
-  for (const char* text : {"M\u00fcller links", "mueller1", "ear of jane", "station MUELLER"})
+  for (const char* text :
+       {"M\u00fcller links", "mueller1", "ear of jane", "station MUELLER", "Janes cyst",
+        "M\u00fcllers Zyste", "M\u00fcllertumor", "facialm\u00fcller"})
   {
     EXPECT_TRUE(identity.mayIdentify(text)) << text;
     EXPECT_FALSE(IdentityText(value).mayIdentify(text)) << "without the salt";

@@ -91,6 +91,35 @@ std::set<std::string> candidatesIn(const std::string& text)
   return all;
 }
 
+// A name in a word that it begins or ends: in the genitive or joined to another word. Short ones
+// are in words of the field, too.
+std::vector<std::string> namesWithin(const std::string& word)
+{
+  constexpr std::size_t kGenitive = 3, kJoined = 5; // bytes of the name
+  std::vector<std::string> names;
+  if (word.size() > kGenitive && (word.back() == 's' || word.back() == 'S'))
+    names.push_back(word.substr(0, word.size() - 1));
+  for (std::size_t n = 1; n < word.size(); ++n)
+  {
+    if ((static_cast<unsigned char>(word[n]) & 0xC0) == 0x80)
+      continue; // within a letter
+    if (n >= kJoined)
+      names.push_back(word.substr(0, n));
+    if (word.size() - n >= kJoined)
+      names.push_back(word.substr(n));
+  }
+  return names;
+}
+
+// "123456b": an ID with letters behind it.
+std::string withoutLettersBehind(const std::string& word)
+{
+  constexpr std::size_t kMost = 2;
+  const std::size_t end = word.find_last_of("0123456789") + 1;
+  return end > 0 && end < word.size() && word.size() - end <= kMost ? word.substr(0, end)
+                                                                    : std::string();
+}
+
 bool isCapital(const std::string& word)
 {
   constexpr std::size_t kShortest = 3; // letters
@@ -178,14 +207,24 @@ bool IdentityText::isOfPatient(const std::string& text) const
     return !hash.empty() && (m_unsalted.count(hash) > 0 ||
                              (m_salt && !m_salts.empty() && m_salts.count(m_salt(hash)) > 0));
   };
+  const auto isHisId = [&isHis](const std::string& id)
+  { return !id.empty() && isHis(imaging::patientKey(id, {}, {}, {}).id); };
   for (const std::string& words : candidatesIn(text))
-    if (isHis(imaging::patientKey(words, {}, {}, {}).id))
+    if (isHisId(words) || isHisId(withoutLettersBehind(words)))
       return true;
   // A surname alone, also with a number behind it, or names joined, with or without accents.
   const auto words =
       wordsOf(text, [](unsigned char c) { return std::isalpha(c) != 0 || c >= 0x80; });
+  const auto isName = [&isHis](const std::string& word) { return imaging::isOfName(word, isHis); };
   return std::any_of(words.begin(), words.end(),
-                     [&isHis](const std::string& word) { return imaging::isOfName(word, isHis); });
+                     [&](const std::string& word)
+                     {
+                       if (isName(word))
+                         return true;
+                       const auto within =
+                           isKnownWord(word) ? std::vector<std::string>() : namesWithin(word);
+                       return std::any_of(within.begin(), within.end(), isName);
+                     });
 }
 
 bool IdentityText::isOfField(const std::string& text) const

@@ -1915,6 +1915,10 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
   if (!isNew && known->second.differs({patientName, birthDate}))
     ++warnings["the Patient ID is that of earlier files, but name or birth date differ: one "
                "pseudonym may stand for two patients"];
+  if (const std::string& first = m_patientOf.emplace(newSeries, pseudonym).first->second;
+      first != pseudonym)
+    ++warnings["of another patient, or of none, than earlier files of the same series, which has "
+               "several pseudonyms now: look whose they are"];
   pseudonyms["patient " + pseudonym + " " + patientName] = {"patient", pseudonym,
                                                             patientId + " " + patientName};
   pseudonyms["study " + newStudy] = {"study", newStudy, study};

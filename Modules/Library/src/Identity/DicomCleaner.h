@@ -53,7 +53,8 @@ private:
     bool differs(const Person& other) const; ///< both state it, and not the same
   };
 
-  std::map<std::string, Person> m_people; ///< the first by pseudonym
+  std::map<std::string, Person> m_people;         ///< the first by pseudonym
+  std::map<std::string, std::string> m_patientOf; ///< the first pseudonym by the new series UID
   DeidentificationOptions m_options;
   const PseudonymKey& m_key;
 };

@@ -204,6 +204,10 @@
         <translation>%~1 Luft und Weichteile haben darin die Werte eines CT, deshalb liegt die Knochenoberfläche bei %#2, aber kein Wert wird HU genannt. Ist es ein CT in Hounsfield-Einheiten, öffnen Sie es noch einmal und geben Sie es auf die Frage an.</translation>
     </message>
     <message>
+        <source>The file says that its values are Hounsfield units. They show too little air or soft tissue to tell whether that is so: look whether the surface of bone lies where it belongs.</source>
+        <translation>Die Datei gibt ihre Werte in Hounsfield-Einheiten an. Sie zeigen zu wenig Luft oder Weichgewebe, um das zu prüfen: Sehen Sie nach, ob die Oberfläche des Knochens dort liegt, wo sie hingehört.</translation>
+    </message>
+    <message>
         <source>The file does not say whether it is a CT or an MR; it is taken for a CT with units of its own, such as cone beam. Build the case with --modality MR if it is an MR, --modality CT if it is not.</source>
         <translation>Die Datei sagt nicht, ob sie ein CT oder ein MR ist; sie wird als CT mit eigenen Einheiten genommen, etwa eine DVT. Ist sie ein MR, öffnen Sie sie noch einmal und geben Sie es auf die Frage an.</translation>
     </message>
@@ -250,6 +254,10 @@
     <message>
         <source>%1: several MR images have its grid; say on which it was drawn with FILE@%2 or FILE@%3</source>
         <translation>%1: Mehrere MR haben das gleiche Gitter; fügen Sie es noch einmal hinzu und wählen Sie, auf welchem gezeichnet wurde (%2 oder %3)</translation>
+    </message>
+    <message>
+        <source>has another grid than the CT, which was repaired. If it was drawn on the slices as they lie in the files, by a program that takes them for straight and even, it lies elsewhere by up to %#1 mm: look whether it fits the bone</source>
+        <translation>hat ein anderes Gitter als das CT, das repariert wurde. Wurde es auf den Schichten gezeichnet, wie sie in den Dateien liegen, mit einem Programm, das sie für gerade und gleichmäßig hält, so liegt es bis zu %#1 mm daneben: Sehen Sie nach, ob es zum Knochen passt</translation>
     </message>
     <message>
         <source>other</source>
@@ -5380,6 +5388,10 @@
     <message>
         <source>places itself twice, once by a quaternion (qform) that is not a rotation; the sform is used</source>
         <translation>nennt ihre Lage zweimal, einmal mit einem Quaternion (qform), das keine Drehung ist; die sform gilt</translation>
+    </message>
+    <message>
+        <source>places itself twice, in the space of a template (sform) and in that of the scanner (qform), up to %#1 mm apart; the qform is used, as the patient lies there</source>
+        <translation>gibt seine Lage zweimal an, im Raum einer Vorlage (sform) und in dem des Scanners (qform), bis zu %#1 mm auseinander; die qform wird verwendet, denn dort liegt der Patient</translation>
     </message>
     <message>
         <source>places itself twice (sform and qform), and the two are mirror images of each other: left and right cannot be told; export it again with one of them</source>

@@ -14,6 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/LabelFile.h"
@@ -225,6 +226,88 @@ TEST_F(CaseBuilder, PutsTheSurfaceWhereBoneIsInUnitsOfItsOwn)
   EXPECT_EQ(calibrated.iso, 300.0);
   for (const std::string& note : calibrated.ct.notes)
     EXPECT_EQ(note.find("Hounsfield"), std::string::npos);
+}
+
+// On real data a label of the unrepaired stack lies 38 mm off.
+TEST_F(CaseBuilder, SaysOfLabelsOnAnotherGridThatTheCtWasRepaired)
+{
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(
+      core::GridGeometry({16, 12, 8}, Vector3d(1.0, 1.0, 1.2), Vector3d(-8, 2, 3)),
+      std::uint16_t{0});
+  voxels->at(4, 4, 4) = 1;
+  imaging::writeLabelFile(m_folder / "vein.nii.gz", volume::makeLabelMap(voxels, {}));
+  for (const double shift : {0.0, 5.25})
+    for (const int missing : {0, 2})
+      for (const char* file : {"vein", "facial_nerve"})
+      {
+        auto value = presenters::buildCase("ear", m_sources, {});
+        value.ct.provenance.shift = shift;
+        if (missing > 0)
+          value.ct.provenance.interpolated = {{3, 2 + missing}};
+        presenters::PartSources parts;
+        parts.labels = {{"", m_folder / (file + std::string(".nii.gz"))}};
+        presenters::addParts(value, parts, {});
+        std::string told;
+        for (const std::string& note : value.labels.at(0).notes)
+          told += note + "\n";
+        const bool isTold = told.find("was repaired") != told.npos;
+        EXPECT_EQ(isTold, file == std::string("vein") && (shift > 0.0 || missing > 0)) << told;
+        EXPECT_EQ(told.find(core::fixedText(shift + missing, 1) + " mm") != told.npos, isTold);
+      }
+}
+
+// A box without air and soft tissue shows no unit; that of the whole image is known. A file that is
+// no more than such a box is believed if it states Hounsfield units.
+TEST_F(CaseBuilder, ABoxHasTheUnitOfItsImage)
+{
+  const core::GridGeometry grid({40, 40, 40}, Vector3d::Ones(), Vector3d::Zero());
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{0});
+  const auto noise = [](int i, int j, int k, int range)
+  { return (i * 7919 + j * 104729 + k * 1299709) % range; };
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 40; ++j)
+      for (int i = 0; i < 40; ++i)
+        ct->at(i, j, k) = static_cast<std::int16_t>(i < 14   ? -1000 + noise(i, j, k, 20)
+                                                    : i < 26 ? 30 + noise(i, j, k, 20)
+                                                             : 100 + noise(i, j, k, 1500));
+  imaging::writeVolume(m_folder / "head.nrrd", *ct);
+  imaging::SeriesDescription series;
+  series.studyUid = imaging::deterministicUid(2, "head");
+  series.seriesUid = imaging::deterministicUid(1, "head");
+  series.frameOfReferenceUid = imaging::deterministicUid(3, "head");
+  imaging::writeDicomSeries(m_folder / "head", volume::IntensityVolume(ct), series);
+  for (const char* file : {"head.nrrd", "head"})
+    for (const bool isWhole : {true, false})
+    {
+      m_sources.ct = m_folder / file;
+      m_sources.roi.reset();
+      if (!isWhole)
+        m_sources.roi = core::PatientBox(Vector3d(27, 2, 2), Vector3d(38, 38, 38));
+      const auto value = presenters::buildCase("ear", m_sources, {});
+      EXPECT_EQ(value.ct.geometry.dims()[0] < 40, !isWhole);
+      EXPECT_EQ(value.iso, 300.0) << file << isWhole;
+      EXPECT_TRUE(presenters::calibratedScale(value).calibrated) << file << isWhole;
+    }
+  // The box as a file of its own, with and without a stated unit.
+  const core::GridGeometry part({12, 12, 12}, Vector3d::Ones(), Vector3d::Zero());
+  auto bone = std::make_shared<volume::Volume<std::int16_t>>(part, std::int16_t{0});
+  for (int k = 0; k < 12; ++k)
+    for (int j = 0; j < 12; ++j)
+      for (int i = 0; i < 12; ++i)
+        bone->at(i, j, k) = static_cast<std::int16_t>(100 + noise(i, j, k, 1500));
+  m_sources.roi.reset();
+  for (const std::string unit : {"HU", "US"})
+  {
+    series.seriesUid = imaging::deterministicUid(1, unit);
+    series.rescaleType = unit;
+    imaging::writeDicomSeries(m_folder / unit, volume::IntensityVolume(bone), series);
+    m_sources.ct = m_folder / unit;
+    const auto value = presenters::buildCase("ear", m_sources, {});
+    EXPECT_EQ(value.iso == 300.0, unit == "HU") << value.iso;
+    EXPECT_EQ(presenters::calibratedScale(value).calibrated, unit == "HU");
+    ASSERT_FALSE(value.ct.notes.empty());
+    EXPECT_NE(value.ct.notes.back().find("Hounsfield"), std::string::npos);
+  }
 }
 
 TEST_F(CaseBuilder, PutsTheSurfaceOfAnMrWhereTissueBegins)

@@ -284,8 +284,8 @@ TEST(IdentityOfACase, ThePatientsSurnameAloneIsFound)
   ASSERT_EQ(value.ct.patient.nameParts.size(), 2U);
   const IdentityText identity(value, salted);
   for (const char* text :
-       {"M\u00fcller links", "mueller1", "ear of jane", "station MUELLER", "Janes cyst",
-        "M\u00fcllers Zyste", "M\u00fcllertumor", "facialm\u00fcller"})
+       {"M\u00fcller links", "mueller1", "ear of jane", "station MUELLER", "janes cyst",
+        "m\u00fcllers cyst", "M\u00fcllertumor", "facialm\u00fcller"})
   {
     EXPECT_TRUE(identity.mayIdentify(text)) << text;
     EXPECT_FALSE(IdentityText(value).mayIdentify(text)) << "without the salt";

@@ -510,6 +510,26 @@ TEST(ImageFile, NotesWhenQformAndSformDisagree)
   EXPECT_EQ(image.volume->geometry().origin()[2], 0.0);
 }
 
+// nifti1.h: NIFTI_XFORM_TALAIRACH 3, NIFTI_XFORM_MNI_152 4.
+TEST(ImageFile, TakesTheScannersPlaceAndNotThatOfATemplate)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.offset = {0.0F, 0.0F, 3.0F};
+  for (const std::int16_t code : {std::int16_t{3}, std::int16_t{4}})
+  {
+    nifti.sform = code;
+    nifti.qform = 1;
+    const auto image = readImageFile(putFile(folder / "a.nii", nifti.bytes()));
+    EXPECT_TRUE(noted(image, "space of a template")) << code;
+    EXPECT_EQ(image.volume->geometry().origin()[2], 3.0) << code;
+    nifti.qform = code; // all of it lies there
+    EXPECT_EQ(
+        readImageFile(putFile(folder / "b.nii", nifti.bytes())).volume->geometry().origin()[2],
+        0.0);
+  }
+}
+
 TEST(ImageFile, RefusesTwoPlacesThatAreMirrorImages)
 {
   const TestFolder folder;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -26,6 +27,7 @@
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImageFile.h"
+#include "petrous/Imaging/ImagePreview.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/StructureSet.h"
 #include "petrous/Library/DerivedCache.h"
@@ -383,7 +385,48 @@ struct ReadImage
   scene::ImagePart part;
   imaging::PatientKey patient; // whose it is, before it is hashed
   OtherQuantity otherQuantity;
+  bool isStatedHu = false; // by the file
+  /// Of the whole image where the part is a box of it.
+  std::optional<volume::IntensityHistogram> whole = std::nullopt;
 };
+
+// Of every few of all slices, as a box may have neither air nor soft tissue, by which values are
+// judged. Empty if they cannot be read: the box is then judged alone.
+std::optional<volume::IntensityHistogram>
+histogramOf(const std::function<volume::IntensityVolume(std::size_t)>& readFew)
+{
+  constexpr std::size_t kFew = 32; // slices
+  try
+  {
+    return volume::IntensityHistogram(readFew(kFew));
+  }
+  catch (const core::Error& error)
+  {
+    if (error.fault() == core::Fault::Cancelled)
+      throw;
+    return std::nullopt;
+  }
+}
+
+std::optional<volume::IntensityHistogram> histogramOf(const imaging::DicomSeries& series,
+                                                      const core::Progress& progress)
+{
+  return histogramOf(
+      [&](std::size_t count)
+      {
+        imaging::DicomSeries few = series;
+        const auto& slices = series.geometry.slices;
+        std::vector<imaging::SliceHeader> chosen;
+        const std::size_t step = std::max<std::size_t>(slices.size() / count, 1);
+        for (std::size_t n = 0; n < slices.size(); n += step)
+          chosen.push_back(slices[n]);
+        few.geometry = imaging::assess(std::move(chosen));
+        imaging::ReadOptions options;
+        options.acceptDefects = true; // where a slice lies does not matter here
+        options.undeclaredBits = imaging::UndeclaredBits::LeaveOut;
+        return imaging::readSeries(few, options, progress);
+      });
+}
 
 // Before minutes of reading. `option`: as ImageSideUnclear.
 void requireSide(const fs::path& path, const std::optional<bool>& assumeRas,
@@ -429,6 +472,14 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
     part.volume = image.volume;
     part.notes = std::move(image.notes);
     part.provenance.assumedRas = image.assumedRas;
+    if (isPrimary && options.roi)
+      read.whole = histogramOf(
+          [&](std::size_t count)
+          {
+            return *imaging::previewImageFile(path, count, progress, assumeRas, 0,
+                                              imaging::volumeNumber(path, selector), unit)
+                        .volume;
+          });
   }
   else
   {
@@ -462,6 +513,12 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
     read.patient = patientOf(series);
     part.patient = patientHash(read.patient);
     read.otherQuantity = otherQuantity(series);
+    const auto& slices = series.geometry.slices;
+    read.isStatedHu = series.modality == "CT" &&
+                      std::all_of(slices.begin(), slices.end(),
+                                  [](const auto& slice) { return slice.rescaleType == "HU"; });
+    if (isPrimary && options.roi)
+      read.whole = histogramOf(series, progress.part(0.9, 1.0));
     part.modality = series.modality == "MR"   ? scene::Modality::Mr
                     : series.modality == "CT" ? scene::Modality::Ct
                                               : scene::Modality::Unknown;
@@ -507,10 +564,14 @@ void noteBeyondCt(scene::ImagePart& image)
                           "slope that the file states is wrong.");
 }
 
+constexpr double kLowestHu = -4096.0; // of 12 and 13 bits, padding too
+constexpr double kHighestHu = 32767.0;
+
 // Cone-beam and micro-CT have units of their own, in which 300 may be air or nothing at all; an MR
 // always has, and shows no surface of bone.
-void placeSurface(scene::Case& value, scene::Modality wanted, const OtherQuantity& other)
+void placeSurface(scene::Case& value, scene::Modality wanted, const ReadImage& read)
 {
+  const OtherQuantity& other = read.otherQuantity;
   using scene::Modality;
   scene::ImagePart& image = value.ct;
   const bool isStated = image.modality != Modality::Unknown;
@@ -521,7 +582,8 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const OtherQuantit
                           ", as asked.");
   if (wanted != Modality::Unknown)
     image.modality = wanted;
-  const volume::IntensityHistogram histogram(*image.volume.get());
+  const volume::IntensityHistogram histogram =
+      read.whole ? *read.whole : volume::IntensityHistogram(*image.volume.get());
   if (image.modality == Modality::Mr)
   {
     const auto scale = volume::suggestMrScale(histogram);
@@ -567,7 +629,14 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const OtherQuantit
                           "a CT in Hounsfield units.");
     return;
   }
-  if (scale.calibrated)
+  // Of an image without air or soft tissue the histogram says nothing of its unit; the file does.
+  const bool isStatedHu = read.isStatedHu && !scale.soft && histogram.range().min >= kLowestHu &&
+                          histogram.range().max <= kHighestHu;
+  if (isStatedHu && !scale.calibrated)
+    image.notes.push_back("The file says that its values are Hounsfield units. They show too "
+                          "little air or soft tissue to tell whether that is so: look whether the "
+                          "surface of bone lies where it belongs.");
+  if (scale.calibrated || isStatedHu)
   {
     image.modality = Modality::Ct;
     return;
@@ -755,6 +824,20 @@ std::optional<std::string> drawnOn(const scene::Case& value, const PartSource& s
   if (names.empty())
     return std::nullopt;
   return names.front();
+}
+
+// Other programs take the slices of a tilted or gapped stack for straight and even.
+std::string repairedNote(const scene::ImagePart& ct)
+{
+  const auto& done = ct.provenance;
+  const int between = volume::sliceCount(done.interpolated);
+  const auto [first, last] = std::minmax({done.shift, between * ct.geometry.spacing()[2]});
+  if (!(last > 0.0))
+    return {};
+  return "has another grid than the CT, which was repaired. If it was drawn on the slices as they "
+         "lie in the files, by a program that takes them for straight and even, it lies elsewhere "
+         "by up to " +
+         core::fixedText(first + last, 1) + " mm: look whether it fits the bone";
 }
 
 // Before an MR is added that may have the same grid as another one.
@@ -1287,6 +1370,10 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
       continue;
     part.provenance = provenance;
     part.drawnOn = drawnOn(value, source, map.voxels->geometry());
+    if (part.drawnOn.value_or("").empty() &&
+        !core::sameGrid(map.voxels->geometry(), value.ct.geometry))
+      if (std::string repaired = repairedNote(value.ct); !repaired.empty())
+        part.notes.push_back(std::move(repaired));
     for (const std::string& name : noteOutside(value, part, map))
       for (StructureReport& one : reports)
         one.isOutside = one.isOutside || one.name == name;
@@ -1706,7 +1793,7 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   value.ct = std::move(read.part);
   value.ct.name = "ct";
   judgeContents(sources.ct, value.ct, sources.roi.has_value());
-  placeSurface(value, sources.modality, read.otherQuantity);
+  placeSurface(value, sources.modality, read);
   addParts(value, sources.parts, progress.part(0.7, 1.0), report);
   return value;
 }

@@ -14,6 +14,7 @@
 #include <itk_zlib.h>
 
 #include "FileHelpers.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::imaging
 {
@@ -65,6 +66,12 @@ public:
   int units() const { return static_cast<int>(whole<std::uint8_t, std::int32_t>(m_at.units)); }
   bool hasQform() const { return whole<std::int16_t, std::int32_t>(m_at.qformCode) > 0; }
   bool hasSform() const { return whole<std::int16_t, std::int32_t>(m_at.sformCode) > 0; }
+  /// nifti1.h: 1 and 2 are the scanner's space, 3 and more that of a template.
+  bool isSformOfTemplate() const
+  {
+    return whole<std::int16_t, std::int32_t>(m_at.sformCode) > 2 &&
+           whole<std::int16_t, std::int32_t>(m_at.qformCode) <= 2;
+  }
   double pixdim(std::size_t n) const { return real(m_at.pixdim, n); }
   double slope() const { return real(m_at.slope); }
   double intercept() const { return real(m_at.intercept); }
@@ -241,10 +248,7 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
                               "rotation; the sform is used");
     return;
   }
-  if (header.linear.determinant() * qLinear->determinant() < 0.0)
-    fail(FileError::Reason::NoGeometry, path,
-         "places itself twice (sform and qform), and the two are mirror images of each other: left "
-         "and right cannot be told; export it again with one of them");
+  double apart = 0.0;
   for (int corner = 0; corner < 8; ++corner)
   {
     Eigen::Vector3d index;
@@ -253,8 +257,24 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
                      ? static_cast<double>(header.dims[static_cast<std::size_t>(a)]) - 1
                      : 0.0;
     const double d = ((header.linear - *qLinear) * index + header.origin - qOrigin).norm();
-    header.apart = std::max(header.apart, header.unit.mm * d);
+    apart = std::max(apart, header.unit.mm * d);
   }
+  constexpr double kPlacementsDiffer = 0.1; // mm
+  if (fields.isSformOfTemplate() && apart > kPlacementsDiffer)
+  {
+    header.linear = *qLinear;
+    header.origin = qOrigin;
+    header.notes.push_back("places itself twice, in the space of a template (sform) and in that of "
+                           "the scanner (qform), up to " +
+                           core::generalText(apart, 3) +
+                           " mm apart; the qform is used, as the patient lies there");
+    return;
+  }
+  if (header.linear.determinant() * qLinear->determinant() < 0.0)
+    fail(FileError::Reason::NoGeometry, path,
+         "places itself twice (sform and qform), and the two are mirror images of each other: left "
+         "and right cannot be told; export it again with one of them");
+  header.apart = apart;
 }
 
 LengthUnit unitOf(int code, std::vector<std::string>& notes)

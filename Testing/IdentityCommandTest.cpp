@@ -552,6 +552,22 @@ TEST_F(IdentityCommand, ReplacesAFileOnRequestOnly)
   EXPECT_NE(textOf(out), first) << "other UIDs";
 }
 
+TEST_F(IdentityCommand, StrictWantsNoFileLeftOut)
+{
+  const fs::path from = fs::directory_iterator(writePlanted())->path();
+  const fs::path in = m_folder / "two";
+  fs::create_directories(in);
+  fs::copy_file(from, in / "a.dcm");
+  const auto codeOf = [&](const char* name, const char* strict)
+  { return run("deidentify " + quoted(in) + " " + quoted(m_folder / name) + strict).code; };
+  EXPECT_EQ(codeOf("whole", " --strict"), 0);
+  const std::string bytes = textOf(from);
+  std::ofstream(in / "b.dcm", std::ios::binary) << bytes.substr(0, bytes.size() - 100);
+  EXPECT_EQ(codeOf("less", " --strict"), 3);
+  EXPECT_TRUE(fs::exists(m_folder / "less"));
+  EXPECT_EQ(codeOf("as it is", ""), 0);
+}
+
 // All that the program writes as DICOM; what a node is sent: NodeCommand.
 TEST_F(IdentityCommand, WritesValidDicom)
 {

@@ -25,7 +25,7 @@ struct DeidentifyCommandOptions
 {
   std::string input, output, dates = "remove", map, passphraseFile, report;
   library::DeidentificationOptions profile;
-  bool replace = false;
+  bool replace = false, strict = false;
 };
 
 struct PseudonymsCommandOptions
@@ -133,6 +133,10 @@ void deidentify(const Context& context, DeidentifyCommandOptions options)
   context.print(std::to_string(done.report.filesWritten) + " files are de-identified in " +
                 options.output);
   context.printJson(reportJson(done.report));
+  if (options.strict && !done.leftOut.empty())
+    throw core::InvalidParameter(options.input + ": " + std::to_string(done.leftOut.size()) +
+                                 (done.leftOut.size() == 1 ? " file was" : " files were") +
+                                 " left out, and --strict wants none");
 }
 
 bool contains(const library::Pseudonym& entry, const std::string& text)
@@ -239,6 +243,8 @@ void addDeidentifyCommands(CLI::App& app, Context& context)
   command->add_option("--passphrase-file", options->passphraseFile,
                       "File with the map's passphrase in its first line; else it is asked for");
   command->add_flag("--replace", options->replace, "Replace OUT if it is a file that is there");
+  command->add_flag("--strict", options->strict,
+                    "Exit 3 if a file was left out, for scripts; OUT is there all the same");
   command->add_option("--report", options->report,
                       "What stays and why, and what was removed: F.json or F.txt");
 

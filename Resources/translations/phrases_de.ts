@@ -4814,6 +4814,10 @@
         <translation>Die Schichten stammen aus mehreren Aufnahmen oder Rekonstruktionen: Sie unterscheiden sich durch %~1, Nachbarn können gleiches Gewebe daher ungleich und zu verschiedenen Zeiten zeigen; lassen Sie im Ordner die Dateien einer einzigen.</translation>
     </message>
     <message>
+        <source>Slices %#1 and %#2 were acquired %#3 minutes apart. If the patient moved meanwhile there is a step between them that no patient has: look at bone that goes through.</source>
+        <translation>Die Schichten %#1 und %#2 wurden im Abstand von %#3 Minuten aufgenommen. Hat sich der Patient dazwischen bewegt, so liegt zwischen ihnen eine Stufe, die kein Patient hat: Sehen Sie nach an Knochen, der hindurchgeht.</translation>
+    </message>
+    <message>
         <source>There is no slice.</source>
         <translation>Es gibt keine Schicht.</translation>
     </message>

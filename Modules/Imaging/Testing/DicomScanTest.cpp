@@ -1563,6 +1563,33 @@ TEST(DicomScan, TellsAcquisitionsAndKernelsApart)
   EXPECT_EQ(with(0x00200011, "IS", {"3", "3", "3", "4", "4", "4"}), mixed);
 }
 
+TEST(DicomScan, NotesAPartThatWasScannedLater)
+{
+  const auto notesWith = [](const char* second, const char* number, const std::string& modality)
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 6,
+                [=](int k, TestSlice& s)
+                {
+                  s.modality = modality;
+                  s.element(s.extra, 0x00080022, "DA", "20200131");
+                  s.element(s.extra, 0x00080032, "TM", k < 4 ? "100059" : second);
+                  s.element(s.extra, 0x00200012, "IS", k < 4 ? "1" : number);
+                });
+    const ScanResult scan = scanDicom(folder.path(), {});
+    std::string all;
+    for (const std::string& note : scan.series.at(0).geometry.notes)
+      all += note;
+    return all;
+  };
+  const std::string told = notesWith("113000", "2", "CT");
+  EXPECT_NE(told.find("Slices 4 and 5 were acquired 90 minutes apart"), told.npos) << told;
+  EXPECT_EQ(told.find("2020"), told.npos) << "no date";
+  EXPECT_EQ(notesWith("100200", "2", "CT").find("minutes apart"), told.npos) << "in steps";
+  EXPECT_EQ(notesWith("113000", "1", "CT").find("minutes apart"), told.npos) << "one acquisition";
+  EXPECT_EQ(notesWith("113000", "2", "MR").find("minutes apart"), told.npos) << "slabs";
+}
+
 TEST(DicomScan, RefusesAModalityLut)
 {
   const std::string item("\xfe\xff\x00\xe0\x00\x00\x00\x00", 8);

@@ -534,6 +534,51 @@ private:
            "The slices are of several scans or reconstructions: they differ in " + what +
                ", so neighbours may show equal tissue unequally and at different times; keep the "
                "files of one in the folder.");
+    else
+      noteWait();
+  }
+
+  /// The next part of a stack may have been scanned after the patient moved.
+  void noteWait()
+  {
+    constexpr int kLong = 5; // minutes; a scan in steps takes less
+    int longest = 0;
+    std::size_t before = 0; // slices
+    for (std::size_t n = 1; n < m_slices.size(); ++n)
+    {
+      const SliceHeader& a = m_slices[n - 1];
+      const SliceHeader& b = m_slices[n];
+      if (a.modality != "CT" || a.acquisition == b.acquisition)
+        continue;
+      if (const int apart = minutesApart(a.taken, b.taken); apart > longest)
+      {
+        longest = apart;
+        before = n;
+      }
+    }
+    if (longest >= kLong)
+      m_result.notes.push_back(
+          "Slices " + std::to_string(before) + " and " + std::to_string(before + 1) +
+          " were acquired " + std::to_string(longest) +
+          " minutes apart. If the patient moved meanwhile there is a step between them that no "
+          "patient has: look at bone that goes through.");
+  }
+
+  /// Of SliceHeader::taken; 0: not known, or not of one day.
+  static int minutesApart(const std::string& a, const std::string& b)
+  {
+    constexpr std::size_t kDay = 9, kMinute = kDay + 4; // "20200131 1205"
+    const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+    if (a.size() != kMinute || b.size() != kMinute || a.compare(0, kDay, b, 0, kDay) != 0 ||
+        !std::all_of(a.begin() + kDay, a.end(), isDigit) ||
+        !std::all_of(b.begin() + kDay, b.end(), isDigit))
+      return 0;
+    const auto minuteOf = [](const std::string& taken)
+    {
+      const auto digit = [&taken](std::size_t n) { return taken[kDay + n] - '0'; };
+      return 60 * (10 * digit(0) + digit(1)) + 10 * digit(2) + digit(3);
+    };
+    return std::abs(minuteOf(a) - minuteOf(b));
   }
 
   /// A damaged file is a slice as good as missing if it says that it stands in a gap of the stack.

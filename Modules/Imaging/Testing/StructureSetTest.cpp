@@ -192,6 +192,37 @@ TEST(StructureSet, ASquareOnVoxelBordersIsExact)
       EXPECT_EQ(labels.voxels->at(i, j, 5) != 0, i >= 10 && i < 16 && j >= 10 && j < 12);
 }
 
+// Voxels that are needed for its volume come from all of them.
+TEST(StructureSet, ASquareIsAsWideInEachDirectionAsItsSidesAreAlike)
+{
+  // 19 whole voxels and 0.4 of one at either end.
+  const double x0 = -4.95, x1 = x0 + 9.9, y0 = -14.95, y1 = y0 + 9.9;
+  const Roi roi = named("a", {square(x0, x1, y0, y1, 20.0), square(x0, x1, y0, y1, 21.0)});
+  const volume::LabelMap labels = labelsOf({roi});
+  core::IndexBox box{{80, 80, 40}, {0, 0, 0}};
+  const auto isIn = [&](int i, int j) { return labels.voxels->at(i, j, 15) != 0; };
+  for (int j = 0; j < 80; ++j)
+    for (int i = 0; i < 80; ++i)
+      if (isIn(i, j))
+        for (std::size_t a = 0; a < 2; ++a)
+        {
+          box.lower[a] = std::min(box.lower[a], a == 0 ? i : j);
+          box.upper[a] = std::max(box.upper[a], (a == 0 ? i : j) + 1);
+        }
+  EXPECT_EQ(box.upper[0] - box.lower[0], 21);
+  EXPECT_EQ(box.upper[1] - box.lower[1], 21);
+  int sides[4] = {};
+  for (int n = 0; n < 80; ++n)
+  {
+    sides[0] += isIn(box.lower[0], n) ? 1 : 0;
+    sides[1] += isIn(box.upper[0] - 1, n) ? 1 : 0;
+    sides[2] += isIn(n, box.lower[1]) ? 1 : 0;
+    sides[3] += isIn(n, box.upper[1] - 1) ? 1 : 0;
+  }
+  for (const int side : sides) // 19.8^2 - 19^2 = 31 of them
+    EXPECT_NEAR(side, 31.0 / 4.0, 3.0);
+}
+
 TEST(StructureSet, InnerContoursAreHolesWhicheverWayTheyTurn)
 {
   auto inner = square(-4.25, -3.25, -14.75, -13.75, 10.0);

@@ -742,11 +742,14 @@ Shares sharesOf(const Placed& placed, const core::GridGeometry& grid,
 /// Which voxels of the box are the structure's.
 std::vector<char> chosen(const Shares& shares)
 {
-  std::vector<std::size_t> counts(65536, 0);
+  // In steps of 1/256, as shares that are equal but for rounding are: else all sides of a box at
+  // which the share is the same, but for one, would stay out. 0: nothing of it.
+  const auto levelOf = [](std::uint16_t share) { return (share + std::size_t{255}) / 256; };
+  std::vector<std::size_t> counts(257, 0);
   for (const std::uint16_t share : shares.values)
-    ++counts[share];
+    ++counts[levelOf(share)];
   auto wanted = static_cast<std::size_t>(std::llround(shares.sum));
-  std::size_t level = 65535;
+  std::size_t level = 256;
   std::size_t above = 0; // voxels of a larger share
   while (level > 0 && above + counts[level] <= wanted)
     above += counts[level--];
@@ -757,9 +760,9 @@ std::vector<char> chosen(const Shares& shares)
   std::size_t tie = 0;
   std::vector<char> in(shares.values.size(), 0);
   for (std::size_t n = 0; n < in.size(); ++n)
-    if (shares.values[n] > level)
+    if (levelOf(shares.values[n]) > level)
       in[n] = 1;
-    else if (level > 0 && shares.values[n] == level)
+    else if (level > 0 && levelOf(shares.values[n]) == level)
     {
       in[n] = (tie + 1) * rest / ties > tie * rest / ties ? 1 : 0;
       ++tie;

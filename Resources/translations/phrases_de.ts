@@ -204,10 +204,6 @@
         <translation>%~1 Luft und Weichteile haben darin die Werte eines CT, deshalb liegt die Knochenoberfläche bei %#2, aber kein Wert wird HU genannt. Ist es ein CT in Hounsfield-Einheiten, öffnen Sie es noch einmal und geben Sie es auf die Frage an.</translation>
     </message>
     <message>
-        <source>The file says that its values are Hounsfield units. They show too little air or soft tissue to tell whether that is so: look whether the surface of bone lies where it belongs.</source>
-        <translation>Die Datei gibt ihre Werte in Hounsfield-Einheiten an. Sie zeigen zu wenig Luft oder Weichgewebe, um das zu prüfen: Sehen Sie nach, ob die Oberfläche des Knochens dort liegt, wo sie hingehört.</translation>
-    </message>
-    <message>
         <source>The file does not say whether it is a CT or an MR; it is taken for a CT with units of its own, such as cone beam. Build the case with --modality MR if it is an MR, --modality CT if it is not.</source>
         <translation>Die Datei sagt nicht, ob sie ein CT oder ein MR ist; sie wird als CT mit eigenen Einheiten genommen, etwa eine DVT. Ist sie ein MR, öffnen Sie sie noch einmal und geben Sie es auf die Frage an.</translation>
     </message>
@@ -921,7 +917,7 @@
     </message>
     <message>
         <source>the image holds a whole head: a face can be rendered from it. It can be masked; a case of the region of the ear alone (File &gt; Open a region) has none</source>
-        <translation>das Bild enthält einen ganzen Kopf: Ein Gesicht lässt sich daraus darstellen. Es lässt sich maskieren; ein Fall allein mit der Region des Ohrs (Datei &gt; Bereich öffnen) hat keines</translation>
+        <translation>das Bild enthält einen ganzen Kopf: Ein Gesicht lässt sich daraus darstellen. Es lässt sich maskieren; ein Fall allein mit der Region des Ohrs (Datei &gt; Ausschnitt öffnen) hat keines</translation>
     </message>
     <message>
         <source>%~1: %#2 of %#3 may be a patient's name, number or date; change what is one before you send</source>
@@ -3077,7 +3073,7 @@
     </message>
     <message>
         <source>This is the %~1 ear</source>
-        <translation>Dies ist das Ohr: %~1</translation>
+        <translation>Dies ist das Ohr %~1</translation>
     </message>
     <message>
         <source>%1, but the side of the case is stated as %~2.</source>
@@ -4282,12 +4278,20 @@
         <translation>Schichten werden gelesen</translation>
     </message>
     <message>
-        <source>%1 says that its pixels are unsigned, and other slices of the series that theirs are signed (Pixel Representation): %#2 value from %#3 up would be negative if it is as the others. Export the series again</source>
-        <translation>%1 gibt seine Bildpunkte ohne Vorzeichen an, andere Schichten der Serie ihre mit Vorzeichen (Pixel Representation): %#2 Wert ab %#3 wäre negativ, wenn sie wie die anderen ist. Exportieren Sie die Serie neu</translation>
+        <source>%1 says that its pixels are signed, and other slices of the series that theirs are not (Pixel Representation): %#2 value would be another one if it is as they are. Export the series again</source>
+        <translation>%1 gibt seine Bildpunkte mit Vorzeichen an, andere Schichten der Serie ihre ohne (Pixel Representation): %#2 Wert wäre ein anderer, wenn sie wie die anderen ist. Exportieren Sie die Serie neu</translation>
     </message>
     <message>
-        <source>%1 says that its pixels are unsigned, and other slices of the series that theirs are signed (Pixel Representation): %#2 values from %#3 up would be negative if it is as the others. Export the series again</source>
-        <translation>%1 gibt seine Bildpunkte ohne Vorzeichen an, andere Schichten der Serie ihre mit Vorzeichen (Pixel Representation): %#2 Werte ab %#3 wären negativ, wenn sie wie die anderen ist. Exportieren Sie die Serie neu</translation>
+        <source>%1 says that its pixels are signed, and other slices of the series that theirs are not (Pixel Representation): %#2 values would be another one if it is as they are. Export the series again</source>
+        <translation>%1 gibt seine Bildpunkte mit Vorzeichen an, andere Schichten der Serie ihre ohne (Pixel Representation): %#2 Werte wären andere, wenn sie wie die anderen ist. Exportieren Sie die Serie neu</translation>
+    </message>
+    <message>
+        <source>%1 says that its pixels are unsigned, and other slices of the series that theirs are not (Pixel Representation): %#2 value would be another one if it is as they are. Export the series again</source>
+        <translation>%1 gibt seine Bildpunkte ohne Vorzeichen an, andere Schichten der Serie ihre mit (Pixel Representation): %#2 Wert wäre ein anderer, wenn sie wie die anderen ist. Exportieren Sie die Serie neu</translation>
+    </message>
+    <message>
+        <source>%1 says that its pixels are unsigned, and other slices of the series that theirs are not (Pixel Representation): %#2 values would be another one if it is as they are. Export the series again</source>
+        <translation>%1 gibt seine Bildpunkte ohne Vorzeichen an, andere Schichten der Serie ihre mit (Pixel Representation): %#2 Werte wären andere, wenn sie wie die anderen ist. Exportieren Sie die Serie neu</translation>
     </message>
     <message>
         <source>Of %#1 slices %#2 says that the pixels are unsigned, the others that they are signed; no value depends on it.</source>

@@ -245,6 +245,12 @@ CaseDocumentController::CaseDocumentController(presenters::WorkstationModel& mod
             if (isDialogOpen())
               return;
             m_heldAgain.stop();
+            if (m_held && m_model.hasCase() && m_model.unsaved() && !m_saver.flush())
+            {
+              m_held = {}; // what the dialog changed is not to be lost
+              m_model.notOpened();
+              return emit statusMessage(tr("The open case is not saved yet; it stays open"));
+            }
             if (const BackgroundWork::Reply reply = std::exchange(m_held, {}))
               take(reply);
           });
@@ -2000,7 +2006,9 @@ void CaseDocumentController::archive(const std::string& which)
          options.prepare = presenters::maskForArchive(library, mask, withoutMrs);
          const library::ArchiveSummary done =
              library::archiveCase(library, name, file, options, progress);
-         const QString contents = contentsOf(library.open(name), done.planOnly);
+         scene::Case kept = library.open(name);
+         presenters::leaveOutMrs(kept, withoutMrs);
+         const QString contents = contentsOf(kept, done.planOnly);
          return [this, done, file, contents]
          {
            QString text =

@@ -269,6 +269,21 @@ void RegistrationController::partsChanged()
   showMarks(); // and the panel
 }
 
+void RegistrationController::preferUnregistered()
+{
+  if (running() || !m_model.hasCase() || !m_session.landmarks().rows().empty())
+    return;
+  const auto& mrs = m_model.value().mr;
+  const auto isNot = [](const scene::ImagePart& mr) { return !mr.registered; };
+  const auto wanted = std::find_if(mrs.rbegin(), mrs.rend(), isNot);
+  const scene::ImagePart* present = scene::findMr(m_model.value(), m_session.mr());
+  if (wanted == mrs.rend() || (present && isNot(*present)))
+    return;
+  m_session.choose(wanted->name);
+  m_panel->refresh();
+  chosen();
+}
+
 void RegistrationController::mrMoved()
 {
   m_panel->refresh();

@@ -40,6 +40,9 @@ public:
   void partsChanged(); ///< the view, points and a run stay as long as the MRs do
   void mrMoved();      ///< or was signed off
   bool running() const;
+  /// Chooses the MR that was added last of those that are not registered, unless the present one is
+  /// none of these, is being registered or has landmarks.
+  void preferUnregistered();
 
   presenters::ShownImages shown() const; ///< in the slices
   /// Has the slices show the CT ("ct") or an MR of the case, if they do not yet.

@@ -448,6 +448,9 @@ TEST_F(Views, SurgicalPositionIsOneKeyAndRollsByKeys)
   key(Qt::Key_8);
   EXPECT_TRUE(window().statusBar()->currentMessage().contains("left ear"))
       << window().statusBar()->currentMessage().toStdString();
+  key(Qt::Key_9);
+  EXPECT_FALSE(window().statusBar()->currentMessage().contains("left ear")) << "it is the right";
+  key(Qt::Key_8);
   for (int n = 0; n < 18; ++n)
     key(Qt::Key_Period);
   EXPECT_EQ(edges().right, "A");

@@ -296,6 +296,7 @@ void MainWindow::layOut()
                         [this]
                         {
                           m_mrBanner->hide();
+                          m_registration->preferUnregistered();
                           raisePanel("registrationDock");
                         });
   m_mrBanner->addButton("dismissMr", tr("Close"), [this] { m_mrBanner->hide(); });
@@ -643,7 +644,11 @@ void MainWindow::connectActions()
           [this](const QString& name) { m_keeper->renamePart(bytes(name)); });
   connect(m_keeper, &CaseDocumentController::added, this,
           [this](bool onlyImages)
-          { raisePanel(onlyImages ? "registrationDock" : "structuresDock"); });
+          {
+            if (onlyImages)
+              m_registration->preferUnregistered();
+            raisePanel(onlyImages ? "registrationDock" : "structuresDock");
+          });
   on(m_actions->openImage, [this] { m_keeper->openFiles(); });
   on(m_actions->openCase, [this] { showLibrary(); });
   connect(m_library, &LibraryController::panelWanted, this, &MainWindow::showLibrary);
@@ -1289,6 +1294,9 @@ void MainWindow::showView(rendering::StandardView view)
 {
   if (!m_model.hasCase())
     return;
+  if (const QString former = std::exchange(m_earDoubt, {});
+      !former.isEmpty() && statusBar()->currentMessage() == former)
+    statusBar()->clearMessage();
   m_view->setCamera(presenters::standardCamera(m_model.value(), view));
   if (view != rendering::StandardView::SurgicalLeft &&
       view != rendering::StandardView::SurgicalRight)
@@ -1296,8 +1304,10 @@ void MainWindow::showView(rendering::StandardView view)
   const bool isLeft = view == rendering::StandardView::SurgicalLeft;
   const std::string doubt =
       presenters::earDoubt(m_model.value(), isLeft ? scene::Side::Left : scene::Side::Right);
-  if (!doubt.empty())
-    statusBar()->showMessage(phrase(doubt));
+  if (doubt.empty())
+    return;
+  m_earDoubt = phrase(doubt);
+  statusBar()->showMessage(m_earDoubt);
 }
 
 // A view from the other side would stand under the name of this one.

@@ -163,6 +163,7 @@ private:
   Banner* m_mrBanner;
   Banner* m_sideBanner;
   QStringList m_notesTold;
+  QString m_earDoubt;       // shown until another view is chosen
   QStringList m_notesShown; // above the pictures, not dismissed yet
   ProbeLabel* m_place;
   QLabel* m_sum;

@@ -317,6 +317,23 @@ TEST(Journal, IsMadeUnderTheNameThatItsCaseHasByNow)
   EXPECT_EQ(back.dissection.strokes().size(), 2u);
 }
 
+TEST(Journal, StaysWithTheOriginalOfAManifestThatWasCopiedByHand)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = savedCase(library);
+  Journal journal(library, value);
+  drillLine(value, journal, 0, 4);
+  Killed killed(library);
+  const fs::path cases = killed.folder.path() / "cases";
+  fs::copy_file(cases / "ear.json", cases / "ear backup.json");
+  EXPECT_EQ(killed.library.open("ear backup").dissection.strokes().size(), 0u);
+  EXPECT_TRUE(fs::exists(killed.journal()));
+  killed.library.remove("ear backup");
+  EXPECT_TRUE(fs::exists(killed.journal()));
+  EXPECT_EQ(voxelsOf(killed.open()), voxelsOf(value));
+}
+
 // As if the case was renamed just when the journal was made, or moved there by hand.
 TEST(Journal, IsFoundByTheIdOfItsCase)
 {

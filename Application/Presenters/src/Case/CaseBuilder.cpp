@@ -385,7 +385,6 @@ struct ReadImage
   scene::ImagePart part;
   imaging::PatientKey patient; // whose it is, before it is hashed
   OtherQuantity otherQuantity;
-  bool isStatedHu = false; // by the file
   /// Of the whole image where the part is a box of it.
   std::optional<volume::IntensityHistogram> whole = std::nullopt;
 };
@@ -513,10 +512,6 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
     read.patient = patientOf(series);
     part.patient = patientHash(read.patient);
     read.otherQuantity = otherQuantity(series);
-    const auto& slices = series.geometry.slices;
-    read.isStatedHu = series.modality == "CT" &&
-                      std::all_of(slices.begin(), slices.end(),
-                                  [](const auto& slice) { return slice.rescaleType == "HU"; });
     if (isPrimary && options.roi)
       read.whole = histogramOf(series, progress.part(0.9, 1.0));
     part.modality = series.modality == "MR"   ? scene::Modality::Mr
@@ -563,9 +558,6 @@ void noteBeyondCt(scene::ImagePart& image)
                           ", beyond those of any CT (-10000 to 100000): voxels are damaged, or the "
                           "slope that the file states is wrong.");
 }
-
-constexpr double kLowestHu = -4096.0; // of 12 and 13 bits, padding too
-constexpr double kHighestHu = 32767.0;
 
 // Cone-beam and micro-CT have units of their own, in which 300 may be air or nothing at all; an MR
 // always has, and shows no surface of bone.
@@ -629,14 +621,7 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const ReadImage& r
                           "a CT in Hounsfield units.");
     return;
   }
-  // Of an image without air or soft tissue the histogram says nothing of its unit; the file does.
-  const bool isStatedHu = read.isStatedHu && !scale.soft && histogram.range().min >= kLowestHu &&
-                          histogram.range().max <= kHighestHu;
-  if (isStatedHu && !scale.calibrated)
-    image.notes.push_back("The file says that its values are Hounsfield units. They show too "
-                          "little air or soft tissue to tell whether that is so: look whether the "
-                          "surface of bone lies where it belongs.");
-  if (scale.calibrated || isStatedHu)
+  if (scale.calibrated)
   {
     image.modality = Modality::Ct;
     return;

@@ -114,10 +114,10 @@ std::vector<std::string> namesWithin(const std::string& word)
 // "123456b": an ID with letters behind it.
 std::string withoutLettersBehind(const std::string& word)
 {
-  constexpr std::size_t kMost = 2;
+  constexpr std::size_t kMost = 2, kLeast = 4; // "3D" and "7T" are words of the field
   const std::size_t end = word.find_last_of("0123456789") + 1;
-  return end > 0 && end < word.size() && word.size() - end <= kMost ? word.substr(0, end)
-                                                                    : std::string();
+  return end >= kLeast && end < word.size() && word.size() - end <= kMost ? word.substr(0, end)
+                                                                          : std::string();
 }
 
 bool isCapital(const std::string& word)

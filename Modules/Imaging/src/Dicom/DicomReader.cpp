@@ -220,45 +220,55 @@ private:
                : IntensityVolume(std::shared_ptr<const Volume<T>>(voxels));
   }
 
-  /// Where slices disagree whether pixels are signed, the highest stored bit of an unsigned one
-  /// would make a large value that the others would have as a negative one: air would be metal.
+  /// Where slices of one rescale disagree whether pixels are signed, the highest stored bit makes a
+  /// large value in one and a negative one in the other: air would be metal, or bone air.
   void judgeMixedSigns()
   {
-    std::size_t unlike = 0; // unsigned slices
-    std::size_t count = 0;
+    const auto inBox = [this](int k) -> const SliceHeader&
+    { return m_slices[static_cast<std::size_t>(k)]; };
+    const SliceHeader& first = inBox(m_box.lower[2]);
+    std::size_t counts[2] = {}; // unsigned, signed
     for (int k = m_box.lower[2]; k < m_box.upper[2]; ++k)
     {
-      const PixelFormat& pixels = m_slices[static_cast<std::size_t>(k)].pixels;
-      count += pixels.isReal ? 0 : 1;
-      unlike += pixels.isReal || pixels.isSigned ? 0 : 1;
+      const SliceHeader& slice = inBox(k);
+      if (slice.pixels.isReal || slice.slope != first.slope || slice.intercept != first.intercept ||
+          slice.pixels.bitsStored != first.pixels.bitsStored)
+        return;
+      ++counts[slice.pixels.isSigned ? 1 : 0];
     }
-    if (unlike == 0 || unlike == count)
+    if (counts[0] == 0 || counts[1] == 0)
       return;
+    // Negative values are what most slices are signed for; large ones are of no CT.
+    const bool areFewSigned = counts[1] < counts[0];
     StoredPixels pixels;
     for (int k = m_box.lower[2]; k < m_box.upper[2]; ++k)
     {
-      const SliceHeader& slice = m_slices[static_cast<std::size_t>(k)];
-      if (slice.pixels.isReal || slice.pixels.isSigned)
+      const SliceHeader& slice = inBox(k);
+      const bool isSigned = slice.pixels.isSigned;
+      if (isSigned && !areFewSigned)
         continue;
       m_progress.check("reading slices");
       decodePixels(slice, pixels, UndeclaredBits::LeaveOut);
       const PaddingRange<double> padding(slice, true);
       const double half = std::ldexp(1.0, slice.pixels.bitsStored - 1);
-      std::size_t large = 0;
+      std::size_t unclear = 0;
       for (std::size_t n = 0; n < pixels.size(); ++n)
-        large += pixels.at(n) >= half && !padding.contains(pixels.at(n)) ? 1 : 0;
-      if (large > 0)
+      {
+        const double value = pixels.at(n);
+        unclear += (isSigned ? value < 0.0 : value >= half) && !padding.contains(value) ? 1 : 0;
+      }
+      if (unclear > 0)
         throw DicomError(DicomError::Reason::Unreadable,
-                         slice.file.filename().string() +
-                             " says that its pixels are unsigned, and other slices of the series "
-                             "that theirs are signed (Pixel Representation): " +
-                             std::to_string(large) + (large == 1 ? " value" : " values") +
-                             " from " + decimals(rescaled(slice, half), 0) +
-                             " up would be negative if it is as the others. Export the series "
-                             "again");
+                         slice.file.filename().string() + " says that its pixels are " +
+                             (isSigned ? "signed" : "unsigned") +
+                             ", and other slices of the series that theirs are not (Pixel "
+                             "Representation): " +
+                             std::to_string(unclear) + (unclear == 1 ? " value" : " values") +
+                             " would be another one if it is as they are. Export the series again");
     }
-    note("Of " + std::to_string(count) + " slices " + std::to_string(unlike) +
-         (unlike == 1 ? " says" : " say") +
+    const std::size_t count = counts[0] + counts[1];
+    note("Of " + std::to_string(count) + " slices " + std::to_string(counts[0]) +
+         (counts[0] == 1 ? " says" : " say") +
          " that the pixels are unsigned, the others that they are signed; no value depends on it.");
   }
 

@@ -742,27 +742,35 @@ Shares sharesOf(const Placed& placed, const core::GridGeometry& grid,
 /// Which voxels of the box are the structure's.
 std::vector<char> chosen(const Shares& shares)
 {
-  // In steps of 1/256, as shares that are equal but for rounding are: else all sides of a box at
-  // which the share is the same, but for one, would stay out. 0: nothing of it.
-  const auto levelOf = [](std::uint16_t share) { return (share + std::size_t{255}) / 256; };
-  std::vector<std::size_t> counts(257, 0);
+  std::vector<std::size_t> counts(65536, 0);
   for (const std::uint16_t share : shares.values)
-    ++counts[levelOf(share)];
+    ++counts[share];
   auto wanted = static_cast<std::size_t>(std::llround(shares.sum));
-  std::size_t level = 256;
+  std::size_t level = 65535;
   std::size_t above = 0; // voxels of a larger share
   while (level > 0 && above + counts[level] <= wanted)
     above += counts[level--];
-  // Of those at the level a part, evenly spread: in order, a sheet thinner than a voxel would be
-  // whole in its first slices and missing in the others.
+  // Shares that differ by no more than their error: along the lines they are exact, across them
+  // counted in lines, and else all that is taken would lie on the same sides. Not whole voxels.
+  constexpr std::size_t kError = 65536 / kLines;
+  const bool isExact = level == 0 || level == 65535; // all are taken, or whole voxels are divided
+  const std::size_t lowest = isExact ? level : level > kError ? level - kError : 1;
+  const std::size_t highest = isExact ? level : std::min(level + kError, std::size_t{65534});
+  std::size_t ties = 0;
+  for (std::size_t n = lowest; level > 0 && n <= highest; ++n)
+  {
+    ties += counts[n];
+    above -= n > level ? counts[n] : 0;
+  }
+  // Of those a part, evenly spread: in order, a sheet thinner than a voxel would be whole in its
+  // first slices and missing in the others.
   const std::size_t rest = level == 0 ? 0 : wanted - above;
-  const std::size_t ties = counts[level];
   std::size_t tie = 0;
   std::vector<char> in(shares.values.size(), 0);
   for (std::size_t n = 0; n < in.size(); ++n)
-    if (levelOf(shares.values[n]) > level)
+    if (shares.values[n] > highest)
       in[n] = 1;
-    else if (level > 0 && levelOf(shares.values[n]) == level)
+    else if (level > 0 && shares.values[n] >= lowest)
     {
       in[n] = (tie + 1) * rest / ties > tie * rest / ties ? 1 : 0;
       ++tie;

@@ -62,7 +62,8 @@ std::vector<fs::path> journalsOf(const fs::path& library, const std::string& nam
     if (file == own || file == own + ".new" || isAsideOf(own, file)
             ? !isOfOtherCase(entry->path(), id)
             : !id.empty() && fs::path(file).extension() == ".journal" &&
-                  caseIdIn(entry->path()) == id)
+                  caseIdIn(entry->path()) == id &&
+                  !isOfNamesake(entry->path().parent_path() / file, id))
       journals.push_back(entry->path());
   }
   return journals;

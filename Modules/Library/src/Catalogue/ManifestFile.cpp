@@ -397,6 +397,14 @@ bool hasCase(const fs::path& cases, const std::string& id)
 
 } // namespace
 
+// A manifest that was copied by hand has the ID of its original, whose journal stays with that.
+bool isOfNamesake(const fs::path& journal, const std::string& id)
+{
+  fs::path manifest = journal;
+  manifest.replace_extension(".json");
+  return idIn(manifest, manifest.stem().string()) == id;
+}
+
 fs::path journalOf(const fs::path& library, const std::string& name, const std::string& id)
 {
   const fs::path own = journalPath(library, name);
@@ -406,7 +414,8 @@ fs::path journalOf(const fs::path& library, const std::string& name, const std::
     return own;
   for (fs::directory_iterator entry(own.parent_path(), error), end;
        !id.empty() && !error && entry != end; entry.increment(error))
-    if (entry->path().extension() == ".journal" && caseIdIn(entry->path()) == id)
+    if (entry->path().extension() == ".journal" && caseIdIn(entry->path()) == id &&
+        !isOfNamesake(entry->path(), id))
       return entry->path();
   return isThere && !hasCase(own.parent_path(), caseIdIn(own)) ? own : fs::path();
 }

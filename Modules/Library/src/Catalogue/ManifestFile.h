@@ -120,6 +120,9 @@ std::optional<FileState> stateOf(const std::filesystem::path& path);
 
 Catalogue::Entry entryOf(const scene::Case& value, const FileState& state);
 
+/// Whether beside the journal lies a manifest of its own name with that ID.
+bool isOfNamesake(const std::filesystem::path& journal, const std::string& id);
+
 /// The journal of a case: the one with its ID, whatever its name, or the one with its name, unless
 /// that is of another case that is here or deleted. Empty if there is none. `id` may be empty.
 std::filesystem::path journalOf(const std::filesystem::path& library, const std::string& name,

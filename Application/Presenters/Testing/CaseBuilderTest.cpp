@@ -66,6 +66,20 @@ protected:
   }
   void TearDown() override { std::filesystem::remove_all(m_folder); }
 
+  /// Of the structures in label maps.
+  static std::pair<std::set<std::string>, std::string> namesAndNotes(const scene::Case& value)
+  {
+    std::pair<std::set<std::string>, std::string> result;
+    for (const auto& part : value.labels)
+    {
+      for (const auto& structure : part.structures)
+        result.first.insert(structure.name);
+      for (const std::string& note : part.notes)
+        result.second += note + "\n";
+    }
+    return result;
+  }
+
   /// A CT (`file` is "ct") or MR series of this patient.
   PartSource writeSeriesOf(const std::string& file, const std::string& id,
                            const std::string& name) const
@@ -1282,15 +1296,7 @@ TEST_F(CaseBuilder, NumbersTheMasksOfAFolderThatReadTheSame)
     write(folder / "stapes.nii", 7);
     m_sources.parts.labels = {{"", folder}};
     const auto value = presenters::buildCase("ear", m_sources, {});
-    std::set<std::string> names;
-    std::string notes;
-    for (const auto& part : value.labels)
-    {
-      for (const auto& structure : part.structures)
-        names.insert(structure.name);
-      for (const std::string& note : part.notes)
-        notes += note + "\n";
-    }
+    const auto [names, notes] = namesAndNotes(value);
     EXPECT_EQ(names, (std::set<std::string>{"Incus", "incus 2", "stapes"}));
     EXPECT_NE(notes.find("'incus 2' has a number, as other files of the folder give names that "
                          "read the same"),
@@ -1836,15 +1842,7 @@ TEST_F(CaseBuilder, KeepsTheSideInTheNamesOfAFolderAndSaysWhatItLeavesOut)
     imaging::writeLabelFile(folder / ("Doe_" + std::string(name) + ".nii.gz"), labels);
   m_sources.parts.labels = {{"", folder}};
   const auto value = presenters::buildCase("ear", m_sources, {});
-  std::set<std::string> names;
-  std::string notes;
-  for (const auto& part : value.labels)
-  {
-    for (const auto& structure : part.structures)
-      names.insert(structure.name);
-    for (const std::string& note : part.notes)
-      notes += note + "\n";
-  }
+  const auto [names, notes] = namesAndNotes(value);
   EXPECT_EQ(names, (std::set<std::string>{"facial_nerve_sin", "cochlea_sin", "stapes_sin",
                                           "facial_nerve_dx"}));
   EXPECT_NE(notes.find("1 word of the files' names"), std::string::npos) << notes;

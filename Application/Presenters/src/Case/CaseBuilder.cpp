@@ -17,6 +17,7 @@
 #include "MeshForm.h"
 #include "MeshSpace.h"
 #include "PatientHashes.h"
+#include "ThinSeries.h"
 #include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/Fingerprint.h"
@@ -413,17 +414,10 @@ std::optional<volume::IntensityHistogram> histogramOf(const imaging::DicomSeries
   return histogramOf(
       [&](std::size_t count)
       {
-        imaging::DicomSeries few = series;
-        const auto& slices = series.geometry.slices;
-        std::vector<imaging::SliceHeader> chosen;
-        const std::size_t step = std::max<std::size_t>(slices.size() / count, 1);
-        for (std::size_t n = 0; n < slices.size(); n += step)
-          chosen.push_back(slices[n]);
-        few.geometry = imaging::assess(std::move(chosen));
         imaging::ReadOptions options;
         options.acceptDefects = true; // where a slice lies does not matter here
         options.undeclaredBits = imaging::UndeclaredBits::LeaveOut;
-        return imaging::readSeries(few, options, progress);
+        return imaging::readSeries(thinSeries(series, count), options, progress);
       });
 }
 
@@ -815,14 +809,14 @@ std::optional<std::string> drawnOn(const scene::Case& value, const PartSource& s
 std::string repairedNote(const scene::ImagePart& ct)
 {
   const auto& done = ct.provenance;
-  const int between = volume::sliceCount(done.interpolated);
-  const auto [first, last] = std::minmax({done.shift, between * ct.geometry.spacing()[2]});
-  if (!(last > 0.0))
+  const double between = volume::sliceCount(done.interpolated) * ct.geometry.spacing()[2];
+  const double apart = done.shift + between;
+  if (!(apart > 0.0))
     return {};
   return "has another grid than the CT, which was repaired. If it was drawn on the slices as they "
          "lie in the files, by a program that takes them for straight and even, it lies elsewhere "
          "by up to " +
-         core::fixedText(first + last, 1) + " mm: look whether it fits the bone";
+         core::fixedText(apart, 1) + " mm: look whether it fits the bone";
 }
 
 // Before an MR is added that may have the same grid as another one.

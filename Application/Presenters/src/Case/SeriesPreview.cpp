@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "ThinSeries.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
@@ -42,18 +43,9 @@ ScanPreview previewOf(volume::IntensityVolume image, const core::GridGeometry& g
   return preview;
 }
 
-// Every few of the slices. An uneven step at the end would not be straight.
 imaging::DicomSeries thinnedOut(const imaging::DicomSeries& series)
 {
-  const auto& slices = series.geometry.slices;
-  const std::size_t step = std::max<std::size_t>(slices.size() / kSlices, 1);
-  if (step == 1)
-    return series;
-  std::vector<imaging::SliceHeader> few;
-  for (std::size_t n = 0; n < slices.size(); n += step)
-    few.push_back(slices[n]);
-  imaging::DicomSeries thin = series;
-  thin.geometry = imaging::assess(std::move(few));
+  imaging::DicomSeries thin = thinSeries(series, kSlices);
   return thin.geometry.verdict == imaging::Verdict::Ok ? thin : series;
 }
 
@@ -86,6 +78,20 @@ core::PatientBox slabOf(const core::GridGeometry& grid, SliceOrientation orienta
 }
 
 } // namespace
+
+imaging::DicomSeries thinSeries(const imaging::DicomSeries& series, std::size_t count)
+{
+  const auto& slices = series.geometry.slices;
+  const std::size_t step = std::max<std::size_t>(slices.size() / count, 1);
+  if (step == 1)
+    return series;
+  std::vector<imaging::SliceHeader> few;
+  for (std::size_t n = 0; n < slices.size(); n += step)
+    few.push_back(slices[n]);
+  imaging::DicomSeries thin = series;
+  thin.geometry = imaging::assess(std::move(few));
+  return thin;
+}
 
 std::size_t ScanPreview::voxelsIn(const core::PatientBox& box) const
 {

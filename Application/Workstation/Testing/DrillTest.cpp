@@ -27,7 +27,22 @@
 using namespace petrous;
 using namespace petrous::workstation;
 
-using Drill = GuiTest;
+class Drill : public GuiTest
+{
+protected:
+  /// A stroke of the open case, which another program has deleted.
+  void drillAndBringBack()
+  {
+    auto* banner = window().findChild<Banner*>("unsavedBanner");
+    drill(500);
+    ASSERT_TRUE(banner->isVisible());
+    ASSERT_TRUE(banner->findChild<QPushButton*>("bringBack")->isVisible())
+        << banner->text().toStdString();
+    banner->findChild<QPushButton*>("bringBack")->click();
+    EXPECT_TRUE(waitFor([&] { return !banner->isVisible() && settled(); }))
+        << banner->text().toStdString();
+  }
+};
 
 TEST_F(Drill, AStrokeRemovesBoneAndIsSavedAtOnce)
 {
@@ -698,14 +713,7 @@ TEST_F(Drill, OfTwoDeletedCasesOfOneNameTheOpenOneIsBroughtBack)
   const std::string later = other.open("ball").id;
   ASSERT_NE(later, id);
   other.remove("ball");
-  auto* banner = window().findChild<Banner*>("unsavedBanner");
-  drill(500);
-  ASSERT_TRUE(banner->isVisible());
-  ASSERT_TRUE(banner->findChild<QPushButton*>("bringBack")->isVisible())
-      << banner->text().toStdString();
-  banner->findChild<QPushButton*>("bringBack")->click();
-  EXPECT_TRUE(waitFor([&] { return !banner->isVisible() && settled(); }))
-      << banner->text().toStdString();
+  ASSERT_NO_FATAL_FAILURE(drillAndBringBack());
   const scene::Case back = other.open("ball");
   EXPECT_EQ(back.id, id);
   EXPECT_EQ(back.dissection.strokes().size(), 1u);
@@ -721,14 +729,7 @@ TEST_F(Drill, ACaseThatWasRenamedAndDeletedIsBroughtBackUnderItsNewName)
   const std::string id = other.open("ball").id;
   other.rename("ball", "sphere");
   other.remove("sphere");
-  auto* banner = window().findChild<Banner*>("unsavedBanner");
-  drill(500);
-  ASSERT_TRUE(banner->isVisible());
-  ASSERT_TRUE(banner->findChild<QPushButton*>("bringBack")->isVisible())
-      << banner->text().toStdString();
-  banner->findChild<QPushButton*>("bringBack")->click();
-  EXPECT_TRUE(waitFor([&] { return !banner->isVisible() && settled(); }))
-      << banner->text().toStdString();
+  ASSERT_NO_FATAL_FAILURE(drillAndBringBack());
   ASSERT_TRUE(other.contains("sphere"));
   const scene::Case back = other.open("sphere");
   EXPECT_EQ(back.id, id);

@@ -112,6 +112,13 @@ TEST(RendererVariant, TakesWhatTheSceneUsesAndNothingElse)
             (Names{"ct", "bone", "labels", "borders", "nested", "mask", "second", "interior"}));
   EXPECT_EQ(variantOf(fullSceneOfThree()), (Names{"ct", "bone", "labels", "borders", "nested",
                                                   "mask", "second", "third", "interior"}));
+  contents = hollowBall();
+  contents.light.shadows = true;
+  EXPECT_EQ(variantOf(contents), (Names{"ct", "bone", "shadows"}));
+  contents.tool = ToolPose();
+  EXPECT_EQ(variantOf(contents), (Names{"ct", "bone", "shadows", "tool"}));
+  contents.light.shadows = false;
+  EXPECT_EQ(variantOf(contents), (Names{"ct", "bone"}));
   contents = labelledBall(cube(48, 0.5), 1.0F);
   contents.boneShown = false;
   for (appearance::Material& material : contents.materials)

@@ -397,6 +397,7 @@ RayFeatures RayCaster::features(const Frame& frame) const
   features.clip = !m_contents.clipping.empty();
   features.shadows = m_contents.light.shadows;
   features.instrument = hasInstrument(frame);
+  features.tool = features.instrument || hasPlainTool(frame);
   features.tone = m_contents.light.toneCurve;
   features.exact = m_statistics.filterBits < RenderQuality::kExactFilterBits;
   features.rounded = features.exact && m_quality.filterBits > 0;
@@ -521,6 +522,12 @@ bool RayCaster::hasInstrument(const Frame& frame) const
 {
   return m_contents.light.shadows && m_instrument.texture && frame.tool &&
          tool::isShown(*frame.tool) && frame.tool->instrument == m_instrument.mesh;
+}
+
+bool RayCaster::hasPlainTool(const Frame& frame) const
+{
+  return m_contents.light.shadows && frame.tool && tool::isShown(*frame.tool) &&
+         !frame.tool->instrument;
 }
 
 // One that is put away or out of the picture stays, as does its measurement: it is often taken up

@@ -151,6 +151,7 @@ private:
   core::IndexBox followMeshes();
   void uploadInstrument(const Frame& frame);
   bool hasInstrument(const Frame& frame) const;
+  bool hasPlainTool(const Frame& frame) const;
   void findTissue(const core::IndexBox& bricks);
   void drawFovea(const Frame& frame);
   GlProgram& program(const Frame& frame, bool count);

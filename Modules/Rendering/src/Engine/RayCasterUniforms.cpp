@@ -307,7 +307,7 @@ void RayCaster::setShadows(GlUniforms& program, const Frame& frame) const
         "instrumentOffset",
         Eigen::Vector3d(texels.offset - texels.scale.cwiseProduct(place.lower) / place.edge));
   }
-  else if (frame.tool && tool::isShown(*frame.tool) && !frame.tool->instrument)
+  else if (hasPlainTool(frame))
   {
     const ToolPose& pose = *frame.tool;
     ball << grid.voxelFromPatient(pose.center), pose.radius;

@@ -43,6 +43,7 @@ constexpr Part kParts[] = {
     {&RayFeatures::clip, "PETROUS_CLIP", "clipping"},
     {&RayFeatures::thickness, "PETROUS_THICKNESS", "thickness"},
     {&RayFeatures::shadows, "PETROUS_SHADOWS", "shadows"},
+    {&RayFeatures::tool, "PETROUS_TOOL", "tool"},
     {&RayFeatures::instrument, "PETROUS_INSTRUMENT", "instrument"},
     {&RayFeatures::tone, "PETROUS_TONE", "tone"},
     {&RayFeatures::count, "PETROUS_COUNT", nullptr},
@@ -119,7 +120,8 @@ std::string toneCurveShader()
 
 std::string polygonShadowsShader()
 {
-  return "#define PETROUS_SHADOWS\n#define PETROUS_CLIP\n#define PETROUS_INSTRUMENT\n"
+  return "#define PETROUS_SHADOWS\n#define PETROUS_CLIP\n#define PETROUS_TOOL\n#define "
+         "PETROUS_INSTRUMENT\n"
          "#define COUNT(n)\n"
          "uniform vec3 boxLower, boxUpper;\n"
          "uniform mat3 voxelFromMm;\n"

@@ -26,7 +26,8 @@ struct RayFeatures
   bool clip = false;       ///< clipping planes
   bool thickness = false;  ///< bone is coloured by its distance to a structure
   bool shadows = false;    ///< ambient occlusion, and the lamp's shadow
-  bool instrument = false; ///< that casts shadows; with `shadows`
+  bool tool = false;       ///< that casts shadows; with `shadows`
+  bool instrument = false; ///< of a mesh; with `tool`
   bool tone = false;       ///< lit colours go through the tone curve
   bool count = false;      ///< texture fetches and samples are counted
   bool exact = false;      ///< values by a filter of our own: the card's rounds its weights

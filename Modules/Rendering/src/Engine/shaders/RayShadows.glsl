@@ -20,6 +20,7 @@ uniform vec3 stoppingLower, stoppingUpper; // voxels: a look-up towards the lamp
 uniform vec4 lamp; // w = 1: from the rays' common origin, mm; w = 0: towards it
 uniform vec3 pictureUp, pictureRight;
 uniform vec3 mmPerVoxel; // between the planes of voxels
+#ifdef PETROUS_TOOL
 uniform vec4 toolBall;   // centre, voxels, and radius, mm; radius 0: no tool
 uniform mat3 toolFromVoxel; // mm; z along the shaft
 uniform vec4 toolParts; // radius and end of the shaft, radius (0: none) and end of the handpiece, mm
@@ -28,6 +29,7 @@ uniform bool hasInstrument;
 uniform sampler3D instrumentTexture; // R32F: InstrumentDistance, mm
 uniform vec3 instrumentLower, instrumentUpper; // centres of its outer texels, mm from the tip
 uniform vec3 instrumentScale, instrumentOffset; // mm -> texture coordinate
+#endif
 #endif
 
 // Three cones around the normal for the hemisphere, a third of its light each, weighted by the
@@ -74,6 +76,7 @@ float ownOf(float height, float level, float texel)
   return kSlack + ofHalfSpace(height / (texel * exp2(level)));
 }
 
+#ifdef PETROUS_TOOL
 // `at`: from the axis and along it.
 float cylinderAt(vec2 at, float radius, float first, float last)
 {
@@ -120,6 +123,7 @@ float lampPastTool(vec3 v, vec3 by)
   float beyond = clamp(least, -1.0, 1.0);
   return 0.5 + (beyond * sqrt(1.0 - beyond * beyond) + asin(beyond)) / 3.14159265;
 }
+#endif
 
 // Share of tissue around a point beyond `own`, and the mean of what it stops.
 vec2 tissueAt(vec3 v, float level, float own)
@@ -134,11 +138,15 @@ vec2 tissueAt(vec3 v, float level, float own)
 vec2 stoppersAt(vec3 v, float level, float own, float width)
 {
   vec2 tissue = tissueAt(v, level, own);
-  if (toolBall.w <= 0.0)
-    return tissue;
-  float tool = clamp(0.5 - toolAt(v) / width, 0.0, 1.0);
-  float both = tool + (1.0 - tool) * tissue.x;
-  return vec2(both, (tool + (1.0 - tool) * tissue.x * tissue.y) / max(both, 1e-6));
+#ifdef PETROUS_TOOL
+  if (toolBall.w > 0.0)
+  {
+    float tool = clamp(0.5 - toolAt(v) / width, 0.0, 1.0);
+    float both = tool + (1.0 - tool) * tissue.x;
+    tissue = vec2(both, (tool + (1.0 - tool) * tissue.x * tissue.y) / max(both, 1e-6));
+  }
+#endif
+  return tissue;
 }
 
 // Of the light from all around, within kOcclusionReach. From slice to slice the cones are half a
@@ -209,7 +217,11 @@ float lampAt(vec3 v, vec3 normal, vec3 way, float texel, bool wanted)
   }
   if (!wanted)
     return 1.0;
-  return max(seen, 0.0) * (toolBall.w > 0.0 ? lampPastTool(v, by) : 1.0);
+#ifdef PETROUS_TOOL
+  if (toolBall.w > 0.0)
+    seen *= lampPastTool(v, by);
+#endif
+  return max(seen, 0.0);
 }
 
 // `normal`: in mm, unit, towards the camera; `ray`: its direction in mm, unit; `hit`: mm.

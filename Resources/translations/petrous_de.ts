@@ -691,7 +691,7 @@
     </message>
     <message>
         <source>recovered after the program had ended</source>
-        <translation>wiedergewonnen, nachdem das Programm geendet hatte</translation>
+        <translation>nach einem Abbruch des Programms wiederhergestellt</translation>
     </message>
     <message>
         <source>Strokes of all approaches</source>
@@ -1621,7 +1621,7 @@ Koordinaten: %1</translation>
     </message>
     <message>
         <source>Put air in place of the &amp;face</source>
-        <translation>Luft an die Stelle des &amp;Gesichts setzen</translation>
+        <translation>Das &amp;Gesicht durch Luft ersetzen</translation>
     </message>
     <message>
         <source>In front of a plane about 50 mm behind the tip of the nose. What is segmented or drilled and the temporal bones stay; the case here does not change</source>
@@ -1867,7 +1867,7 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     </message>
     <message>
         <source>Put air in place of the &amp;face, and leave out %1</source>
-        <translation>Luft an die Stelle des &amp;Gesichts setzen und weglassen: %1</translation>
+        <translation>Das &amp;Gesicht durch Luft ersetzen; nicht mit ins Archiv: %1</translation>
     </message>
     <message>
         <source>Bring back</source>
@@ -2067,7 +2067,7 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     </message>
     <message>
         <source>They hold for all cases of this library, also for the command. The removal laws take the cutting energy and friction for a cutting burr, the hardness for a diamond one.</source>
-        <translation>Sie gelten für alle Fälle dieser Bibliothek, auch für den Befehl. Die Abtragsgesetze nehmen bei einer Schneidfräse Schnittenergie und Reibung, bei einer Diamantfräse die Härte.</translation>
+        <translation>Sie gelten für alle Fälle dieser Bibliothek, auch für den Befehl. Die Abtragsgesetze nehmen bei einer schneidenden Fräse Schnittenergie und Reibung, bei einer Diamantfräse die Härte.</translation>
     </message>
     <message>
         <source>&amp;Add</source>
@@ -2422,7 +2422,7 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     </message>
     <message>
         <source>&amp;Put air in place of the face in CT and MR series</source>
-        <translation>&amp;Luft an die Stelle des Gesichts in CT- und MR-Serien setzen</translation>
+        <translation>Das Gesicht in CT- und MR-Serien durch &amp;Luft ersetzen</translation>
     </message>
     <message>
         <source>In front of a plane about 50 mm behind the tip of the nose. Images that are in no such volume are left out, and named</source>
@@ -2725,11 +2725,11 @@ X oder die zweite Taste des Geräts, gehalten: Nur die Hand bewegt sich.</transl
     </message>
     <message>
         <source>&amp;Test the device…</source>
-        <translation>Gerät &amp;testen …</translation>
+        <translation>Gerät &amp;testen…</translation>
     </message>
     <message>
         <source>&amp;Connect a device…</source>
-        <translation>Gerät &amp;anschließen …</translation>
+        <translation>Gerät &amp;anschließen…</translation>
     </message>
     <message>
         <source>Workspace, directions of the forces, and the stiffness that it bears</source>
@@ -2813,7 +2813,7 @@ Ohne ihn dreht Ziehen den Patienten.</translation>
     <message>
         <source>The wheel moves the burr in depth, 0.25 mm a notch, with Shift a fifth of it (M); how far it is wanted in the tissue is how hard it presses, 1 N for a mm.
 Without it the burr lies on the tissue and is pressed with the thrust. Ctrl with the wheel zooms.</source>
-        <translation>Das Rad bewegt die Fräse in die Tiefe, 0.25 mm je Raste, mit Umschalt ein Fünftel davon (M); wie weit sie im Gewebe sein soll, ist, wie fest sie drückt, 1 N je mm.
+        <translation>Das Rad bewegt die Fräse in die Tiefe, 0,25 mm je Raste, mit Umschalt ein Fünftel davon (M); wie weit sie im Gewebe sein soll, ist, wie fest sie drückt, 1 N je mm.
 Ohne dies liegt die Fräse auf dem Gewebe und wird mit dem Andruck gedrückt. Strg mit dem Rad zoomt.</translation>
     </message>
     <message>
@@ -2835,8 +2835,8 @@ Ohne dies liegt die Fräse auf dem Gewebe und wird mit dem Andruck gedrückt. St
     <message>
         <source>How hard a hand without force (mouse, SpaceMouse) presses the burr on the tissue, N: the harder, the faster it goes in.
 The wheel changes it while the burr drills, 0.5 N a notch, with Shift a fifth of it. While Shift is held, it is twice as large</source>
-        <translation>Wie fest eine Hand ohne Kraft (Maus, SpaceMouse) die Fräse auf das Gewebe drückt, N: je fester, desto schneller dringt sie ein.
-Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein Fünftel davon. Solange Umschalt gehalten wird, ist es doppelt so groß</translation>
+        <translation>Andruck, mit dem eine Hand ohne Kraft (Maus, SpaceMouse) die Fräse auf das Gewebe drückt, N: je fester, desto schneller dringt sie ein.
+Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein Fünftel davon. Solange Umschalt gehalten wird, ist er doppelt so groß</translation>
     </message>
     <message>
         <source>I&amp;nstrument</source>
@@ -2947,11 +2947,11 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     </message>
     <message>
         <source>The burr lies on %1, which is set not to be drilled</source>
-        <translation>Die Fräse liegt auf %1, wo laut Einstellung nicht gebohrt wird</translation>
+        <translation>Die Fräse liegt auf %1; laut Einstellung wird diese Struktur nicht gebohrt</translation>
     </message>
     <message>
         <source>The burr is pressed and makes no way: what holds it is not taken at this thrust and speed</source>
-        <translation>Die Fräse wird gedrückt und kommt nicht voran: Was sie hält, wird bei diesem Andruck und dieser Drehzahl nicht abgetragen</translation>
+        <translation>Die Fräse wird angedrückt und kommt nicht voran: Was sie hält, wird bei diesem Andruck und dieser Drehzahl nicht abgetragen</translation>
     </message>
     <message>
         <source>The device turns the handpiece by itself</source>
@@ -3038,7 +3038,7 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <name>petrous::workstation::DrillSound</name>
     <message>
         <source>The sound output is gone; the drill is not heard any more</source>
-        <translation>Die Tonausgabe ist weg; die Fräse ist nicht mehr zu hören</translation>
+        <translation>Die Tonausgabe ist weg; der Bohrer ist nicht mehr zu hören</translation>
     </message>
 </context>
 <context>
@@ -3216,7 +3216,7 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     </message>
     <message>
         <source>Put air in place of the &amp;face</source>
-        <translation>Luft an die Stelle des &amp;Gesichts setzen</translation>
+        <translation>Das &amp;Gesicht durch Luft ersetzen</translation>
     </message>
     <message>
         <source>Export from “%1”</source>
@@ -3400,10 +3400,6 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <translation>Schritt</translation>
     </message>
     <message>
-        <source>0.1 mm, 0.1°</source>
-        <translation>0.1 mm, 0.1°</translation>
-    </message>
-    <message>
         <source>1 mm, 1°</source>
         <translation>1 mm, 1°</translation>
     </message>
@@ -3475,6 +3471,10 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <source>Not moved by hand</source>
         <translation>Nicht von Hand bewegt</translation>
     </message>
+    <message>
+        <source>0.1 mm, 0.1°</source>
+        <translation>0,1 mm, 0,1°</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::KeyList</name>
@@ -3544,7 +3544,7 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     </message>
     <message>
         <source>Drill, while the drill is on</source>
-        <translation>Bohren, während das Bohren an ist</translation>
+        <translation>Bohren, solange der Bohrer eingeschaltet ist</translation>
     </message>
     <message>
         <source>Space, or the left button</source>
@@ -3637,6 +3637,18 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>Where an MR lies over the slice; with Shift by the larger step</source>
         <translation>Wo ein MR über der Schicht liegt; mit Umschalt um den größeren Schritt</translation>
+    </message>
+    <message>
+        <source>Back from the enlarged view</source>
+        <translation>Zurück aus der vergrößerten Ansicht</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>Of a slice, too</source>
+        <translation>Auch aus einer Schicht</translation>
     </message>
 </context>
 <context>
@@ -3833,7 +3845,7 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     </message>
     <message>
         <source>No picture was made: it would show neither bone nor a structure</source>
-        <translation>Es wurde kein Bild erstellt: Es zeigte weder Knochen noch eine Struktur</translation>
+        <translation>Es wurde kein Bild erstellt: Es würde weder Knochen noch eine Struktur zeigen</translation>
     </message>
     <message>
         <source>Verifying the library</source>
@@ -4116,7 +4128,7 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     </message>
     <message>
         <source>Cases that bear this tag</source>
-        <translation>Fälle mit diesem Stichwort</translation>
+        <translation>Fälle mit diesem Schlagwort</translation>
     </message>
     <message>
         <source>The search reads the notes of the cases, too</source>
@@ -4155,7 +4167,7 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     </message>
     <message>
         <source>The drill is off while a segment tool is in use; Esc puts that away</source>
-        <translation>Das Bohren ist aus, solange ein Segmentierwerkzeug benutzt wird; Esc legt es weg</translation>
+        <translation>Der Bohrer ist aus, solange ein Segmentierwerkzeug benutzt wird; Esc legt es weg</translation>
     </message>
     <message>
         <source>Open a case first</source>
@@ -4685,7 +4697,7 @@ Das Instrument wird an Punkten gemessen: Dazwischen kann es %1 mm näher sein</t
     </message>
     <message>
         <source>strokes</source>
-        <translation>Bohrzüge</translation>
+        <translation>Bohrzügen</translation>
     </message>
     <message>
         <source>
@@ -4730,7 +4742,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>By which the node is called: 1 to 16 characters. Whoever runs the node knows it</source>
-        <translation>Womit der Knoten gerufen wird: 1 bis 16 Zeichen. Wer den Knoten betreibt, kennt es</translation>
+        <translation>Womit der Knoten angerufen wird: 1 bis 16 Zeichen. Wer den Knoten betreibt, kennt es</translation>
     </message>
     <message>
         <source>By which the node knows this computer: it has to be entered there</source>
@@ -4746,11 +4758,11 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>Name or IP address in the node&apos;s certificate, where it is not the host; * if any of the trusted certificates will do, as where the node&apos;s own is the only one</source>
-        <translation>Name oder IP-Adresse im Zertifikat des Knotens, wo es nicht der Host ist; * wenn jedes der vertrauten Zertifikate genügt, etwa weil das des Knotens das einzige ist</translation>
+        <translation>Name oder IP-Adresse im Zertifikat des Knotens, wo es nicht der Host ist; * wenn jedes der vertrauenswürdigen Zertifikate genügt, etwa weil das des Knotens das einzige ist</translation>
     </message>
     <message>
         <source>Certificates to trust</source>
-        <translation>Vertraute Zertifikate</translation>
+        <translation>Vertrauenswürdige Zertifikate</translation>
     </message>
     <message>
         <source>Certificate of this computer</source>
@@ -4830,7 +4842,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>&amp;Trusted certificates:</source>
-        <translation>Vertra&amp;ute Zertifikate:</translation>
+        <translation>Vertra&amp;uenswürdig:</translation>
     </message>
     <message>
         <source>Name &amp;in its certificate:</source>
@@ -4850,7 +4862,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>Keeps the node in the library, without any secret</source>
-        <translation>Behält den Knoten in der Bibliothek, ohne jedes Geheimnis</translation>
+        <translation>Nimmt den Knoten in die Bibliothek auf, ohne jedes Geheimnis</translation>
     </message>
     <message>
         <source>Te&amp;st</source>
@@ -4858,7 +4870,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>Calls the node (C-ECHO), kept or not</source>
-        <translation>Ruft den Knoten (C-ECHO), ob behalten oder nicht</translation>
+        <translation>Ruft den Knoten an (C-ECHO), ob er aufgenommen ist oder nicht</translation>
     </message>
     <message>
         <source>&amp;Remove</source>
@@ -4886,7 +4898,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>“%1” is kept. Test calls it.</source>
-        <translation>„%1“ ist behalten. Testen ruft ihn.</translation>
+        <translation>„%1“ ist aufgenommen. Testen ruft ihn an.</translation>
     </message>
     <message>
         <source>“%1” answers, after %2 ms.</source>
@@ -4894,7 +4906,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>Calling “%1”…</source>
-        <translation>„%1“ wird gerufen…</translation>
+        <translation>„%1“ wird angerufen…</translation>
     </message>
     <message>
         <source>“%1” is removed. To take it back, press Add now.</source>
@@ -5083,11 +5095,11 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>Skin, fat and muscle are drawn, translucent: what is neither bone nor a structure. The Appearance panel has their colours and opacities</source>
-        <translation>Haut, Fett und Muskeln werden durchscheinend dargestellt: was weder Knochen noch eine Struktur ist. Farben und Deckkräfte stehen in der Leiste Darstellung</translation>
+        <translation>Haut, Fett und Muskeln werden durchscheinend gezeichnet: was weder Knochen noch eine Struktur ist. Farben und Deckkräfte stehen im Bereich Darstellung</translation>
     </message>
     <message>
         <source>Not drawn: %1</source>
-        <translation>Nicht dargestellt: %1</translation>
+        <translation>Nicht gezeichnet: %1</translation>
     </message>
     <message>
         <source>What is brighter than 80 % rolls off towards white instead of burning out; bright colours of structures become a little darker than in their list</source>
@@ -5095,7 +5107,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>What lies below the surface threshold and is no structure is drawn, translucent. The Appearance panel has its colours and opacities</source>
-        <translation>Was unter der Oberflächenschwelle liegt und keine Struktur ist, wird durchscheinend dargestellt. Farben und Deckkräfte stehen in der Leiste Darstellung</translation>
+        <translation>Was unter der Oberflächenschwelle liegt und keine Struktur ist, wird durchscheinend gezeichnet. Farben und Deckkräfte stehen im Bereich Darstellung</translation>
     </message>
     <message>
         <source>Ed&amp;ges</source>
@@ -5184,7 +5196,7 @@ Verletzt: %1, %2</translation>
     <name>petrous::workstation::ProbeLabel</name>
     <message>
         <source>Under the pointer: patient position from the scanner&apos;s zero (mm; R right, L left, A anterior, P posterior, I inferior, S superior), value of the image that is seen, structure</source>
-        <translation>Unter dem Mauszeiger: Ort im Patienten vom Nullpunkt des Scanners (mm; R rechts, L links, A vorn, P hinten, I unten, S oben), Wert des sichtbaren Bildes, Struktur</translation>
+        <translation>Unter dem Mauszeiger: Ort im Patienten vom Nullpunkt des Scanners aus (mm; R rechts, L links, A vorn, P hinten, I unten, S oben), Wert des sichtbaren Bildes, Struktur</translation>
     </message>
 </context>
 <context>
@@ -5869,11 +5881,11 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>The case has no other MR; add one with Case &gt; Add MR…</source>
-        <translation>Der Fall hat keine andere MR; fügen Sie eine mit Fall &gt; MR hinzufügen … hinzu</translation>
+        <translation>Der Fall hat kein anderes MR; fügen Sie eines hinzu: Fall &gt; MR hinzufügen…</translation>
     </message>
     <message>
         <source>The case has no MR; add one with Case &gt; Add MR…</source>
-        <translation>Der Fall hat keine MR; fügen Sie eine mit Fall &gt; MR hinzufügen … hinzu</translation>
+        <translation>Der Fall hat kein MR; fügen Sie eines hinzu: Fall &gt; MR hinzufügen…</translation>
     </message>
     <message>
         <source>Undo %1 (Ctrl+Alt+Z)</source>
@@ -5882,6 +5894,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Redo %1 (Ctrl+Alt+Y)</source>
         <translation>%1 wiederholen (Strg+Alt+Y)</translation>
+    </message>
+    <message>
+        <source>Open a case first</source>
+        <translation>Öffnen Sie zuerst einen Fall</translation>
     </message>
 </context>
 <context>
@@ -5916,7 +5932,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>Re&amp;gion</source>
-        <translation>&amp;Bereich</translation>
+        <translation>Ausschn&amp;itt</translation>
     </message>
     <message>
         <source>Where the error is stated. The middle ear: an ossicle, or else the tympanic cavity or the inner ear; without these the centre of what both images show</source>
@@ -6070,11 +6086,11 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>Play recording</source>
-        <translation>Aufnahme abspielen</translation>
+        <translation>Aufzeichnung abspielen</translation>
     </message>
     <message>
         <source>Pause recording</source>
-        <translation>Aufnahme anhalten</translation>
+        <translation>Aufzeichnung anhalten</translation>
     </message>
 </context>
 <context>
@@ -6129,7 +6145,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>Nearest</source>
-        <translation>Nächster</translation>
+        <translation>Kleinster Abstand</translation>
     </message>
     <message>
         <source>Drilled</source>
@@ -6189,7 +6205,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>Time drilling</source>
-        <translation>Zeit bohrend</translation>
+        <translation>Bohrzeit</translation>
     </message>
     <message>
         <source>Drill switched on</source>
@@ -6205,11 +6221,11 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>Path drilling</source>
-        <translation>Weg bohrend</translation>
+        <translation>Weg beim Bohren</translation>
     </message>
     <message>
         <source>Mean force drilling</source>
-        <translation>Mittlere Kraft bohrend</translation>
+        <translation>Mittlere Kraft beim Bohren</translation>
     </message>
     <message>
         <source>Largest force</source>
@@ -6241,7 +6257,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>Recording</source>
-        <translation>Aufnahme</translation>
+        <translation>Aufzeichnung</translation>
     </message>
     <message>
         <source>No recording yet</source>
@@ -6253,7 +6269,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>Mean speed drilling</source>
-        <translation>Mittlere Drehzahl bohrend</translation>
+        <translation>Mittlere Drehzahl beim Bohren</translation>
     </message>
     <message>
         <source>/min</source>
@@ -6984,7 +7000,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>Put air in place of the &amp;face</source>
-        <translation>Luft an die Stelle des &amp;Gesichts setzen</translation>
+        <translation>Das &amp;Gesicht durch Luft ersetzen</translation>
     </message>
     <message>
         <source>Send “%1”</source>
@@ -7683,7 +7699,7 @@ Rot und schraffiert: weggebohrt.</translation>
     </message>
     <message>
         <source>none</source>
-        <translation>keines</translation>
+        <translation>keine</translation>
     </message>
     <message>
         <source>&amp;Slab</source>
@@ -7744,7 +7760,7 @@ Nichts verlässt diesen Rechner.</translation>
     </message>
     <message>
         <source>Computes an artificial right temporal bone (0.3 mm voxels) and opens it</source>
-        <translation>Berechnet ein künstliches rechtes Felsenbein (Voxel von 0.3 mm) und öffnet es</translation>
+        <translation>Berechnet ein künstliches rechtes Felsenbein (Voxel von 0,3 mm) und öffnet es</translation>
     </message>
     <message>
         <source>Open DICOM…</source>
@@ -8030,15 +8046,15 @@ Nichts verlässt diesen Rechner.</translation>
     </message>
     <message>
         <source>%1 (not drawn)</source>
-        <translation>%1 (nicht dargestellt)</translation>
+        <translation>%1 (nicht gezeichnet)</translation>
     </message>
     <message>
         <source>What is neither bone nor a structure, in 3D alone: it is air to the hand and the drill</source>
-        <translation>Was weder Knochen noch eine Struktur ist, nur in 3D: Für Hand und Fräse ist es Luft</translation>
+        <translation>Was weder Knochen noch eine Struktur ist, nur in 3D: Für Hand und Bohrer ist es Luft</translation>
     </message>
     <message>
         <source>Not drawn: %1</source>
-        <translation>Nicht dargestellt: %1</translation>
+        <translation>Nicht gezeichnet: %1</translation>
     </message>
     <message>
         <source>What lies below the surface threshold and is no structure, in 3D alone: it is air to the hand and the drill</source>
@@ -8085,7 +8101,7 @@ Nichts verlässt diesen Rechner.</translation>
     </message>
     <message>
         <source>Shows the selected ones alone (Shift+Space, or Alt and a click on a check box); again: what was shown before</source>
-        <translation>Zeigt nur die gewählten (Umschalt+Leertaste oder Alt und Klick auf ein Kästchen); erneut: was vorher gezeigt wurde</translation>
+        <translation>Zeigt nur die ausgewählten (Umschalt+Leertaste oder Alt und Klick auf ein Kästchen); erneut: was vorher gezeigt wurde</translation>
     </message>
     <message>
         <source>Show</source>
@@ -8093,7 +8109,7 @@ Nichts verlässt diesen Rechner.</translation>
     </message>
     <message>
         <source>Shows the selected ones</source>
-        <translation>Zeigt die gewählten</translation>
+        <translation>Zeigt die ausgewählten</translation>
     </message>
     <message>
         <source>Hide</source>
@@ -8101,7 +8117,7 @@ Nichts verlässt diesen Rechner.</translation>
     </message>
     <message>
         <source>Hides the selected ones</source>
-        <translation>Verbirgt die gewählten</translation>
+        <translation>Verbirgt die ausgewählten</translation>
     </message>
     <message>
         <source>Structures</source>
@@ -8133,11 +8149,11 @@ Nichts verlässt diesen Rechner.</translation>
     </message>
     <message>
         <source>Nothing is selected</source>
-        <translation>Nichts ist gewählt</translation>
+        <translation>Nichts ist ausgewählt</translation>
     </message>
     <message>
         <source>%1 selected</source>
-        <translation>%1 gewählt</translation>
+        <translation>%1 ausgewählt</translation>
     </message>
     <message>
         <source>Colour tissue by its thickness over %1</source>
@@ -8408,7 +8424,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>“%1” is set, tied to no stroke: nothing is drilled, or it is not saved yet</source>
-        <translation>„%1“ ist gesetzt, mit keinem Bohrzug verbunden: Es ist nichts gebohrt oder noch nicht gesichert</translation>
+        <translation>„%1“ ist gesetzt, mit keinem Bohrzug verbunden: Es ist nichts gebohrt oder noch nicht gespeichert</translation>
     </message>
     <message>
         <source>A video may show or name the patient. It stays here when the case is archived or sent, unless asked.</source>
@@ -8443,7 +8459,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>A video goes with the case, copied or linked (Case &gt; Attach…)</source>
-        <translation>Ein Video gehört zum Fall, kopiert oder verknüpft (Fall &gt; Anhängen …)</translation>
+        <translation>Ein Video gehört zum Fall, kopiert oder verknüpft (Fall &gt; Anlage anhängen…)</translation>
     </message>
     <message>
         <source>Place in the video</source>
@@ -8583,7 +8599,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>The camera is being sought…</source>
-        <translation>Die Kamera wird gesucht …</translation>
+        <translation>Die Kamera wird gesucht…</translation>
     </message>
     <message>
         <source>Click a point in the still, then the same point of the patient. %1 of at least %2 landmarks are set.</source>
@@ -8611,7 +8627,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>The video is being opened…</source>
-        <translation>Das Video wird geöffnet …</translation>
+        <translation>Das Video wird geöffnet…</translation>
     </message>
 </context>
 <context>
@@ -8676,7 +8692,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>From the side of the ear</source>
-        <translation>Von der Seite des Ohrs</translation>
+        <translation>Von der Ohrseite</translation>
     </message>
     <message>
         <source>&amp;Anterior</source>
@@ -8684,7 +8700,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>From the face</source>
-        <translation>Vom Gesicht her</translation>
+        <translation>Vom Gesicht</translation>
     </message>
     <message>
         <source>&amp;Posterior</source>
@@ -8716,7 +8732,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>From the patient&apos;s left</source>
-        <translation>Von der Linken des Patienten</translation>
+        <translation>Von der linken Seite des Patienten</translation>
     </message>
     <message>
         <source>&amp;Right</source>
@@ -8724,7 +8740,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>From the patient&apos;s right</source>
-        <translation>Von der Rechten des Patienten</translation>
+        <translation>Von der rechten Seite des Patienten</translation>
     </message>
     <message>
         <source>Surgical position, &amp;left ear</source>
@@ -9211,10 +9227,6 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Ansicht &amp;vergrößern</translation>
     </message>
     <message>
-        <source>The view that was clicked last fills the window, and goes back; as a double click on it</source>
-        <translation>Die zuletzt angeklickte Ansicht füllt das Fenster und kehrt zurück; wie ein Doppelklick auf sie</translation>
-    </message>
-    <message>
         <source>Ste&amp;reo</source>
         <translation>St&amp;ereo</translation>
     </message>
@@ -9392,7 +9404,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>Writes all that tool and drill do to a file, until it is chosen again; the panel Replay and the command line can repeat it</source>
-        <translation>Schreibt alles, was Werkzeug und Bohrer tun, in eine Datei, bis es erneut gewählt wird; das Panel „Wiedergabe“ und die Befehlszeile können es wiederholen</translation>
+        <translation>Schreibt alles, was Werkzeug und Bohrer tun, in eine Datei, bis es erneut gewählt wird; der Bereich Wiedergabe und die Befehlszeile können es wiederholen</translation>
     </message>
     <message>
         <source>Op&amp;en a recording…</source>
@@ -9412,7 +9424,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>S&amp;ound of the drill</source>
-        <translation>T&amp;on der Fräse</translation>
+        <translation>T&amp;on des Bohrers</translation>
     </message>
     <message>
         <source>Spindle and teeth, louder in bone and brighter where the wall is thin; a tone while a warning is shown</source>
@@ -9445,6 +9457,10 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>The next save keeps none with the case; its file stays as it is</source>
         <translation>Das nächste Speichern behält keines mit dem Fall; seine Datei bleibt, wie sie ist</translation>
+    </message>
+    <message>
+        <source>The view that was clicked last fills the window, and goes back; as a double click on it. Esc goes back, too</source>
+        <translation>Die zuletzt angeklickte Ansicht füllt das Fenster und kehrt zurück; wie ein Doppelklick auf sie. Auch Esc kehrt zurück</translation>
     </message>
 </context>
 </TS>

@@ -385,3 +385,26 @@ TEST_F(Measures, ARenamedStructureKeepsItsMeasurements)
   m_model.renamePart("nerve", "facial nerve");
   EXPECT_EQ(all()[0].structure, "facial nerve");
 }
+
+TEST_F(Measures, TheChosenOneStaysChosenWhateverIsUndone)
+{
+  m_model.events.measurementsChanged = [this] { m_editor.measurementsChanged(); };
+  m_editor.setTool(Tool::Mark);
+  for (const double x : {0.0, 1.0, 2.0})
+    m_editor.set({x, 0, 0});
+  ASSERT_EQ(all().size(), 3U);
+  const std::string third = all()[2].name;
+  m_editor.remove(0);
+  m_editor.choose(1);
+  ASSERT_EQ(all()[1].name, third);
+  m_model.undo(); // the first one is back, and the chosen one is the third again
+  ASSERT_EQ(all().size(), 3U);
+  EXPECT_EQ(m_editor.chosen(), 2U);
+  m_editor.rename(2, "round window");
+  m_model.undo();
+  EXPECT_EQ(all()[2].name, third);
+  EXPECT_EQ(m_editor.chosen(), 2U);
+  m_model.undo(); // it was not there yet
+  EXPECT_EQ(all().size(), 2U);
+  EXPECT_FALSE(m_editor.chosen());
+}

@@ -2,6 +2,7 @@
 
 #include <set>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,7 @@ using petrous::presenters::germanPhraseList;
 using petrous::presenters::germanPhrases;
 using petrous::presenters::Phrasebook;
 using petrous::presenters::sideDoubt;
+using petrous::presenters::withDecimalCommas;
 namespace core = petrous::core;
 namespace scene = petrous::scene;
 
@@ -225,4 +227,19 @@ TEST(GermanPhrases, AreThoseOfMessagesAsTheyAreShown)
   };
   for (const auto& [english, german] : messages)
     EXPECT_EQ(germanPhrases().text(english), german);
+}
+
+TEST(DecimalCommas, AreThoseOfNumbersAlone)
+{
+  const std::pair<const char*, const char*> texts[] = {
+      {"0.25 mm", "0,25 mm"},
+      {"-0.5, 1.5 and 2.", "-0,5; 1,5 and 2."},
+      {"ends at 3.5. Next", "ends at 3,5. Next"},
+      {"UID 1.2.840, version 9.1.0", "UID 1.2.840, version 9.1.0"},
+      {"scan 1.5.nii in /data/2.5/ct", "scan 1.5.nii in /data/2.5/ct"},
+      {"MR \u201eT1 2.0\u201c of 2.0 mm", "MR \u201eT1 2.0\u201c of 2,0 mm"},
+      {"T2-0.5", "T2-0.5"},
+  };
+  for (const auto& [text, german] : texts)
+    EXPECT_EQ(withDecimalCommas(text), german);
 }

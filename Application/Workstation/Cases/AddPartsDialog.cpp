@@ -37,7 +37,7 @@ AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const 
   {
     auto* label = new QLabel(text);
     label->setTextFormat(Qt::PlainText);
-    label->setWordWrap(true);
+    wrapWords(*label);
     return label;
   };
   auto* rows = new QWidget;
@@ -95,7 +95,7 @@ AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const 
   scroll->setFrameShape(QFrame::NoFrame);
   m_advice->setTextFormat(Qt::PlainText);
   m_advice->setObjectName("dim");
-  m_advice->setWordWrap(true);
+  wrapWords(*m_advice);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   m_accept = buttons->addButton(accept, QDialogButtonBox::AcceptRole);
   if (!skip.isEmpty())
@@ -137,7 +137,7 @@ QWidget* AddPartsDialog::tableChoice(std::size_t row, const Part& part)
   auto* state = new QLabel(unnamedText(part));
   state->setObjectName("namesState");
   state->setTextFormat(Qt::PlainText);
-  state->setWordWrap(true);
+  wrapWords(*state);
   auto* choose = new QPushButton(tr("&Names from a table…"));
   choose->setObjectName("namesTable");
   choose->setAutoDefault(false);

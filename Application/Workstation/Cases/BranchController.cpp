@@ -30,7 +30,7 @@ QString lineOf(const scene::Case& value, const Branch& branch, int number)
                      .arg(summary.strokes)
                      .arg(summary.strokes == 1 ? BranchController::tr("stroke")
                                                : BranchController::tr("strokes"))
-                     .arg(summary.removed, 0, 'f', 1);
+                     .arg(numberText(summary.removed, 1));
   if (branch.setAside)
     text += BranchController::tr(" (set aside)");
   text.replace('&', "&&");

@@ -128,7 +128,7 @@ bool isArchive(const fs::path& path)
 
 QString megabytes(std::uintmax_t bytes)
 {
-  return CaseDocumentController::tr("%1 MB").arg(1e-6 * static_cast<double>(bytes), 0, 'f', 1);
+  return CaseDocumentController::tr("%1 MB").arg(numberText(1e-6 * static_cast<double>(bytes), 1));
 }
 
 // "CT, MR “T2”, 12 structures, 1 mesh, 3 strokes, and 1 undone".
@@ -309,7 +309,7 @@ void CaseDocumentController::connectBanners()
           {
             m_loading.setText(tr("The structures are being prepared: %1, %2 %")
                                   .arg(text)
-                                  .arg(100.0 * fraction, 0, 'f', 0));
+                                  .arg(numberText(100.0 * fraction, 0)));
           });
   const auto without = [this](const QString& why)
   {
@@ -1277,9 +1277,9 @@ void CaseDocumentController::tellStructures(const std::vector<presenters::Struct
     isWhole = isWhole && one.status != Status::Unread && (!error || std::abs(*error) <= kTolerance);
     QString line = shownName(one.name) + ": " + phrase(presenters::nameOf(one.status));
     if (one.status == Status::Read)
-      line += ", " + QString::number(one.volume, 'f', 1) + " mm³";
+      line += ", " + numberText(one.volume, 1) + " mm³";
     if (one.fileVolume)
-      line += tr(" (%1 mm³ by the file)").arg(*one.fileVolume, 0, 'f', 1);
+      line += tr(" (%1 mm³ by the file)").arg(numberText(*one.fileVolume, 1));
     if (!one.why.empty())
       line += ", " + phrase(one.why);
     lines += line;
@@ -1356,7 +1356,7 @@ std::optional<double> CaseDocumentController::askUnit(const fs::path& path,
                                                       const imaging::UnitDoubt& doubt)
 {
   const QScopedValueRollback<bool> asking(m_asking, true);
-  const QString edge = words(presenters::lengthText(doubt.edge));
+  const QString edge = numberText(presenters::lengthText(doubt.edge));
   QMessageBox box(QMessageBox::Question, tr("How large is it?"),
                   doubt.isStated ? tr("By the unit of length that “%1” states, it is %2 mm long: "
                                       "no head, ear or specimen.")
@@ -1380,7 +1380,7 @@ std::optional<double> CaseDocumentController::askUnit(const fs::path& path,
                            ? tr("In %1, as the file says: %2 mm long")
                            : tr("In %1: %2 mm long"))
                           .arg(words(presenters::unitName(unit)))
-                          .arg(words(presenters::lengthText(doubt.edge * unit / doubt.unit))),
+                          .arg(numberText(presenters::lengthText(doubt.edge * unit / doubt.unit))),
                       QMessageBox::ActionRole),
         unit);
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
@@ -1833,7 +1833,7 @@ void CaseDocumentController::write(const presenters::ExportOptions& options)
             QString text =
                 tr("Written: %1%2").arg(QFile::decodeName(options.out.c_str()), phrase(done.words));
             if (done.voxelsVolume)
-              text += tr("\nVolume of the voxels: %1 mm³").arg(*done.voxelsVolume, 0, 'f', 2);
+              text += tr("\nVolume of the voxels: %1 mm³").arg(numberText(*done.voxelsVolume, 2));
             text += tr("\nCoordinates: %1").arg(phrase(presenters::coordinatesOf(options)));
             for (const std::string& line : warnings)
               text += '\n' + sentence(phrase(line));

@@ -211,7 +211,7 @@ QString textOf(const library::CaseSummary& one, int column, bool isNewer = false
   case CasesModel::Strokes:
     return QString::number(one.strokes);
   case CasesModel::Removed:
-    return QString::number(one.removed, 'f', 1);
+    return numberText(one.removed, 1);
   case CasesModel::Voxels:
     return QString("%1 × %2 × %3").arg(one.dims[0]).arg(one.dims[1]).arg(one.dims[2]);
   default:

@@ -120,7 +120,7 @@ ComparisonWindow::ComparisonWindow(QWidget* parent)
           });
   m_legend->setTextFormat(Qt::RichText);
   m_fault->setTextFormat(Qt::PlainText);
-  m_fault->setWordWrap(true);
+  wrapWords(*m_fault);
   m_fault->setStyleSheet(kWarningStyle);
   m_again->setObjectName("compareAgain");
   m_again->setToolTip(tr("Compares the two approaches once more"));

@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 
 #include "Application.h"
+#include "PanelLayout.h"
 #include "Theme.h"
 
 namespace petrous::workstation
@@ -73,7 +74,7 @@ DescriptionDialog::DescriptionDialog(const QString& name, const scene::Descripti
   for (QLabel* label : {advice, m_problem})
   {
     label->setTextFormat(Qt::PlainText);
-    label->setWordWrap(true);
+    wrapWords(*label);
   }
 
   auto* form = new QFormLayout;

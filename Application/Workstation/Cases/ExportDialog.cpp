@@ -20,6 +20,7 @@
 
 #include "Application.h"
 #include "AskName.h"
+#include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Imaging/FileFormats.h"
@@ -107,7 +108,7 @@ ExportDialog::ExportDialog(const scene::Case& value, const FaceCheck& faces,
                             "not change"));
   m_face->setObjectName("exportFace");
   m_face->setTextFormat(Qt::PlainText);
-  m_face->setWordWrap(true);
+  wrapWords(*m_face);
   m_hasFace = faces.mayHave();
   m_face->setText(textOf(faces));
   m_face->setVisible(m_hasFace);
@@ -129,7 +130,7 @@ ExportDialog::ExportDialog(const scene::Case& value, const FaceCheck& faces,
   place->addWidget(browse);
   m_advice->setObjectName("dim");
   m_advice->setTextFormat(Qt::PlainText);
-  m_advice->setWordWrap(true);
+  wrapWords(*m_advice);
 
   auto* form = new QFormLayout;
   form->addRow(tr("&What:"), m_what);
@@ -288,7 +289,7 @@ void ExportDialog::check()
     isFine = true;
     const QStorageInfo disk(folder.filePath());
     advice = tr("%1 GB are free there.")
-                 .arg(1e-9 * static_cast<double>(disk.bytesAvailable()), 0, 'f', 1);
+                 .arg(numberText(1e-9 * static_cast<double>(disk.bytesAvailable()), 1));
   }
   m_advice->setText(advice);
   m_accept->setEnabled(isFine);

@@ -30,7 +30,7 @@ namespace
 
 QString megabytes(std::uintmax_t bytes)
 {
-  return LibraryController::tr("%1 MB").arg(1e-6 * static_cast<double>(bytes), 0, 'f', 1);
+  return LibraryController::tr("%1 MB").arg(numberText(1e-6 * static_cast<double>(bytes), 1));
 }
 
 QString listed(const std::vector<std::string>& names)

@@ -25,6 +25,7 @@
 #include "Application.h"
 #include "CasesModel.h"
 #include "DescriptionDialog.h"
+#include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Library/CaseSearch.h"
@@ -117,7 +118,7 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
 
   m_count->setObjectName("dim");
   m_count->setTextFormat(Qt::PlainText);
-  m_count->setWordWrap(true);
+  wrapWords(*m_count);
   m_deleted->setObjectName("deletedCases");
   m_undelete->setObjectName("undeleteCase");
   m_undelete->setText(tr("Bring back"));

@@ -19,6 +19,7 @@
 #include "PanelLayout.h"
 #include "PreviewBar.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::workstation
@@ -36,8 +37,8 @@ QString sizeText(std::size_t voxels, std::size_t bytes)
 {
   const double mb = static_cast<double>(bytes) / 1e6;
   return RegionDialog::tr("%1 million voxels, %2 MB")
-      .arg(static_cast<double>(voxels) / 1e6, 0, 'f', voxels < 10000000 ? 2 : 0)
-      .arg(mb, 0, 'f', mb < 10.0 ? 2 : 0);
+      .arg(numberText(static_cast<double>(voxels) / 1e6, voxels < 10000000 ? 2 : 0))
+      .arg(numberText(mb, mb < 10.0 ? 2 : 0));
 }
 
 } // namespace
@@ -171,7 +172,7 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
   resizeOnScreen(*this, {1000, 560});
   auto* title = new QLabel(
       tr("Only what lies in the box is read: drag its edges, or give it in mm (patient LPS)."));
-  title->setWordWrap(true);
+  wrapWords(*title);
   auto* views = new QHBoxLayout;
   views->setSpacing(3);
   for (RegionView* view : m_views)
@@ -288,9 +289,9 @@ void RegionDialog::setBox(core::PatientBox box)
   const std::size_t voxels = m_preview->voxelsIn(m_box);
   const std::size_t all = m_preview->grid.voxelCount();
   m_size->setText(tr("%1 × %2 × %3 mm: %4, of %5")
-                      .arg(m_box.sizes()[0], 0, 'f', 1)
-                      .arg(m_box.sizes()[1], 0, 'f', 1)
-                      .arg(m_box.sizes()[2], 0, 'f', 1)
+                      .arg(numberText(m_box.sizes()[0], 1))
+                      .arg(numberText(m_box.sizes()[1], 1))
+                      .arg(numberText(m_box.sizes()[2], 1))
                       .arg(sizeText(voxels, voxels * m_preview->bytesPerVoxel),
                            sizeText(all, all * m_preview->bytesPerVoxel)));
 }

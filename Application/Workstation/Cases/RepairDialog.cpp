@@ -23,7 +23,7 @@ QLabel* plain(const QString& text)
 {
   auto* label = new QLabel(text);
   label->setTextFormat(Qt::PlainText);
-  label->setWordWrap(true);
+  wrapWords(*label);
   return label;
 }
 
@@ -34,7 +34,7 @@ QString findingsText(const std::vector<imaging::Finding>& findings)
   {
     QString line = QString::fromUtf8("• ") + phrase(finding.text);
     if (finding.errorMm > 0.0 && finding.text.find(" mm") == std::string::npos)
-      line += RepairDialog::tr(" At stake: %1 mm.").arg(finding.errorMm, 0, 'f', 1);
+      line += RepairDialog::tr(" At stake: %1 mm.").arg(numberText(finding.errorMm, 1));
     lines += line;
   }
   return lines.join('\n');
@@ -116,7 +116,7 @@ void RepairDialog::show(const presenters::RepairPreview& preview)
     remains += QString::fromUtf8("• ") + phrase(note);
   const Eigen::Vector3d& spacing = preview.after.grid.spacing();
   remains += tr("• Linear interpolation smooths detail below about %1 mm.")
-                 .arg(spacing.maxCoeff(), 0, 'f', 2);
+                 .arg(numberText(spacing.maxCoeff(), 2));
   if (!preview.after.value.ct.provenance.interpolated.empty())
     remains += tr("• Interpolated slices are orange here, and marked wherever the case is shown.");
   m_remains->setText(remains.join('\n'));

@@ -14,6 +14,7 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
+#include "Language.h"
 #include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
@@ -91,7 +92,7 @@ void fillLine(QTreeWidgetItem& line, const SeriesContent& series,
 {
   const bool isPart = !series.files.empty();
   const auto spacing = [&series](Eigen::Index axis)
-  { return QString::number(series.spacing[axis], 'g', 3); };
+  { return numberLocale().toString(series.spacing[axis], 'g', 3); };
   const QString description = series.description.empty() ? SeriesDialog::tr("without a description")
                                                          : words(series.description);
   line.setText(Series, (words(series.modality) + "  " + description).trimmed());
@@ -146,7 +147,7 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
           .arg(QFile::decodeName(
               (path.has_filename() ? path : path.parent_path()).filename().c_str())));
   title->setTextFormat(Qt::PlainText);
-  title->setWordWrap(true);
+  wrapWords(*title);
   m_list->setObjectName("series");
   m_list->setRootIsDecorated(false);
   m_list->setAlternatingRowColors(true);
@@ -162,7 +163,7 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
   m_region->setToolTip(tr("Only that region is read: a whole head then takes no more memory than "
                           "the ear alone"));
   m_advice->setObjectName("dim");
-  m_advice->setWordWrap(true);
+  wrapWords(*m_advice);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Open | QDialogButtonBox::Cancel);
   m_open = buttons->button(QDialogButtonBox::Open);
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);

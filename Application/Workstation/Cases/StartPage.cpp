@@ -18,6 +18,7 @@
 
 #include "Application.h"
 #include "CasesModel.h"
+#include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Library/CaseSearch.h"
@@ -102,12 +103,12 @@ StartPage::StartPage(const presenters::WorkstationModel& model, QWidget* parent)
   auto* title = new QLabel(tr("Drop a folder of DICOM here, or choose File > Open DICOM…"));
   title->setObjectName("big");
   title->setAlignment(Qt::AlignCenter);
-  title->setWordWrap(true);
+  wrapWords(*title);
   auto* more = new QLabel(tr("A CT of the temporal bone becomes a case at once. NRRD, NIfTI and "
                              "MetaImage files work too.\nNothing leaves this computer."));
   more->setObjectName("dim");
   more->setAlignment(Qt::AlignCenter);
-  more->setWordWrap(true);
+  wrapWords(*more);
 
   auto* sample = new QPushButton(tr("Make the sample patient"));
   sample->setObjectName("primary");
@@ -175,7 +176,7 @@ StartPage::StartPage(const presenters::WorkstationModel& model, QWidget* parent)
           [this](const QModelIndex& index) { open(index.row()); }); // a double click, Enter
   m_trouble->setObjectName("recentTrouble");
   m_trouble->setTextFormat(Qt::PlainText);
-  m_trouble->setWordWrap(true);
+  wrapWords(*m_trouble);
   m_trouble->setStyleSheet(kWarningStyle);
   m_trouble->hide();
   auto* layout = new QVBoxLayout(this);

@@ -82,16 +82,16 @@ QString cellOf(const QTableWidget& table, const QString& row, int column)
 
 QString number(double value)
 {
-  return words(core::generalText(value));
+  return numberText(core::generalText(value));
 }
 
 // One that was not typed over keeps the digits that are not shown.
 double numberIn(const QTableWidget& table, int row, int column, double present)
 {
-  const QString text = table.item(row, column)->text().trimmed().replace(',', '.');
+  const QString text = table.item(row, column)->text().trimmed();
   if (text == number(present))
     return present;
-  if (const auto value = core::parseDouble(bytes(text)))
+  if (const auto value = core::parseDouble(bytes(QString(text).replace(',', '.'))))
     return *value;
   throw core::InvalidParameter("'" + bytes(text) + "' is not a number");
 }
@@ -125,14 +125,14 @@ CatalogueDialog::CatalogueDialog(presenters::CatalogueEditor editor,
   auto* intro = new QLabel(tr("They hold for all cases of this library, also for the command. The "
                               "removal laws take the cutting energy and friction for a cutting "
                               "burr, the hardness for a diamond one."));
-  intro->setWordWrap(true);
+  wrapWords(*intro);
   m_bone->setObjectName("boneRamp");
-  m_bone->setWordWrap(true);
+  wrapWords(*m_bone);
   m_lost->setObjectName("catalogueLost");
   m_fault->setObjectName("catalogueFault");
   for (QLabel* one : {m_lost, m_fault})
   {
-    one->setWordWrap(true);
+    wrapWords(*one);
     one->setTextFormat(Qt::PlainText);
     one->setStyleSheet(kWarningStyle);
     one->hide();
@@ -258,7 +258,7 @@ void CatalogueDialog::fillBurr(int row)
   put(*m_burrs, row, Kind, isCutting ? tr("Cutting") : tr("Diamond"), false);
   put(*m_burrs, row, Rake, isCutting ? number(one.constant) : none, isCutting);
   put(*m_burrs, row, Wear, isCutting ? none : number(one.constant), !isCutting);
-  put(*m_burrs, row, Diameters, words(presenters::diametersText(one.diameters)));
+  put(*m_burrs, row, Diameters, numberText(presenters::diametersText(one.diameters)));
   put(*m_burrs, row, BurrSource, phrase(one.source));
 }
 

@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 
 #include "Application.h"
+#include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Core/Error.h"
@@ -70,7 +71,7 @@ DeviceTestDialog::DeviceTestDialog(presenters::DeviceSources sources, presenters
          "its buttons. Then hold it lightly in the middle and keep it still: it is pushed along "
          "each axis, with 0.5 N, and held by a spring that becomes stiffer."));
   for (QLabel* label : {about, m_advice, m_result})
-    label->setWordWrap(true);
+    wrapWords(*label);
   m_advice->setObjectName("deviceTestAdvice");
   m_result->setObjectName("deviceTestResult");
   m_result->setTextInteractionFlags(Qt::TextSelectableByMouse);

@@ -46,13 +46,13 @@ QString textOf(const presenters::PlaceReading& reading, const presenters::Intens
 {
   QStringList lines;
   if (reading.hounsfield)
-    lines += words(display.text(*reading.hounsfield));
+    lines += numberText(display.text(*reading.hounsfield));
   if (!reading.structure.empty())
     lines += shownName(reading.structure);
   lines += reading.surface
                ? DrillController::tr("%1 mm to the surface").arg(numberText(*reading.surface, 1))
                : DrillController::tr("no surface within %1 mm")
-                     .arg(presenters::PointProbe::kReach, 0, 'f', 0);
+                     .arg(numberText(presenters::PointProbe::kReach, 0));
   if (reading.near)
     lines += DrillController::tr("%1 mm to %2")
                  .arg(numberText(reading.near->distance, 1), shownName(reading.near->name));
@@ -101,7 +101,8 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
           });
   connect(&m_reading, &BackgroundWork::progressed, this,
           [this](double fraction) {
-            emit statusMessage(tr("Reading the instrument… %1 %").arg(100.0 * fraction, 0, 'f', 0));
+            emit statusMessage(
+                tr("Reading the instrument… %1 %").arg(numberText(100.0 * fraction, 0)));
           });
   m_frames.setInterval(kFrame);
   connect(&m_frames, &QTimer::timeout, this, &DrillController::frame);
@@ -153,7 +154,7 @@ void DrillController::connectView()
           [this](double notches)
           {
             m_bar.setThrust(m_bar.thrust() + kThrustPerNotch * notches);
-            emit statusMessage(tr("Thrust %1 N").arg(m_bar.thrust(), 0, 'f', 1));
+            emit statusMessage(tr("Thrust %1 N").arg(numberText(m_bar.thrust(), 1)));
           });
   connect(&m_view, &ThreeDView::handpieceTurned, this, &DrillController::turnHandpiece);
   connect(&m_view, &ThreeDView::drillPressed, this, &DrillController::press);

@@ -19,6 +19,7 @@
 #include <QVBoxLayout>
 
 #include "Bind.h"
+#include "Language.h"
 #include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
@@ -37,7 +38,7 @@ QLabel* wrapped(const char* name)
 {
   auto* label = new QLabel;
   label->setObjectName(name);
-  label->setWordWrap(true);
+  wrapWords(*label);
   label->setTextFormat(Qt::PlainText);
   label->hide();
   return label;
@@ -70,9 +71,10 @@ QTreeWidget* table(const char* name, const QString& accessible, const QStringLis
 QString clockText(double seconds)
 {
   const auto tenths = static_cast<long long>(std::max(seconds, 0.0) * 10.0 + 0.5);
-  return QString("%1:%2.%3")
+  return QString("%1:%2%3%4")
       .arg(tenths / 600)
       .arg(tenths / 10 % 60, 2, 10, QChar('0'))
+      .arg(numberLocale().decimalPoint())
       .arg(tenths % 10);
 }
 

@@ -11,6 +11,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "PanelLayout.h"
 #include "Passphrase.h"
 #include "PathRow.h"
 #include "Theme.h"
@@ -65,7 +66,7 @@ DeidentifyDialog::DeidentifyDialog(QWidget* parent)
   m_dates->addItem(tr("kept"), static_cast<int>(Dates::Keep));
   m_advice->setObjectName("deidentifyAdvice");
   m_advice->setTextFormat(Qt::PlainText);
-  m_advice->setWordWrap(true);
+  wrapWords(*m_advice);
   m_advice->setMinimumHeight(2 * m_advice->fontMetrics().lineSpacing());
 
   auto* form = new QFormLayout;

@@ -35,8 +35,8 @@ QString transferText(const network::Transfer& transfer)
   QString text = transfer.instances == 1
                      ? ExchangeController::tr("1 object, %1 MB in %2 s")
                      : ExchangeController::tr("%1 objects, %2 MB in %3 s").arg(transfer.instances);
-  text = text.arg(1e-6 * static_cast<double>(transfer.bytes), 0, 'f', 1)
-             .arg(transfer.seconds, 0, 'f', 1);
+  text = text.arg(numberText(1e-6 * static_cast<double>(transfer.bytes), 1))
+             .arg(numberText(transfer.seconds, 1));
   if (transfer.present > 0)
     text += ExchangeController::tr(", %1 of them were there already").arg(transfer.present);
   if (transfer.warning > 0)

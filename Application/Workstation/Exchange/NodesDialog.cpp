@@ -15,6 +15,7 @@
 #include <QVBoxLayout>
 
 #include "Application.h"
+#include "PanelLayout.h"
 #include "PathRow.h"
 #include "Theme.h"
 #include "WindowTexts.h"
@@ -118,7 +119,7 @@ void NodesDialog::layOut()
   m_key->setPlaceholder(tr("PEM, without a passphrase"));
   m_outcome->setObjectName("nodeOutcome");
   m_outcome->setTextFormat(Qt::PlainText);
-  m_outcome->setWordWrap(true);
+  wrapWords(*m_outcome);
   m_outcome->setMinimumHeight(3 * m_outcome->fontMetrics().lineSpacing());
   m_outcome->setAlignment(Qt::AlignTop);
   m_outcome->setTextInteractionFlags(Qt::TextSelectableByMouse);

@@ -97,7 +97,7 @@ PseudonymsDialog::PseudonymsDialog(std::chrono::milliseconds lockAfter, QWidget*
   m_found->setFilterKeyColumn(-1);
   m_outcome->setObjectName("pseudonymsOutcome");
   m_outcome->setTextFormat(Qt::PlainText);
-  m_outcome->setWordWrap(true);
+  wrapWords(*m_outcome);
   m_outcome->setMinimumHeight(2 * m_outcome->fontMetrics().lineSpacing());
   m_pages->addWidget(lockedPage());
   m_pages->addWidget(openPage());
@@ -143,7 +143,7 @@ QWidget* PseudonymsDialog::lockedPage()
          "pseudonyms. What is in it names patients: it is shown here only, until this window is "
          "closed or locked."));
   text->setObjectName("dim");
-  text->setWordWrap(true);
+  wrapWords(*text);
   auto* form = new QFormLayout;
   form->addRow(tr("&File:"), m_file);
   form->addRow(tr("&Passphrase:"), m_passphrase);
@@ -281,7 +281,7 @@ bool PseudonymsDialog::ask(const QString& title, const QString& text, bool fresh
   dialog.setObjectName("pseudonymsAsk");
   dialog.setWindowTitle(title);
   auto* about = new QLabel(text);
-  about->setWordWrap(true);
+  wrapWords(*about);
   auto* path =
       new PathRow("otherFile", fresh ? PathRow::Kind::NewFile : PathRow::Kind::File, title);
   auto* first = passphraseLine("otherPassphrase");

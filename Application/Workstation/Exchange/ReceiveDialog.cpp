@@ -17,6 +17,7 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
+#include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Network/SceneObjects.h"
@@ -99,7 +100,7 @@ ReceiveDialog::ReceiveDialog(const std::vector<network::Node>& nodes,
   m_found->header()->setSectionResizeMode(3, QHeaderView::Stretch);
   m_outcome->setObjectName("receiveOutcome");
   m_outcome->setTextFormat(Qt::PlainText);
-  m_outcome->setWordWrap(true);
+  wrapWords(*m_outcome);
 
   auto* dates = new QHBoxLayout;
   dates->addWidget(m_dated);

@@ -129,7 +129,7 @@ MeasurePanel::MeasurePanel(presenters::WorkstationModel& model,
     grid->addWidget(tool, static_cast<int>(n) / kToolsInRow, static_cast<int>(n) % kToolsInRow);
   }
   m_hint->setObjectName("measureHint");
-  m_hint->setWordWrap(true);
+  wrapWords(*m_hint);
   m_hint->setTextFormat(Qt::PlainText);
   m_hint->setMinimumHeight(2 * fontMetrics().lineSpacing());
   m_hint->setAlignment(Qt::AlignLeft | Qt::AlignTop);
@@ -201,7 +201,7 @@ MeasurePanel::MeasurePanel(presenters::WorkstationModel& model,
   m_quantities->setHeaderHidden(true);
   m_quantities->setRootIsDecorated(false);
   m_quantities->setSelectionMode(QAbstractItemView::NoSelection);
-  m_quantities->setFocusPolicy(Qt::NoFocus);
+  m_quantities->setFocusPolicy(Qt::TabFocus);
   m_quantities->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
   m_quantities->setMinimumHeight(9 * fontMetrics().lineSpacing());
   m_quantities->hide();
@@ -238,6 +238,13 @@ void MeasurePanel::partsChanged()
 {
   fillStructures();
   refresh();
+}
+
+void MeasurePanel::partRenamed(const std::string& from, const std::string& to)
+{
+  for (QComboBox* box : {m_structure, m_other}) // the list is made anew by what it had chosen
+    if (const int row = box->findData(words(from)); row >= 0)
+      box->setItemData(row, words(to));
 }
 
 void MeasurePanel::fillStructures()

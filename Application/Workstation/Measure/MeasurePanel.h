@@ -29,6 +29,7 @@ public:
 
   void caseChanged() override;
   void partsChanged() override;
+  void partRenamed(const std::string& from, const std::string& to) override;
   void stateChanged() override;
   void refresh();
   void say(const QString& line); ///< a refusal; empty: what the tool takes next

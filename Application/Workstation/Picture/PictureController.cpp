@@ -4,6 +4,8 @@
 
 #include <QAction>
 #include <QActionGroup>
+#include <QApplication>
+#include <QEvent>
 #include <QLabel>
 #include <QLayout>
 #include <QMessageBox>
@@ -76,6 +78,7 @@ PictureController::PictureController(presenters::WorkstationModel& model, ThreeD
               showScene();
           });
   connect(&m_view.display(), &SceneDisplay::failed, this, &PictureController::fail);
+  m_window.installEventFilter(this);
 }
 
 PictureController::~PictureController()
@@ -200,6 +203,15 @@ void PictureController::openSurgeonWindow()
   m_actions.surgeonWindow->setChecked(true);
   applyStereo();
   m_surgeon->showBeside(m_window);
+  m_surgeon->setBlocked(QApplication::activeModalWidget() != nullptr);
+}
+
+bool PictureController::eventFilter(QObject* watched, QEvent* event)
+{
+  if (m_surgeon &&
+      (event->type() == QEvent::WindowBlocked || event->type() == QEvent::WindowUnblocked))
+    m_surgeon->setBlocked(event->type() == QEvent::WindowBlocked);
+  return QObject::eventFilter(watched, event);
 }
 
 void PictureController::closeSurgeonWindow()
@@ -234,9 +246,10 @@ void PictureController::showSpeed(double milliseconds, double scale, bool moving
     m_speed->clear();
   if (milliseconds <= 0.0)
     return;
-  const QString speed = milliseconds < 1000.0 ? tr("%1 Hz").arg(1000.0 / milliseconds, 0, 'f', 0)
-                                              : tr("%1 s").arg(0.001 * milliseconds, 0, 'f', 1);
-  m_speed->setText(moving ? tr("%1 at %2 %").arg(speed).arg(100.0 * scale, 0, 'f', 0) : speed);
+  const QString speed = milliseconds < 1000.0
+                            ? tr("%1 Hz").arg(numberText(1000.0 / milliseconds, 0))
+                            : tr("%1 s").arg(numberText(0.001 * milliseconds, 1));
+  m_speed->setText(moving ? tr("%1 at %2 %").arg(speed).arg(numberText(100.0 * scale, 0)) : speed);
 }
 
 void PictureController::fail(const QString& why)

@@ -56,6 +56,9 @@ public:
 signals:
   void statusMessage(const QString& line); ///< for the status bar
 
+protected:
+  bool eventFilter(QObject* watched, QEvent* event) override; ///< of the window
+
 private:
   void showScene();
   void lightChanged();

@@ -154,9 +154,9 @@ void PicturePanel::addStereo(QFormLayout* form, bool quadBuffer)
           numberBox("eyeSeparation",
                     tr("Between the two eyes of the microscope, mm. Automatic: %1° between "
                        "their lines of sight, as 24 mm at 250 mm")
-                        .arg(StereoRig::kUsualAngle),
+                        .arg(numberText(StereoRig::kUsualAngle, 1)),
                     lengthRange(StereoRig::kLargestSeparation,
-                                tr("automatic (%1°)").arg(StereoRig::kUsualAngle))),
+                                tr("automatic (%1°)").arg(numberText(StereoRig::kUsualAngle, 1)))),
           [this] { return m_settings.rig().eyeSeparation.value_or(0.0); },
           [this](double mm) { m_settings.setEyeSeparation(lengthOf(mm)); }));
   form->addRow(

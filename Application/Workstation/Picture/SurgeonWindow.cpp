@@ -66,6 +66,15 @@ SceneDisplay& SurgeonWindow::display() noexcept
   return m_view ? m_view->display() : *m_stereoDisplay;
 }
 
+void SurgeonWindow::setBlocked(bool blocked)
+{
+  if (m_view && blocked)
+    m_view->tool().Release();
+  setEnabled(!blocked); // its keys, too
+  if (m_view && !blocked)
+    m_view->setFocus();
+}
+
 void SurgeonWindow::showBeside(const QWidget& other)
 {
   QScreen* screen = other.screen();

@@ -31,6 +31,9 @@ public:
   bool quadBuffer() const noexcept { return m_stereoView != nullptr; }
   SceneDisplay& display() noexcept;
 
+  /// While a dialog asks about the case in the main window: no input is taken here either, and a
+  /// tool that was pressed is let go. Qt blocks it for dialogs of the whole program only.
+  void setBlocked(bool blocked);
   /// Fills the first screen that `other` is not on, else that of `other`.
   void showBeside(const QWidget& other);
 

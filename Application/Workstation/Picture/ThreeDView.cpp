@@ -253,6 +253,21 @@ interaction::PickRay ThreeDView::sightLine(const std::optional<QPointF>& positio
 // releases.
 bool ThreeDView::event(QEvent* event)
 {
+  if (!isEnabled()) // Qt leaves it to the widget
+    switch (event->type())
+    {
+    case QEvent::MouseButtonPress:
+    case QEvent::MouseButtonDblClick:
+    case QEvent::MouseButtonRelease:
+    case QEvent::MouseMove:
+    case QEvent::Wheel:
+    case QEvent::KeyPress:
+    case QEvent::KeyRelease:
+    case QEvent::Enter:
+      return QOpenGLWidget::event(event);
+    default:
+      break;
+    }
   switch (event->type())
   {
   case QEvent::MouseButtonPress:

@@ -6,6 +6,8 @@
 #include <QPushButton>
 
 #include "Application.h"
+#include "PanelLayout.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -25,7 +27,7 @@ HandlesBox::HandlesBox(presenters::RegistrationSession& session, QWidget* parent
          "moves it in the slice, Alt+Page up and down turn it; with Shift by the "
          "larger step"));
   m_moved->setObjectName("dim");
-  m_moved->setWordWrap(true);
+  wrapWords(*m_moved);
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setSpacing(4);
@@ -104,8 +106,8 @@ void HandlesBox::refresh()
   const auto moved = m_session.movedByHand();
   m_moved->setText(moved.shift > 1e-6 || moved.turn > 1e-6
                        ? tr("By hand: %1 mm at the crosshair, %2°")
-                             .arg(moved.shift, 0, 'f', 1)
-                             .arg(moved.turn, 0, 'f', 1)
+                             .arg(numberText(moved.shift, 1))
+                             .arg(numberText(moved.turn, 1))
                        : tr("Not moved by hand"));
 }
 

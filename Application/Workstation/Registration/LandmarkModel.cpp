@@ -1,6 +1,7 @@
 #include "LandmarkModel.h"
 
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Core/PositionText.h"
 
 namespace petrous::workstation
@@ -50,16 +51,16 @@ QVariant LandmarkModel::data(const QModelIndex& index, int role) const
   case Number:
     return index.row() + 1;
   case Ct:
-    return words(core::positionText(landmark.ct));
+    return numberText(core::positionText(landmark.ct));
   case Mr:
-    return landmark.mr ? words(core::positionText(*landmark.mr)) : tr("show it in the MR");
+    return landmark.mr ? numberText(core::positionText(*landmark.mr)) : tr("show it in the MR");
   case Residual:
     break;
   }
   const auto left = m_session.part()
                         ? m_session.landmarks().residual(row, m_session.part()->mrFromCt)
                         : std::nullopt;
-  return left ? tr("%1 mm").arg(*left, 0, 'f', 2) : QString();
+  return left ? tr("%1 mm").arg(numberText(*left, 2)) : QString();
 }
 
 QVariant LandmarkModel::headerData(int section, Qt::Orientation orientation, int role) const

@@ -1,5 +1,7 @@
 #include "LandmarksBox.h"
 
+#include <algorithm>
+
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QPushButton>
@@ -58,7 +60,11 @@ LandmarksBox::LandmarksBox(presenters::RegistrationSession& session, QWidget* pa
 
 void LandmarksBox::refresh()
 {
+  // The chosen pair, or the one that came in its place, stays chosen.
+  const int chosen = m_table->currentIndex().row();
   m_rows->refresh();
+  if (chosen >= 0 && !m_table->currentIndex().isValid() && m_rows->rowCount() > 0)
+    m_table->selectRow(std::min(chosen, m_rows->rowCount() - 1));
   m_point->setText(m_session.landmarks().waitsForMr()
                        ? tr("Point in MR (K)")
                        : tr("Point in %1 (K)").arg(words(m_session.primary())));

@@ -6,6 +6,8 @@
 #include <QPainter>
 #include <QPainterPath>
 
+#include "WindowTexts.h"
+
 namespace petrous::workstation
 {
 
@@ -91,7 +93,7 @@ void MetricCurve::paintEvent(QPaintEvent*)
   const Point& last = m_points.back();
   painter.setPen(kInk);
   painter.drawText(QPointF(kMargin, kMargin + 7.0),
-                   tr("level %1, metric %2").arg(last.level + 1).arg(last.metric, 0, 'f', 4));
+                   tr("level %1, metric %2").arg(last.level + 1).arg(numberText(last.metric, 4)));
 }
 
 } // namespace petrous::workstation

@@ -45,8 +45,8 @@ QString errorText(const scene::ImagePart& mr)
   QString text;
   if (const auto& error = mr.registration->error)
     text = RegistrationPanel::tr("Median error %1 mm, largest %2 mm")
-               .arg(error->median, 0, 'f', 2)
-               .arg(error->max, 0, 'f', 2);
+               .arg(numberText(error->median, 2))
+               .arg(numberText(error->max, 2));
   const QString why = phrase(mr.registration->text);
   return text.isEmpty() || why.isEmpty() ? text + why : text + "\n" + why;
 }
@@ -88,7 +88,7 @@ RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, Q
   m_error->setObjectName("dim");
   for (QLabel* label : {m_state, m_error, m_line})
   {
-    label->setWordWrap(true);
+    wrapWords(*label);
     label->setTextFormat(Qt::PlainText);
     label->setTextInteractionFlags(Qt::TextSelectableByMouse);
   }
@@ -322,7 +322,8 @@ void RegistrationPanel::refresh()
   m_overlay->setItemText(0, tr("%1 alone").arg(primary));
   m_overlay->setItemText(2, tr("%1's edges over the MR").arg(primary));
   m_bound.refresh();
-  m_state->setText(m_session.part() ? phrase(m_session.stateText())
+  m_state->setText(m_session.part()       ? phrase(m_session.stateText())
+                   : !m_session.hasCase() ? tr("Open a case first")
                    : m_session.primary() != "CT"
                        ? tr("The case has no other MR; add one with Case > Add MR…")
                        : tr("The case has no MR; add one with Case > Add MR…"));

@@ -11,6 +11,7 @@
 #include <QStyleOptionComboBox>
 #include <QStylePainter>
 
+#include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 
@@ -70,7 +71,7 @@ QString detailOf(const presenters::PlaceChoice& place)
   if (!place.drawnOn.empty())
     details += RegistrationTargetBox::tr("drawn on %1").arg(words(place.drawnOn));
   if (place.volume > 0.0)
-    details += words(presenters::cubicMillimetres(place.volume));
+    details += numberText(presenters::cubicMillimetres(place.volume));
   return details.join(", ");
 }
 } // namespace
@@ -143,7 +144,7 @@ void RegistrationTargetBox::addPlace()
   addChoice(tr("Error &at"), m_place);
   m_placeNote = new QLabel;
   m_placeNote->setObjectName("registrationPlaceNote");
-  m_placeNote->setWordWrap(true);
+  wrapWords(*m_placeNote);
   m_placeNote->setTextFormat(Qt::PlainText);
   m_placeNote->setStyleSheet(kWarningStyle);
   m_form->addRow(m_placeNote);

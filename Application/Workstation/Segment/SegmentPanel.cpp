@@ -65,7 +65,7 @@ QLabel* dimLabel(const QString& text)
 {
   auto* label = new QLabel(text);
   label->setObjectName("dim");
-  label->setWordWrap(true);
+  wrapWords(*label);
   label->setTextFormat(Qt::PlainText);
   return label;
 }
@@ -158,7 +158,7 @@ void SegmentPanel::addHead(QVBoxLayout& layout)
   form->addRow(tr("&Image"), m_source);
   layout.addLayout(form);
   m_shown->setObjectName("segmentShown");
-  m_shown->setWordWrap(true);
+  wrapWords(*m_shown);
   m_shown->setTextFormat(Qt::PlainText);
   m_shown->setStyleSheet(kWarningStyle);
   m_showSource = button({}, "segmentShowSource", tr("The slices show what the tools work on"));
@@ -500,7 +500,7 @@ QWidget* SegmentPanel::addFoot()
   m_note->setObjectName("segmentNote");
   for (QLabel* label : {m_remark, m_note, m_line})
   {
-    label->setWordWrap(true);
+    wrapWords(*label);
     label->setTextFormat(Qt::PlainText);
     label->setTextInteractionFlags(Qt::TextSelectableByMouse);
   }
@@ -525,7 +525,7 @@ QWidget* SegmentPanel::addFoot()
   layout->addWidget(m_remark);
   layout->addWidget(m_line);
   m_pieces->setObjectName("segmentPieces");
-  m_pieces->setWordWrap(true);
+  wrapWords(*m_pieces);
   m_keepLargest =
       button(tr("Keep the largest"), "segmentKeepLargest", tr("Removes the other pieces; a step"));
   m_keepLargest->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
@@ -652,7 +652,7 @@ void SegmentPanel::showPoints()
     QTreeWidgetItem* item = m_points->topLevelItem(row);
     const bool isOutside = points[n].isOutside;
     item->setText(0, QString::number(row + 1) + (isOutside ? "!" : ""));
-    item->setText(1, points[n].distance ? tr("%1 mm").arg(*points[n].distance, 0, 'f', 2)
+    item->setText(1, points[n].distance ? tr("%1 mm").arg(numberText(*points[n].distance, 2))
                                         : QString::fromUtf8("–"));
     item->setText(2, phrase(points[n].problem));
     item->setToolTip(2, phrase(points[n].problem));

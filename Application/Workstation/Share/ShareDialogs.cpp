@@ -20,6 +20,7 @@
 
 #include "AskName.h"
 #include "Language.h"
+#include "PanelLayout.h"
 #include "PathRow.h"
 #include "Theme.h"
 #include "WindowTexts.h"
@@ -55,11 +56,11 @@ ShareDialog::ShareDialog(const char* name, const QString& title, const QString& 
   setWindowTitle(title);
   m_note->setObjectName("dim");
   m_note->setTextFormat(Qt::PlainText);
-  m_note->setWordWrap(true);
+  wrapWords(*m_note);
   m_advice->setObjectName("shareAdvice");
   m_advice->setStyleSheet(kWarningStyle);
   m_advice->setTextFormat(Qt::PlainText);
-  m_advice->setWordWrap(true);
+  wrapWords(*m_advice);
   m_form->addRow(tr("&File:"), m_path);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   m_accept = buttons->addButton(accept, QDialogButtonBox::AcceptRole);

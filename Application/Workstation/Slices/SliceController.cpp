@@ -15,6 +15,7 @@
 #include "Theme.h"
 #include "ThreeDView.h"
 #include "WindowSettings.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 namespace petrous::workstation
@@ -109,8 +110,8 @@ void SliceController::fillWindows()
   {
     QAction* action = m_windows->addAction(tr("%1: W %2  L %3")
                                                .arg(QString(name).replace('&', "&&"),
-                                                    words(display.number(window.width)),
-                                                    words(display.number(window.level))));
+                                                    numberText(display.number(window.width)),
+                                                    numberText(display.number(window.level))));
     connect(action, &QAction::triggered, &m_slices,
             [this, window] { m_slices.setSeenWindow(window); });
   };

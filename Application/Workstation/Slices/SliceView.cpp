@@ -11,6 +11,7 @@
 #include <QPainterPath>
 #include <QScopedValueRollback>
 
+#include "Language.h"
 #include "SliceMarks.h"
 #include "Theme.h"
 #include "WindowTexts.h"
@@ -44,7 +45,7 @@ QString slabText(const presenters::Slab& slab)
   const QString name = slab.projection == presenters::Projection::Maximum   ? SliceView::tr("MIP")
                        : slab.projection == presenters::Projection::Minimum ? SliceView::tr("MinIP")
                                                                             : SliceView::tr("Mean");
-  return SliceView::tr("%1 %2 mm").arg(name, words(core::generalText(slab.thickness)));
+  return SliceView::tr("%1 %2 mm").arg(name, numberText(core::generalText(slab.thickness)));
 }
 
 SliceView::SliceView(SliceOrientation orientation, QWidget* parent)
@@ -570,8 +571,8 @@ void SliceView::paintLetters(QPainter& painter) const
   if (underMouse())
   {
     const QString grey = QString("W %1  L %2")
-                             .arg(words(intensityDisplay().number(seenWindow().width)),
-                                  words(intensityDisplay().number(seenWindow().level)));
+                             .arg(numberText(intensityDisplay().number(seenWindow().width)),
+                                  numberText(intensityDisplay().number(seenWindow().level)));
     const double at = width() - kMargin - QFontMetricsF(font).horizontalAdvance(grey);
     drawText(painter, {at, kMargin + 11.0}, grey, QColor("#b6c0ca"));
   }
@@ -596,7 +597,7 @@ void SliceView::paintScaleBar(QPainter& painter) const
   painter.drawPath(bar);
   painter.setPen(QPen(QColor("#f2f5f8"), 1.5));
   painter.drawPath(bar);
-  const QString text = QString("%1 mm").arg(length);
+  const QString text = QString("%1 mm").arg(numberLocale().toString(length));
   const double at = right - 0.5 * (pixels + QFontMetricsF(painter.font()).horizontalAdvance(text));
   drawText(painter, {at, bottom - 8.0}, text, QColor("#f2f5f8"));
 }

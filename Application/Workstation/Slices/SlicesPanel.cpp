@@ -15,6 +15,7 @@
 #include "SliceController.h"
 #include "Theme.h"
 #include "WindowSettings.h"
+#include "WindowTexts.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -260,16 +261,16 @@ void SlicesPanel::keepWindow()
 {
   const GreyWindow now = m_slices.seenWindow();
   const auto display = m_slices.seenDisplay();
-  const QString name =
-      askName(*window(), tr("Keep the grey window"),
-              tr("Name of the window of width %1 and level %2:")
-                  .arg(words(display.number(now.width)), words(display.number(now.level))),
-              {},
-              [](const std::string& text)
-              {
-                if (text.empty() || text.size() > kLongestName)
-                  throw core::InvalidParameter("A name has 1 to 60 bytes.");
-              });
+  const QString name = askName(
+      *window(), tr("Keep the grey window"),
+      tr("Name of the window of width %1 and level %2:")
+          .arg(numberText(display.number(now.width)), numberText(display.number(now.level))),
+      {},
+      [](const std::string& text)
+      {
+        if (text.empty() || text.size() > kLongestName)
+          throw core::InvalidParameter("A name has 1 to 60 bytes.");
+      });
   if (name.isEmpty())
     return;
   m_kept.keepGreyWindow(windowKind(), {bytes(name), now});

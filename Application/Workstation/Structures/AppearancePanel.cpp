@@ -17,6 +17,7 @@
 
 #include "Application.h"
 #include "AskName.h"
+#include "PanelLayout.h"
 #include "Theme.h"
 #include "TransferPlot.h"
 #include "WindowTexts.h"
@@ -75,7 +76,7 @@ AppearancePanel::AppearancePanel(presenters::WorkstationModel& model, QWidget* p
   m_note = new QLabel;
   m_note->setObjectName("appearanceNote");
   m_note->setTextFormat(Qt::PlainText);
-  m_note->setWordWrap(true);
+  wrapWords(*m_note);
   layout->addWidget(m_note);
   setMinimumWidth(340);
 
@@ -270,6 +271,15 @@ void AppearancePanel::appearanceChanged()
 {
   if (isVisible())
     refresh();
+}
+
+void AppearancePanel::partRenamed(const std::string& from, const std::string& to)
+{
+  m_editor.renamed(from, to);
+  if (m_followed.second == from)
+    m_followed.second = to;
+  if (m_wanted == from)
+    m_wanted = to;
 }
 
 void AppearancePanel::follow(const std::vector<std::string>& parts)

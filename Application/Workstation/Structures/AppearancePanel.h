@@ -37,6 +37,7 @@ public:
   /// panel is opened. A choice made here stays until another one is selected there.
   void follow(const std::vector<std::string>& parts);
 
+  void partRenamed(const std::string& from, const std::string& to) override;
   const presenters::AppearanceEditor& editor() const noexcept { return m_editor; }
 
 protected:

@@ -79,7 +79,7 @@ QString noteOf(const NearbyStructure& structure)
     notes += NearbyModel::tr("open");
   if (structure.injured > 0.0)
     notes += NearbyModel::tr("injured, %1 taken")
-                 .arg(words(presenters::cubicMillimetres(structure.injured)));
+                 .arg(numberText(presenters::cubicMillimetres(structure.injured)));
   if (structure.uncertainty.incomplete())
     notes += NearbyModel::tr("registration's error unknown");
   return notes.isEmpty() ? NearbyModel::tr("clear") : notes.join(", ");
@@ -130,11 +130,11 @@ QVariant NearbyModel::data(const QModelIndex& index, int role) const
     QString tip = tr("%1: %2\nIts surface is known to ±%3 mm: %4")
                       .arg(shownName(row.name))
                       .arg(noteOf(row))
-                      .arg(row.uncertainty.millimetres(), 0, 'f', 2)
+                      .arg(numberText(row.uncertainty.millimetres(), 2))
                       .arg(phrase(toString(row.uncertainty)));
     if (row.sampling > 0.0)
       tip += tr("\nThe instrument is measured at points: between them it may be %1 mm nearer")
-                 .arg(row.sampling, 0, 'f', 2);
+                 .arg(numberText(row.sampling, 2));
     return tip;
   }
   if (role == Qt::DecorationRole && index.column() == Name)

@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 
 #include "NearbyModel.h"
+#include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 
@@ -26,7 +27,7 @@ NearbyPanel::NearbyPanel(presenters::WorkstationModel& model, QWidget* parent)
   list->setRootIsDecorated(false);
   list->setUniformRowHeights(true);
   list->setSelectionMode(QAbstractItemView::NoSelection);
-  list->setFocusPolicy(Qt::NoFocus); // the view keeps the keyboard focus
+  list->setFocusPolicy(Qt::TabFocus); // a click leaves the keys to the view
   list->header()->setSectionsMovable(false);
   list->header()->setSectionResizeMode(NearbyModel::Name, QHeaderView::ResizeToContents);
   list->header()->setSectionResizeMode(NearbyModel::Distance, QHeaderView::ResizeToContents);
@@ -34,7 +35,7 @@ NearbyPanel::NearbyPanel(presenters::WorkstationModel& model, QWidget* parent)
   list->header()->setStretchLastSection(false);
   m_removed->setObjectName("removed");
   m_line->setObjectName("dim");
-  m_line->setWordWrap(true);
+  wrapWords(*m_line);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
@@ -73,13 +74,13 @@ void NearbyPanel::showRemoved()
   const auto& open = m_model.strokeSoFar();
   const std::size_t strokes = value.applied() + (open.total > 0.0 ? 1 : 0);
   QString text = tr("Removed: %1 mm³ in %2 %3")
-                     .arg(value.removedVolume() + open.total, 0, 'f', 1)
+                     .arg(numberText(value.removedVolume() + open.total, 1))
                      .arg(strokes)
                      .arg(strokes == 1 ? tr("stroke") : tr("strokes"));
   for (const auto& [name, volume] : presenters::injuredVolumes(value, open))
     text += tr("\nInjured: %1, %2")
                 .arg(shownName(name))
-                .arg(words(presenters::cubicMillimetres(volume)));
+                .arg(numberText(presenters::cubicMillimetres(volume)));
   m_removed->setText(text);
 }
 
@@ -110,7 +111,7 @@ void NearbyPanel::toolMeasured(const presenters::ToolSurroundings& near)
                            ? tr("No structure that is shown lies within %1 mm of the instrument")
                            : tr("No structure that is shown lies within %1 mm of the burr");
   say(near.structures.empty() && unmeasured.isEmpty()
-          ? none.arg(presenters::WorkstationModel::kNear, 0, 'f', 0)
+          ? none.arg(numberText(presenters::WorkstationModel::kNear, 0))
           : unmeasured);
   m_structures->show(near.structures);
 }

@@ -23,13 +23,14 @@ ProbeLabel::ProbeLabel(const presenters::WorkstationModel& model, QWidget* paren
 void ProbeLabel::showPlace(const Eigen::Vector3d& patient)
 {
   const auto hounsfield = m_model.hounsfieldAt(patient);
-  showValues(patient, hounsfield ? words(presenters::displayOf(m_model.value()).text(*hounsfield))
-                                 : QString());
+  showValues(patient, hounsfield
+                          ? numberText(presenters::displayOf(m_model.value()).text(*hounsfield))
+                          : QString());
 }
 
 void ProbeLabel::showValues(const Eigen::Vector3d& patient, const QString& values)
 {
-  QString text = words(core::positionText(patient));
+  QString text = numberText(core::positionText(patient));
   if (!values.isEmpty())
     text += "   " + values;
   const std::string structure = m_model.structureAt(patient);

@@ -563,10 +563,9 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
                                  : tr("No volume: the mesh is open, its surface ends at %1 edges"))
           .arg(row.openEdges);
     if (role == Qt::DisplayRole && row.volume > 0.0)
-      return tr("%1 mm³").arg(row.volume, 0, 'f',
-                              row.volume < 10.0    ? 2
-                              : row.volume < 100.0 ? 1
-                                                   : 0);
+      return tr("%1 mm³").arg(numberText(row.volume, row.volume < 10.0    ? 2
+                                                     : row.volume < 100.0 ? 1
+                                                                          : 0));
     if (role == Qt::TextAlignmentRole)
       return int(Qt::AlignRight | Qt::AlignVCenter);
     if (role == Qt::ToolTipRole)
@@ -576,7 +575,8 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
       return amount == drilled.end()
                  ? tr("Volume, mm³")
                  : tr("Volume, mm³") + '\n' +
-                       tr("Drilled: %1").arg(words(presenters::cubicMillimetres(amount->second)));
+                       tr("Drilled: %1")
+                           .arg(numberText(presenters::cubicMillimetres(amount->second)));
     }
     return {};
   default:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include <QAction>
 #include <QDoubleSpinBox>
@@ -416,11 +417,20 @@ void StructuresPanel::filter()
 // Selection, folded kinds and place stay, unless it is another case.
 void StructuresPanel::rebuild(bool another)
 {
+  const auto renamed = std::exchange(m_renamed, {});
+  const auto present = [&](const QModelIndex& row)
+  {
+    std::string part = m_structures->partAt(row);
+    for (const auto& [from, to] : renamed)
+      if (part == from)
+        part = to;
+    return part;
+  };
   std::vector<std::string> selected;
   for (const QModelIndex& row : m_list->selectionModel()->selectedRows(StructuresModel::Name))
-    if (const std::string part = m_structures->partAt(row); !part.empty())
+    if (const std::string part = present(row); !part.empty())
       selected.push_back(part);
-  const std::string current = m_structures->partAt(m_list->currentIndex());
+  const std::string current = present(m_list->currentIndex());
   QStringList folded;
   const auto nameOf = [](const QModelIndex& kind)
   { return kind.data().toString().section(" (", 0, 0); };
@@ -567,6 +577,12 @@ void StructuresPanel::partsChanged()
 {
   rebuild(false);
   showRange();
+}
+
+void StructuresPanel::partRenamed(const std::string& from, const std::string& to)
+{
+  m_renamed.emplace_back(from, to);
+  m_alone.renamed(from, to);
 }
 
 void StructuresPanel::appearanceChanged()

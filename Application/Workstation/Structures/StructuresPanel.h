@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <QTimer>
@@ -40,6 +41,7 @@ public:
 
   void caseChanged() override;
   void partsChanged() override;
+  void partRenamed(const std::string& from, const std::string& to) override;
   void appearanceChanged() override;
   void toolGone() override;
   bool showsNear() const override { return isVisible(); }
@@ -89,6 +91,8 @@ private:
   QToolButton* m_only;
   StructureEditor* m_editor;
   presenters::OnlyThese m_alone;
+  /// Parts that got another name since the list was made, in that order: from, to.
+  std::vector<std::pair<std::string, std::string>> m_renamed;
   QTimer m_fitLater;               // one fit for all that changed
   std::vector<QAction*> m_actions; // of the context menu
   Bindings m_bound;

@@ -41,7 +41,7 @@ ThicknessController::ThicknessController(presenters::WorkstationModel& model, Th
           {
             emit statusMessage(tr("The bone over %1 is being measured: %2 % (F6 stops it)")
                                    .arg(shownName(m_measured))
-                                   .arg(100.0 * fraction, 0, 'f', 0));
+                                   .arg(numberText(100.0 * fraction, 0)));
           });
   m_followLater.setSingleShot(true);
   m_followLater.setInterval(kFollowAfter);

@@ -3,6 +3,8 @@
 #include <QLinearGradient>
 #include <QPainter>
 
+#include "Language.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/BoneThickness.h"
 #include "petrous/Rendering/ThicknessColor.h"
 
@@ -79,7 +81,7 @@ void ThicknessLegend::paintEvent(QPaintEvent*)
     const int x = bar.left() + (bar.width() - 1) * mm / last;
     painter.drawLine(x, bar.bottom() - 2, x, bar.bottom() + 3);
     painter.drawText(QRect(x - 12, bar.bottom() + 4, 24, 18), Qt::AlignHCenter | Qt::AlignTop,
-                     QString::number(mm));
+                     numberLocale().toString(mm));
   }
 }
 

@@ -307,10 +307,10 @@ void TransferPlot::paintAxes(QPainter& painter) const
     painter.drawLine(QPointF(plot.left(), y), QPointF(plot.right(), y));
     painter.setPen(ink);
     painter.drawText(QRectF(0.0, y - metrics.height() / 2.0, plot.left() - kGap, metrics.height()),
-                     Qt::AlignRight | Qt::AlignVCenter, words(core::generalText(opacity)));
+                     Qt::AlignRight | Qt::AlignVCenter, numberText(core::generalText(opacity)));
   }
   const double room =
-      std::max(kTickRoom, metrics.horizontalAdvance(words(m_axis.number(m_axis.most))) + 16.0);
+      std::max(kTickRoom, metrics.horizontalAdvance(numberText(m_axis.number(m_axis.most))) + 16.0);
   const double step = std::max(tickStep((m_most - m_least) * room / plot.width()), m_axis.gap);
   const double below = strip().bottom() + 3.0;
   const QString unit = words(m_axis.unit.empty() ? m_axis.image : m_axis.unit);
@@ -320,7 +320,7 @@ void TransferPlot::paintAxes(QPainter& painter) const
     const double x = crisp(positionOf(value, 0.0).x());
     painter.setPen(QPen(mixed(base, text, 0.13), pixel));
     painter.drawLine(QPointF(x, plot.top()), QPointF(x, plot.bottom()));
-    const QString number = words(m_axis.number(value));
+    const QString number = numberText(m_axis.number(value));
     const double width = metrics.horizontalAdvance(number);
     if (x + width / 2.0 > unitLeft - 6.0)
       continue;
@@ -732,9 +732,9 @@ QString TransferPlot::pointText(std::size_t n) const
   return tr("Point %1 of %2: %3, opacity %4 of 1 mm, specular %5")
       .arg(n + 1)
       .arg(part->points.size())
-      .arg(words(m_axis.text(point.value)))
-      .arg(words(core::generalText(double(point.opacity), 3)))
-      .arg(words(core::fixedText(double(point.specular), 2)));
+      .arg(numberText(m_axis.text(point.value)))
+      .arg(numberText(core::generalText(double(point.opacity), 3)))
+      .arg(numberText(core::fixedText(double(point.specular), 2)));
 }
 
 // For screen readers.

@@ -14,6 +14,7 @@
 #include <QTranslator>
 #include <QtTest>
 
+#include "Language.h"
 #include "MainWindow.h"
 #include "ThreeDView.h"
 #include "petrous/Library/Library.h"
@@ -107,8 +108,13 @@ public:
   {
     m_isThere = m_texts.load(":/translations/petrous_de.qm");
     QApplication::installTranslator(&m_texts);
+    useNumberLocale();
   }
-  ~GermanTexts() { QApplication::removeTranslator(&m_texts); }
+  ~GermanTexts()
+  {
+    QApplication::removeTranslator(&m_texts);
+    useNumberLocale();
+  }
   GermanTexts(const GermanTexts&) = delete;
   GermanTexts& operator=(const GermanTexts&) = delete;
   bool isThere() const { return m_isThere; }

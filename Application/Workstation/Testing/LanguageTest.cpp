@@ -9,6 +9,7 @@
 #include <QMenuBar>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QSpinBox>
 #include <QTranslator>
 
 #include "Application.h"
@@ -85,7 +86,7 @@ TEST_F(LanguageTest, TheMenusAreGermanAndNumbersKeepTheirPoint)
   auto* thrust = window().findChild<QDoubleSpinBox*>("thrust");
   ASSERT_TRUE(thrust);
   thrust->setValue(1.5);
-  EXPECT_TRUE(thrust->text().startsWith("1.5")) << thrust->text().toStdString();
+  EXPECT_TRUE(thrust->text().startsWith("1,5")) << thrust->text().toStdString();
 }
 
 TEST_F(LanguageTest, NoTwoMenusOfTheBarHaveOneKeyInEnglish)
@@ -130,7 +131,7 @@ TEST_F(LanguageTest, WhatPresentersSayIsShownInGerman)
   ASSERT_TRUE(waitFor([this] { return settled(); }));
   const std::set<QString> names{"nerve", "ball", "main", "other"}; // of the case, and a preset
   const presenters::Phrasebook& phrases = presenters::germanPhrases();
-  const QRegularExpression withVolume(QString::fromUtf8(" \\([0-9.]+ mm³\\)$"));
+  const QRegularExpression withVolume(QString::fromUtf8(" \\([0-9.,]+ mm³\\)$"));
   int count = 0;
   for (const QString& text : shownTexts())
   {
@@ -169,6 +170,57 @@ TEST_F(LanguageTest, WithoutGermanPhrasesStayEnglish)
 {
   EXPECT_EQ(shownLanguage(), "en");
   EXPECT_EQ(phrase("case 'ear' has no structures"), "case 'ear' has no structures");
+}
+
+TEST_F(LanguageTest, NumbersHaveTheLanguagesDecimalSign)
+{
+  if (!hasLanguage("de"))
+    GTEST_SKIP() << "built without lrelease";
+  const std::string sentence = "the error is 0.32 mm, of file scan 1.5.nii and UID 1.2.840";
+  EXPECT_EQ(numberText(-0.25, 2), "-0.25");
+  EXPECT_EQ(numberText("0.5, 12.0"), "0.5, 12.0");
+  EXPECT_TRUE(phrase(sentence).contains("0.32 mm"));
+  const GermanTexts german;
+  ASSERT_TRUE(german.isThere());
+  EXPECT_EQ(numberText(-0.25, 2), "-0,25");
+  EXPECT_EQ(numberText(-0.001, 2), "0,00");
+  EXPECT_EQ(numberText(12345.6, 1), "12345,6");
+  EXPECT_EQ(numberText("0.5, 12.0"), "0,5; 12,0");
+  const QString shown = phrase(sentence);
+  EXPECT_TRUE(shown.contains("0,32 mm")) << shown.toStdString();
+  EXPECT_TRUE(shown.contains("1.5.nii")) << shown.toStdString();
+  EXPECT_TRUE(shown.contains("1.2.840")) << shown.toStdString();
+  EXPECT_EQ(QString::number(0.5), "0.5") << "files have a point";
+}
+
+TEST_F(LanguageTest, AGermanFieldTakesCommaAndPoint)
+{
+  if (!hasLanguage("de"))
+    GTEST_SKIP() << "built without lrelease";
+  const GermanTexts german;
+  ASSERT_TRUE(german.isThere());
+  openWindow();
+  auto* thrust = window().findChild<QDoubleSpinBox*>("thrust");
+  ASSERT_TRUE(thrust);
+  for (const char* typed : {"2,5", "2.5"})
+  {
+    thrust->setValue(1.0);
+    thrust->selectAll();
+    QTest::keyClicks(thrust, typed);
+    QTest::keyClick(thrust, Qt::Key_Enter);
+    EXPECT_EQ(thrust->value(), 2.5) << typed;
+    EXPECT_TRUE(thrust->text().startsWith("2,5")) << thrust->text().toStdString();
+  }
+  QSpinBox whole;
+  whole.setRange(0, 5000);
+  whole.setValue(300);
+  for (const char* typed : {"1.200", "1,200"}) // marks between thousands are nobody's
+  {
+    whole.selectAll();
+    QTest::keyClicks(&whole, typed);
+    QTest::keyClick(&whole, Qt::Key_Enter);
+    EXPECT_EQ(whole.value(), 300) << typed;
+  }
 }
 
 TEST_F(LanguageTest, ButtonsOfQtsDialogsAreGerman)

@@ -598,6 +598,7 @@ TEST_F(RegistrationWindow, LaysTheMrByPairsOfPointsThatWerePickedInTheSlices)
   EXPECT_FALSE(find<QPushButton>("redoMr").isEnabled());
   find<QTableView>("landmarks").selectRow(1);
   click("removeLandmark");
+  EXPECT_EQ(find<QTableView>("landmarks").currentIndex().row(), 1) << "the next one is chosen";
   EXPECT_EQ(rows.rowCount(), 2);
   EXPECT_FALSE(find<QPushButton>("fitLandmarks").isEnabled());
 }

@@ -260,6 +260,30 @@ TEST_F(PictureView, TheSurgeonDrillsInTheirOwnWindow)
   EXPECT_TRUE(waitFor([] { return surgeonWindow() == nullptr; }));
 }
 
+TEST_F(PictureView, NothingIsDrilledInTheSurgeonsWindowWhileADialogAsks)
+{
+  action("Surgeon's window")->trigger();
+  ASSERT_TRUE(surgeonWindow());
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(surgeonWindow()));
+  surgeonWindow()->resize(500, 400); // small: software-rendered here
+  QMessageBox box(&window());
+  box.open(); // of the main window alone, as Qt has it
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&box));
+  EXPECT_TRUE(waitFor([] { return !surgeonWindow()->isEnabled(); }));
+  EXPECT_FALSE(surgeonView().isEnabled());
+  QTest::keyClick(surgeonWindow(), Qt::Key_D);
+  EXPECT_FALSE(action("Drill")->isChecked());
+  QTest::mousePress(&surgeonView(), Qt::LeftButton, Qt::NoModifier, surgeonView().rect().center());
+  EXPECT_FALSE(view().tool().GetDrilling());
+  QTest::mouseRelease(&surgeonView(), Qt::LeftButton, Qt::NoModifier,
+                      surgeonView().rect().center());
+  box.accept();
+  EXPECT_TRUE(waitFor([] { return surgeonWindow()->isEnabled(); }));
+  EXPECT_EQ(surgeonWindow()->focusWidget(), &surgeonView());
+  surgeonWindow()->close();
+  EXPECT_TRUE(waitFor([] { return surgeonWindow() == nullptr; }));
+}
+
 TEST_F(PictureView, AFailingPictureSavesTheCaseFirst)
 {
   action("Drill")->trigger();

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <set>
+#include <string>
 
 #include <QAbstractItemModelTester>
 #include <QApplication>
@@ -687,6 +689,35 @@ TEST_F(Structures, TheTreeOfRowsIsSound)
   model().removePart("s6");
   EXPECT_TRUE(structureCell("jugular bulb").isValid());
   EXPECT_EQ(structureCell("s2").parent().data().toString(), "Vessels (4)");
+}
+
+TEST_F(Structures, WhatIsSelectedStaysSoUnderAnotherName)
+{
+  openMany(12);
+  auto* panel = window().findChild<StructuresPanel*>();
+  clickCell("s4");
+  clickCell("s6", 0, -1, Qt::ControlModifier);
+  const auto selected = [panel]
+  {
+    const auto parts = panel->selectedParts();
+    return std::set<std::string>(parts.begin(), parts.end());
+  };
+  ASSERT_EQ(selected(), (std::set<std::string>{"s4", "s6"}));
+  model().renamePart("s4", "jugular bulb");
+  EXPECT_EQ(selected(), (std::set<std::string>{"jugular bulb", "s6"}));
+  // Another one gets the name that was selected.
+  model().renamePart("s2", "s4");
+  EXPECT_EQ(selected(), (std::set<std::string>{"jugular bulb", "s6"}));
+  action("Undo")->trigger();
+  action("Undo")->trigger();
+  EXPECT_EQ(selected(), (std::set<std::string>{"s4", "s6"}));
+  action("Redo")->trigger();
+  EXPECT_EQ(selected(), (std::set<std::string>{"jugular bulb", "s6"}));
+  // Of another kind, it stands elsewhere in the list.
+  auto nerve = look("jugular bulb");
+  nerve.preset = "nerve";
+  model().setLook("jugular bulb", nerve);
+  EXPECT_EQ(selected(), (std::set<std::string>{"jugular bulb", "s6"}));
 }
 
 TEST_F(Structures, NoDistanceOfAnotherPlaceStaysWhereNoneIsKnown)

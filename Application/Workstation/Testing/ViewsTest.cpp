@@ -7,6 +7,7 @@
 #include <QAction>
 #include <QComboBox>
 #include <QDialogButtonBox>
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -52,6 +53,12 @@ protected:
   {
     ++m_events;
     QTest::keyClick(&window(), Qt::Key(key), modifiers);
+  }
+  void raise(const char* dock)
+  {
+    widget<QDockWidget>(dock).show();
+    widget<QDockWidget>(dock).raise();
+    EXPECT_TRUE(waitFor([&] { return !widget<QDockWidget>(dock).visibleRegion().isEmpty(); }));
   }
   void doubleClick(QWidget& on)
   {
@@ -99,6 +106,69 @@ TEST_F(Views, ADoubleClickEnlargesThe3DViewAndItIsDrawnThere)
   doubleClick(view());
   EXPECT_TRUE(axial().isVisible());
   EXPECT_EQ(picture().size(), before.size());
+}
+
+TEST_F(Views, EscLeavesAnEnlargedView)
+{
+  const QRect before = coronal().geometry();
+  doubleClick(coronal());
+  ASSERT_EQ(coronal().size(), area().size());
+  QTest::keyClick(&coronal(), Qt::Key_Escape);
+  EXPECT_EQ(coronal().geometry(), before);
+  EXPECT_TRUE(view().isVisible());
+  doubleClick(view());
+  ASSERT_FALSE(axial().isVisible());
+  QTest::keyClick(&view(), Qt::Key_Escape);
+  EXPECT_TRUE(axial().isVisible());
+  EXPECT_FALSE(action("Enlarge the view")->isChecked());
+  QTest::keyClick(&view(), Qt::Key_Escape); // there is nothing to leave
+  EXPECT_FALSE(area().arrangement().enlarged());
+}
+
+TEST_F(Views, EscPutsAToolAwayBeforeItLeavesAnEnlargedView)
+{
+  doubleClick(axial());
+  action("Distance")->trigger();
+  ASSERT_TRUE(action("Distance")->isChecked());
+  QTest::keyClick(&axial(), Qt::Key_Escape);
+  EXPECT_FALSE(action("Distance")->isChecked());
+  EXPECT_EQ(area().arrangement().enlarged(), ViewPane::Axial);
+  QTest::keyClick(&axial(), Qt::Key_Escape);
+  EXPECT_FALSE(area().arrangement().enlarged());
+}
+
+TEST_F(Views, ANumberGivesTheKeysToAViewThatIsShown)
+{
+  key(Qt::Key_5, Qt::ControlModifier); // slices alone
+  ASSERT_FALSE(view().isVisible());
+  auto& exposure = widget<QDoubleSpinBox>("exposure");
+  raise("pictureDock");
+  QApplication::setActiveWindow(&window());
+  exposure.setFocus();
+  ASSERT_TRUE(exposure.hasFocus());
+  QTest::keyClick(&exposure, Qt::Key_Return);
+  EXPECT_TRUE(axial().hasFocus());
+  exposure.setFocus();
+  QTest::keyClick(&exposure, Qt::Key_Escape);
+  EXPECT_TRUE(axial().hasFocus());
+}
+
+TEST_F(Views, AChoiceThatIsSteppedThroughByKeysKeepsThem)
+{
+  raise("pictureDock");
+  QApplication::setActiveWindow(&window());
+  auto& stereo = widget<QComboBox>("stereoMode");
+  stereo.setCurrentIndex(0);
+  stereo.setFocus();
+  ASSERT_TRUE(stereo.hasFocus());
+  QTest::keyClick(&stereo, Qt::Key_Down);
+  EXPECT_EQ(stereo.currentIndex(), 1);
+  EXPECT_TRUE(stereo.hasFocus());
+  QTest::keyClick(&stereo, Qt::Key_Up);
+  EXPECT_EQ(stereo.currentIndex(), 0);
+  EXPECT_TRUE(stereo.hasFocus());
+  QTest::keyClick(&stereo, Qt::Key_Escape);
+  EXPECT_TRUE(view().hasFocus());
 }
 
 TEST_F(Views, AClickPutsTheCrosshairOnTheSurfaceAndADragDoesNot)

@@ -1,4 +1,5 @@
 #include "GuiTest.h"
+#include "PanelLayout.h"
 
 #include <algorithm>
 #include <atomic>
@@ -29,6 +30,7 @@
 #include <QToolButton>
 #include <QTreeView>
 #include <QTreeWidget>
+#include <QVBoxLayout>
 
 #include "Application.h"
 #include "BackgroundWork.h"
@@ -117,23 +119,13 @@ TEST_F(Window, ThePanelsKeyRaisesAPanelThatLiesBehindAnother)
   EXPECT_TRUE(waitFor([&] { return inFront(picture); }));
 }
 
-TEST_F(Window, TheNamesOfPanelsThatShareAPlaceAreWholeOrInTips)
+TEST_F(Window, TheNamesOfPanelsThatShareAPlaceAreWhole)
 {
   saveBall("ball");
   openWindow();
+  window().resize(1280, 720);
   const auto bars = [this]
   { return window().findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly); };
-  const auto hasArrows = [](const QTabBar& bar)
-  {
-    const auto arrows = bar.findChildren<QToolButton*>(QString(), Qt::FindDirectChildrenOnly);
-    return std::any_of(arrows.begin(), arrows.end(),
-                       [](const QToolButton* arrow) { return arrow->isVisible(); });
-  };
-  for (const char* name : {"structuresDock", "appearanceDock", "pictureDock", "slicesDock"})
-    window().findChild<QDockWidget*>(name)->show();
-  QTest::qWait(50);
-  for (const QTabBar* bar : bars())
-    EXPECT_FALSE(hasArrows(*bar)) << "of four panels";
   for (const PanelEntry& entry : panelEntries())
     window().findChild<QDockWidget*>(entry.name)->show();
   QTest::qWait(50);
@@ -142,12 +134,53 @@ TEST_F(Window, TheNamesOfPanelsThatShareAPlaceAreWholeOrInTips)
     for (int n = 0; n < bar->count(); ++n)
     {
       ++tabs;
-      const bool isWhole =
-          bar->fontMetrics().horizontalAdvance(bar->tabText(n)) <= bar->tabRect(n).width();
-      EXPECT_TRUE(isWhole || bar->tabToolTip(n) == bar->tabText(n))
+      EXPECT_LE(bar->fontMetrics().horizontalAdvance(bar->tabText(n)), bar->tabRect(n).width())
           << bar->tabText(n).toStdString();
     }
   EXPECT_GE(tabs, 6);
+}
+
+TEST_F(Window, ALabelOfSeveralLinesIsAsHighAsTheyNeed)
+{
+  QWidget panel;
+  QVBoxLayout layout(&panel);
+  auto* above = new QWidget;
+  above->setMinimumHeight(100);
+  auto* label = new QLabel("short");
+  wrapWords(*label);
+  layout.addWidget(above, 1);
+  layout.addWidget(label);
+  panel.resize(400, 160);
+  panel.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&panel));
+  const auto isWhole = [label] { return label->height() >= label->heightForWidth(label->width()); };
+  const int line = label->height();
+  label->setText(QString("a warning of many words ").repeated(20));
+  EXPECT_TRUE(waitFor([&] { return isWhole() && label->height() > 3 * line; }));
+  panel.resize(200, 160);
+  EXPECT_TRUE(waitFor([&] { return isWhole() && label->width() < 200; }));
+  panel.hide();
+  panel.show();
+  EXPECT_TRUE(waitFor(isWhole));
+  label->setText("short");
+  EXPECT_TRUE(waitFor([&] { return label->minimumHeight() <= line; })) << "it gives the room back";
+}
+
+TEST_F(Window, ABannerThatAKeyDismissesLeavesTheKeysToAView)
+{
+  saveBall("ball");
+  openWindow();
+  auto* banner = window().findChild<Banner*>("faultBanner");
+  banner->setText("a fault");
+  banner->show();
+  auto* close = banner->findChild<QPushButton*>("dismissFault");
+  ASSERT_TRUE(waitFor([close] { return close->isVisible(); }));
+  QApplication::setActiveWindow(&window());
+  close->setFocus();
+  ASSERT_TRUE(close->hasFocus());
+  QTest::keyClick(close, Qt::Key_Space);
+  EXPECT_TRUE(banner->isHidden());
+  EXPECT_TRUE(view().hasFocus());
 }
 
 TEST_F(Window, TheFirstPageSaysWhatIsBeingOpenedAndWaits)

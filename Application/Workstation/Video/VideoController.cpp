@@ -361,7 +361,7 @@ void VideoController::failed(const QString& why)
 
 void VideoController::tellGap(const video::Gap& gap)
 {
-  const auto text = [](video::Time time) { return words(presenters::timeText(time.count())); };
+  const auto text = [](video::Time time) { return numberText(presenters::timeText(time.count())); };
   const QString line =
       gap.end
           ? tr("The file is damaged after %1; it goes on at %2")

@@ -1,6 +1,7 @@
 #include "VideoPanel.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <QAction>
 #include <QCheckBox>
@@ -23,6 +24,7 @@
 #include "Theme.h"
 #include "VideoPicture.h"
 #include "WindowTexts.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Presenters/VideoEditor.h"
 
 namespace petrous::workstation
@@ -57,11 +59,6 @@ QToolButton* narrow(const QString& text, const char* name, const QString& tip)
   button->setToolTip(tip);
   button->setFocusPolicy(Qt::TabFocus);
   return button;
-}
-
-QString number(double value, int decimals)
-{
-  return QString::number(value, 'f', decimals);
 }
 
 } // namespace
@@ -103,7 +100,7 @@ VideoPanel::VideoPanel(const presenters::WorkstationModel& model, presenters::Vi
   row->addWidget(m_place, 1);
   row->addWidget(m_time);
   m_fault->setObjectName("videoFault");
-  m_fault->setWordWrap(true);
+  wrapWords(*m_fault);
   m_fault->setTextFormat(Qt::PlainText);
   m_fault->hide();
 
@@ -220,7 +217,7 @@ void VideoPanel::addStill(QVBoxLayout& layout, const Actions& actions)
   m_overlay->setObjectName("stillOverlayShown");
   m_overlay->setToolTip(tr("The still lies over the 3D view while that is the still's own view"));
   m_camera->setObjectName("stillCamera");
-  m_camera->setWordWrap(true);
+  wrapWords(*m_camera);
   m_camera->setTextFormat(Qt::PlainText);
 
   auto* box = new QGroupBox(tr("Where the still was taken from"));
@@ -290,9 +287,9 @@ void VideoPanel::setPlace(std::int64_t nanoseconds)
   const QSignalBlocker quiet(m_place);
   if (!m_place->isSliderDown())
     m_place->setValue(static_cast<int>(nanoseconds / 1000000));
-  m_time->setText(
-      words(presenters::timeText(nanoseconds)) +
-      (m_duration > 0 ? " / " + words(presenters::timeText(m_duration * 1000000)) : QString()));
+  m_time->setText(numberText(presenters::timeText(nanoseconds)) +
+                  (m_duration > 0 ? " / " + numberText(presenters::timeText(m_duration * 1000000))
+                                  : QString()));
 }
 
 void VideoPanel::setOpening(bool isOpening)
@@ -369,14 +366,27 @@ void VideoPanel::refreshVideos()
 
 void VideoPanel::refreshBookmarks()
 {
-  const auto chosen = chosenBookmarks();
   const auto& all = m_editor.notes().bookmarks;
+  // They stay chosen by their names, which no others have; one that got another name, by its place.
+  std::vector<std::size_t> chosen;
+  if (std::exchange(m_bookmarksOf, m_editor.video()) == m_editor.video())
+    for (const std::size_t row : chosenBookmarks())
+    {
+      const std::string name =
+          bytes(m_bookmarks->topLevelItem(static_cast<int>(row))->text(BookmarkName));
+      const auto named = std::find_if(all.begin(), all.end(),
+                                      [&name](const auto& one) { return one.name == name; });
+      if (named != all.end())
+        chosen.push_back(static_cast<std::size_t>(named - all.begin()));
+      else if (static_cast<int>(all.size()) == m_bookmarks->topLevelItemCount())
+        chosen.push_back(row);
+    }
   const auto here = m_editor.bookmarkHere();
   QStringList shown;
   for (std::size_t n = 0; n < all.size(); ++n)
   {
     const std::size_t stroke = m_editor.strokeOf(n);
-    shown += {words(all[n].name), words(presenters::timeText(all[n].time)),
+    shown += {words(all[n].name), numberText(presenters::timeText(all[n].time)),
               stroke > 0              ? QString::number(stroke)
               : all[n].stroke.empty() ? QString::fromUtf8("–")
                                       : tr("gone"),
@@ -430,7 +440,7 @@ void VideoPanel::refreshStill()
     {
       mark.isBad = std::find(fit->bad.begin(), fit->bad.end(), n) != fit->bad.end();
       mark.seenAt = presenters::seenAt(fit->pose.camera, still->size, one.patient);
-      residual = tr("%1 px").arg(number(fit->pose.residuals[n], 1));
+      residual = tr("%1 px").arg(numberText(fit->pose.residuals[n], 1));
       if (mark.isBad)
         residual = tr("%1, does not fit").arg(residual);
     }
@@ -443,8 +453,9 @@ void VideoPanel::refreshStill()
       m_pairs->setItem(static_cast<int>(n), column, item);
     };
     cell(0,
-         number(one.patient.x(), 1) + ", " + number(one.patient.y(), 1) + ", " +
-             number(one.patient.z(), 1),
+         numberText(core::fixedText(one.patient.x(), 1) + ", " +
+                    core::fixedText(one.patient.y(), 1) + ", " +
+                    core::fixedText(one.patient.z(), 1)),
          mark.isBad);
     cell(1, residual, mark.isBad);
   }
@@ -486,11 +497,11 @@ QString VideoPanel::stillText() const
   QStringList lines;
   lines += tr("Residual %1 px, %2 mm at the landmarks (rms). Uncertainty (standard deviation): "
               "%3° of direction, %4 mm of the camera's place.")
-               .arg(number(pose.rms, 1), number(pose.rmsAtLandmarks, 2),
-                    number(pose.rotationSigma, 2), number(pose.positionSigma, 1));
+               .arg(numberText(pose.rms, 1), numberText(pose.rmsAtLandmarks, 2),
+                    numberText(pose.rotationSigma, 2), numberText(pose.positionSigma, 1));
   if (pose.viewAngleSigma > 0.0)
     lines += tr("Angle of view %1° ± %2°.")
-                 .arg(number(pose.camera.viewAngle, 2), number(pose.viewAngleSigma, 2));
+                 .arg(numberText(pose.camera.viewAngle, 2), numberText(pose.viewAngleSigma, 2));
   if (!fit->bad.empty())
   {
     QStringList bad;

@@ -100,6 +100,7 @@ private:
   QSlider* m_opacity;
   Bindings m_bound;
   QStringList m_namesShown, m_bookmarksShown; // lists are made anew where they differ
+  std::string m_bookmarksOf;                  // video
   qint64 m_duration = 0;                      // ms
   bool m_isOpening = false;
   bool m_refreshing = false;

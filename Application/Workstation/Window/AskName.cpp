@@ -10,6 +10,7 @@
 #include <QPushButton>
 
 #include "Application.h"
+#include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Core/Error.h"
@@ -27,7 +28,7 @@ QString askName(QWidget& parent, const QString& title, const QString& text, cons
   dialog.sizeHint(); // makes its widgets
   auto* label = dialog.findChild<QLabel*>();
   label->setTextFormat(Qt::PlainText);
-  label->setWordWrap(true);
+  wrapWords(*label);
   label->setMinimumWidth(340);
   QPushButton* ok = dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
   const auto judge = [&](const QString& typed)
@@ -41,7 +42,7 @@ QString askName(QWidget& parent, const QString& title, const QString& text, cons
     }
     catch (const core::Error& error)
     {
-      why = toString(error);
+      why = sentence(capitalized(toString(error)));
     }
     label->setText(why.isEmpty() ? text : text + "\n\n" + why);
     ok->setEnabled(!wanted.empty() && why.isEmpty());

@@ -3,10 +3,13 @@
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPointer>
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QVBoxLayout>
 #include <QVariant>
+
+#include "PanelLayout.h"
 
 namespace petrous::workstation
 {
@@ -80,7 +83,7 @@ Banner::Banner(const QString& name, Kind kind, QWidget* parent)
   setProperty("banner",
               QString(kind == Kind::Warning ? "warning" : "notice")); // for the style sheet
   m_text->setTextFormat(Qt::PlainText);
-  m_text->setWordWrap(true);
+  wrapWords(*m_text);
   m_text->setTextInteractionFlags(Qt::TextSelectableByMouse);
   m_layout->setContentsMargins(12, 6, 8, 6);
   m_layout->addWidget(m_text, 1);
@@ -110,7 +113,15 @@ void Banner::addButton(const QString& name, const QString& text, const std::func
   auto* button = new QPushButton(text);
   button->setObjectName(name);
   button->setAutoDefault(false);
-  connect(button, &QPushButton::clicked, this, act);
+  connect(button, &QPushButton::clicked, this,
+          [this, act, button]
+          {
+            const QPointer<Banner> self(this);
+            const bool hadFocus = button->hasFocus();
+            act();
+            if (self && hadFocus && isHidden())
+              emit dismissed();
+          });
   m_layout->addWidget(button);
 }
 

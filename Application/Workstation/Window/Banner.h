@@ -65,6 +65,9 @@ public:
   void addButton(const QString& name, const QString& text, const std::function<void()>& act);
   void setButtonVisible(const QString& name, bool visible);
 
+signals:
+  void dismissed(); ///< by a button that had the keyboard focus
+
 private:
   QLabel* m_text;
   QString m_whole;

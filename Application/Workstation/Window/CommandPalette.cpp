@@ -12,6 +12,7 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
+#include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 
@@ -52,7 +53,7 @@ CommandPalette::CommandPalette(std::vector<Command> commands, QWidget* parent)
   m_list->setAllColumnsShowFocus(true);
   m_tip->setObjectName("dim");
   m_tip->setTextFormat(Qt::PlainText);
-  m_tip->setWordWrap(true);
+  wrapWords(*m_tip);
   m_tip->setMinimumHeight(2 * m_tip->fontMetrics().lineSpacing());
   connect(m_search, &QLineEdit::textChanged, this, &CommandPalette::search);
   connect(m_list, &QTreeWidget::currentItemChanged, this, &CommandPalette::tell);

@@ -15,6 +15,8 @@
 #include <QStyle>
 #include <QToolTip>
 
+#include "Language.h"
+
 namespace petrous::workstation
 {
 
@@ -42,7 +44,7 @@ QString possibleIn(const QAbstractSpinBox& box)
     return said;
   const int decimals = decimalsOf(box);
   const auto text = [&](const char* name)
-  { return QLocale::c().toString(box.property(name).toDouble(), 'f', decimals); };
+  { return box.locale().toString(box.property(name).toDouble(), 'f', decimals); };
   const QString range =
       DecimalPoint::tr("From %1 to %2%3")
           .arg(text("minimum"), text("maximum"), box.property("suffix").toString());
@@ -54,17 +56,17 @@ QString possibleIn(const QAbstractSpinBox& box)
 QString whyNot(const QAbstractSpinBox& box, const QString& typed)
 {
   bool isNumber = false;
-  const double number = QLocale::c().toDouble(typed.trimmed(), &isNumber);
+  const double number = box.locale().toDouble(typed.trimmed(), &isNumber);
   const double least = box.property("minimum").toDouble();
   const double most = box.property("maximum").toDouble();
   const auto limit = [&box](double value)
   {
     const double rounded = QLocale::c().toString(value, 'f', decimalsOf(box)).toDouble();
-    return QString::number(rounded, 'g', 10) + box.property("suffix").toString();
+    return box.locale().toString(rounded, 'g', 10) + box.property("suffix").toString();
   };
-  if (isNumber && !typed.contains(',') && number > most)
+  if (isNumber && number > most)
     return DecimalPoint::tr("%1 is above the most, %2").arg(typed.trimmed(), limit(most));
-  if (isNumber && !typed.contains(',') && number < least)
+  if (isNumber && number < least)
     return DecimalPoint::tr("%1 is below the least, %2").arg(typed.trimmed(), limit(least));
   return DecimalPoint::tr("“%1” is not possible here; the number is as it was. %2.")
       .arg(typed, possibleIn(box));
@@ -86,7 +88,7 @@ DecimalPoint::DecimalPoint(QApplication& application)
   : QObject(&application)
 {
   std::setlocale(LC_NUMERIC, "C");
-  QLocale::setDefault(QLocale::c());
+  useNumberLocale();
   application.installEventFilter(this);
   m_marks.setSingleShot(true);
   m_marks.setInterval(kMarked);
@@ -120,7 +122,7 @@ void DecimalPoint::refuse(QAbstractSpinBox& box, const QString& what)
   box.setProperty("value", m_before);
   if (auto* line = box.findChild<QLineEdit*>()) // what was typed of it is not the number that was
     line->setText(box.property("prefix").toString() +
-                  QLocale::c().toString(m_before.toDouble(), 'f', decimalsOf(box)) +
+                  box.locale().toString(m_before.toDouble(), 'f', decimalsOf(box)) +
                   box.property("suffix").toString());
   box.selectAll();
   mark(box, true);
@@ -147,9 +149,10 @@ bool DecimalPoint::typed(QAbstractSpinBox& box, const QString& text)
   }
   if (m_isRest)
     return true;
+  const bool isWhole = decimalsOf(box) == 0;
   QString points = text;
-  if (decimalsOf(box) > 0)
-    points.replace(',', '.');
+  if (!isWhole)
+    points.replace(',', '.').replace('.', box.locale().decimalPoint());
   QString wanted = line->text();
   int at = line->cursorPosition();
   if (line->hasSelectedText())
@@ -161,8 +164,8 @@ bool DecimalPoint::typed(QAbstractSpinBox& box, const QString& text)
   const QString suffix = box.property("suffix").toString();
   const QString shown = wanted.endsWith(suffix) ? wanted.chopped(suffix.size()) : wanted;
   int end = at + points.size();
-  // Commas between thousands are the C locale's own, which nobody means who types a comma.
-  if (points.contains(','))
+  // Between thousands they are the locale's own, which nobody means who types one.
+  if (isWhole && (points.contains(',') || points.contains('.')))
   {
     refuse(box, shown);
     return true;

@@ -11,10 +11,10 @@ class QApplication;
 namespace petrous::workstation
 {
 
-/// Numbers use a decimal point whatever the session's locale: in the window as in command output,
-/// files and the distances beside the burr. Qt applies the session's locale to the C library too;
-/// this resets LC_NUMERIC, for the libraries that follow it. A comma typed or pasted into a number
-/// field with decimals becomes a point.
+/// Numbers of the window are those of its language (numberLocale), whatever the session's locale;
+/// those of files and of command output have a point. Qt applies the session's locale to the C
+/// library too; this resets LC_NUMERIC, for the libraries that follow it. In a number field with
+/// decimals comma and point are the same key, typed or pasted.
 ///
 /// A number that a field cannot take never becomes another one by losing characters: the field goes
 /// back to what it had, says what is possible, also in the status bar of its window, is marked for

@@ -22,10 +22,11 @@ void DiameterBox::setDiameters(std::vector<double> diameters, double wanted)
   m_diameters = std::move(diameters);
   const double taken = *nearest(wanted);
   setRange(m_diameters.front(), m_diameters.back());
+  const QString between = locale().decimalPoint() == ',' ? "; " : ", ";
   QStringList all;
   for (const double diameter : m_diameters)
-    all += QLocale::c().toString(diameter, 'g', 3);
-  setProperty("possible", tr("Burrs of %1 mm").arg(all.join(", ")));
+    all += locale().toString(diameter, 'g', 3);
+  setProperty("possible", tr("Burrs of %1 mm").arg(all.join(between)));
   setValue(taken);
 }
 

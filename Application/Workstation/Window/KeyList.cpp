@@ -51,6 +51,7 @@ KeyList::KeyList(const std::vector<Command>& commands, QWidget* parent)
   add(view, tr("Zoom"), tr("wheel"), tr("With Depth by wheel on: Ctrl with the wheel"));
   add(view, tr("Crosshair on the surface"), tr("click"), {});
   add(view, tr("Enlarge, and back"), tr("double click"), {});
+  add(view, tr("Back from the enlarged view"), tr("Esc"), tr("Of a slice, too"));
   add(view, tr("Drill, while the drill is on"), tr("Space, or the left button"),
       tr("With Ctrl the button presses the burr without drilling"));
   add(view, tr("Clutch"), tr("X"), tr("Held: the tool stays while hand or mouse goes on"));

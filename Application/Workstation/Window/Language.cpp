@@ -45,12 +45,25 @@ void installLanguage(QCoreApplication& application, const QString& code)
   };
   install("qtbase_" + code, QLibraryInfo::location(QLibraryInfo::TranslationsPath));
   install(textsOf(code), {});
+  useNumberLocale();
 }
 
 QString shownLanguage()
 {
   //: Code of the language of this file, ISO 639-1
   return QCoreApplication::translate("Language", "en");
+}
+
+QLocale numberLocale()
+{
+  QLocale locale = shownLanguage() == "de" ? QLocale(QLocale::German) : QLocale::c();
+  locale.setNumberOptions(QLocale::OmitGroupSeparator | QLocale::RejectGroupSeparator);
+  return locale;
+}
+
+void useNumberLocale()
+{
+  QLocale::setDefault(numberLocale());
 }
 
 } // namespace petrous::workstation

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QLocale>
 #include <QString>
 #include <QStringList>
 
@@ -16,11 +17,17 @@ bool hasLanguage(const QString& code);
 /// the window has that, and English where it has not. `users`: QLocale::uiLanguages().
 QString languageOf(const QString& chosen, const QStringList& users);
 
-/// Texts of the program and of Qt's own dialogs, for windows that are made afterwards. Numbers do
-/// not change. English installs nothing.
+/// Texts of the program and of Qt's own dialogs, and numbers, for windows that are made afterwards.
+/// English installs nothing.
 void installLanguage(QCoreApplication& application, const QString& code);
 
 /// Code of the language whose texts are installed.
 QString shownLanguage();
+
+/// How the window's language writes numbers: German with a decimal comma, English with a point,
+/// neither with marks between thousands. Whatever the session's locale is.
+QLocale numberLocale();
+/// Makes that the default of Qt, for the fields that are made afterwards.
+void useNumberLocale();
 
 } // namespace petrous::workstation

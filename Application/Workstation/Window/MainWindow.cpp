@@ -100,10 +100,29 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr int kMessage = 8000;   // ms
-constexpr int kFileName = 300;   // px
-constexpr int kPanelWidth = 500; // px, at first: the list of structures with its usual columns
-constexpr double kRoll = 5.0;    // degrees
+constexpr int kMessage = 8000;     // ms
+constexpr int kFileName = 300;     // px
+constexpr int kPanelWidth = 500;   // px, at first: the list of structures with its usual columns
+constexpr double kRoll = 5.0;      // degrees
+constexpr char kSteps[] = "steps"; // property of a choice box: its last key stepped
+
+// Whether the key goes to another choice of a box whose list is closed.
+bool isStep(const QKeyEvent& key)
+{
+  switch (key.key())
+  {
+  case Qt::Key_Up:
+  case Qt::Key_Down:
+    return !(key.modifiers() & Qt::AltModifier); // opens the list
+  case Qt::Key_PageUp:
+  case Qt::Key_PageDown:
+  case Qt::Key_Home:
+  case Qt::Key_End:
+    return true;
+  default:
+    return false;
+  }
+}
 
 QStringList dropped(const QMimeData& data)
 {
@@ -144,8 +163,8 @@ WindowOptions safeOptions(WindowOptions options)
   options.drawThumbnailsAfter = -1;
   return options;
 }
-// The names of panels that share a place are cut where there is no room for all, and whole in tips;
-// arrows, which hide names, come only where not even their beginnings fit.
+// The names of panels that share a place are whole, as what is left of a cut one tells nobody which
+// panel it is; where there is no room for all, arrows scroll them.
 class FittingTabs : public QObject
 {
 public:
@@ -155,7 +174,7 @@ public:
     if (event->type() == QEvent::ChildPolished)
       if (auto* tabs = qobject_cast<QTabBar*>(static_cast<QChildEvent*>(event)->child()))
       {
-        tabs->setElideMode(Qt::ElideRight);
+        tabs->setElideMode(Qt::ElideNone);
         tabs->setUsesScrollButtons(true);
       }
     return false;
@@ -307,7 +326,10 @@ void MainWindow::layOut()
   auto* banners = new BannerStack(*whole);
   for (Banner* banner : {m_damageBanner, m_faultBanner, m_unsavedBanner, m_recordingBanner,
                          m_loadingBanner, m_removedBanner, m_mrBanner, m_sideBanner, m_notesBanner})
+  {
     banners->add(banner);
+    connect(banner, &Banner::dismissed, m_area, &ViewArea::focusView); // else in some panel
+  }
   connect(m_view, &ThreeDView::toolModeSet, banners,
           [this, banners]
           { banners->setHeld(m_view->tool().GetDrillMode() || m_view->tool().GetProbeMode()); });
@@ -364,15 +386,20 @@ void MainWindow::guardBoxes()
     }
   for (auto* box : findChildren<QAbstractSpinBox*>())
   {
-    connect(box->findChild<QLineEdit*>(), &QLineEdit::returnPressed, m_view,
-            qOverload<>(&QWidget::setFocus));
+    connect(box->findChild<QLineEdit*>(), &QLineEdit::returnPressed, m_area, &ViewArea::focusView);
     box->setKeyboardTracking(false); // no values from partial input, so that Escape can drop it
     box->setFocusPolicy(Qt::StrongFocus);
     box->installEventFilter(this);
   }
   for (auto* box : findChildren<QComboBox*>())
   {
-    connect(box, qOverload<int>(&QComboBox::activated), m_view, [this] { m_view->setFocus(); });
+    // Who steps through the choices by keys is not done with the first one.
+    connect(box, qOverload<int>(&QComboBox::activated), m_area,
+            [this, box]
+            {
+              if (!box->property(kSteps).toBool())
+                m_area->focusView();
+            });
     box->setFocusPolicy(Qt::StrongFocus);
     box->installEventFilter(this);
   }
@@ -392,6 +419,10 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
     default:
       break;
     }
+  if (qobject_cast<QComboBox*>(widget) &&
+      (event->type() == QEvent::KeyPress || event->type() == QEvent::MouseButtonPress))
+    widget->setProperty(kSteps, event->type() == QEvent::KeyPress &&
+                                    isStep(*static_cast<QKeyEvent*>(event)));
   if (event->type() == QEvent::Wheel && !widget->hasFocus())
   {
     event->ignore(); // a panel may scroll
@@ -404,7 +435,7 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
     number->setValue(number->value());
   else if (auto* whole = qobject_cast<QSpinBox*>(widget))
     whole->setValue(whole->value());
-  m_view->setFocus();
+  m_area->focusView();
   return true;
 }
 
@@ -493,6 +524,11 @@ void MainWindow::connectModel()
   m_model.events.caseClosed = [this] { caseClosed(); };
   m_model.events.preparationWanted = [this] { m_keeper->prepare(); };
   m_model.events.partsChanged = [this] { partsChanged(); };
+  m_model.events.partRenamed = [this](const std::string& from, const std::string& to)
+  {
+    for (const auto& [entry, panel] : m_panels)
+      panel->partRenamed(from, to);
+  };
   m_model.events.appearanceChanged = [this]
   {
     m_picture->appearanceChanged();
@@ -569,7 +605,7 @@ void MainWindow::connectModel()
   connect(m_drill, &DrillController::statusMessage, this, say);
   connect(m_devices, &ActiveDeviceController::statusMessage, this, say);
   connect(m_devices, &ActiveDeviceController::lost, this, [this] { m_model.record({}); });
-  connect(m_devices, &ActiveDeviceController::came, m_view, qOverload<>(&QWidget::setFocus));
+  connect(m_devices, &ActiveDeviceController::came, m_area, &ViewArea::focusView);
   connect(m_deviceBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
   connect(m_bar, &DrillBar::pressChanged, this,
           [this]
@@ -846,7 +882,7 @@ void MainWindow::connectSegment()
   connect(m_segment, &SegmentController::structureCreated, this, &MainWindow::showUndo);
   connect(m_segment, &SegmentController::statusMessage, this,
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
-  connect(m_segment, &SegmentController::viewFocusAsked, m_view, qOverload<>(&QWidget::setFocus));
+  connect(m_segment, &SegmentController::viewFocusAsked, m_area, &ViewArea::focusView);
   connect(m_segment, &SegmentController::surfaceChanged, m_picture, &PictureController::setDraft);
   m_keeper->mayDropDraft = [this] { return m_segment->mayLeave(); };
   m_segment->addKeysTo(*m_view);
@@ -1077,7 +1113,7 @@ void MainWindow::caseChanged()
     m_bar->setThrust(m_settings->thrust().value_or(DrillBar::kUsualThrust));
   m_viewState->show();
   m_place->clear(); // of the previous case
-  m_view->setFocus();
+  m_area->focusView();
   showNotes({});
   const bool isNew = value.revision == 0;
   m_notesTold = isNew ? QStringList() : notesOf(value);

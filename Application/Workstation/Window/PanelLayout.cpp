@@ -4,6 +4,7 @@
 
 #include <QEvent>
 #include <QHeaderView>
+#include <QLabel>
 #include <QScreen>
 #include <QScrollArea>
 #include <QScrollBar>
@@ -100,6 +101,35 @@ public:
   QSize sizeHint() const override { return widget()->sizeHint().expandedTo(least()); }
 };
 
+// Of a label whose lines are broken: when its width, its letters or (as it is drawn anew) its text
+// is another.
+class WholeLines : public QObject
+{
+public:
+  explicit WholeLines(QLabel& label)
+    : QObject(&label)
+    , m_label(label)
+  {
+    label.installEventFilter(this);
+  }
+
+  bool eventFilter(QObject* watched, QEvent* event) override
+  {
+    const bool isShown = event->type() == QEvent::Resize || event->type() == QEvent::Show ||
+                         event->type() == QEvent::Paint;
+    if (isShown && watched == &m_label && m_label.isVisible())
+    {
+      const int needed = m_label.text().isEmpty() ? 0 : m_label.heightForWidth(m_label.width());
+      if (m_label.minimumHeight() != needed)
+        m_label.setMinimumHeight(needed);
+    }
+    return false;
+  }
+
+private:
+  QLabel& m_label;
+};
+
 } // namespace
 
 QWidget* scrolledPanel(QWidget* panel)
@@ -138,6 +168,12 @@ void resizeOnScreen(QWidget& window, const QSize& wanted)
   constexpr int kTitleBar = 40; // px, that the window manager adds
   const QWidget* parent = window.parentWidget();
   window.resize(wanted.boundedTo(roomFor(parent ? *parent : window) - QSize(0, kTitleBar)));
+}
+
+void wrapWords(QLabel& label)
+{
+  label.setWordWrap(true);
+  new WholeLines(label);
 }
 
 } // namespace petrous::workstation

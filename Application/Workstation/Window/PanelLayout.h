@@ -1,6 +1,7 @@
 #pragma once
 
 class QSize;
+class QLabel;
 class QTreeView;
 class QWidget;
 
@@ -24,5 +25,9 @@ QSize leastOfScreen(const QWidget& widget, const QSize& wanted);
 /// Gives a window or dialog this size, or what fits on the screen: with large type or at 200 % a
 /// screen may have no more than 960 × 540 px.
 void resizeOnScreen(QWidget& window, const QSize& wanted);
+
+/// Breaks the label's lines between words, and keeps it as high as its lines need at its width: the
+/// layouts of docks and dialogs know no height for a width, and would cut the last line.
+void wrapWords(QLabel& label);
 
 } // namespace petrous::workstation

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -42,9 +43,11 @@ public:
 
   virtual void caseChanged() {}                  ///< another case, or none any more
   virtual void partsChanged() { caseChanged(); } ///< images, structures or meshes of the same case
-  virtual void appearanceChanged() {}            ///< threshold, or a structure's appearance
-  virtual void stateChanged() {}                 ///< strokes
-  virtual void attachmentsChanged() {}           ///< or a recording ended
+  /// WorkstationEvents::partRenamed
+  virtual void partRenamed(const std::string& /*from*/, const std::string& /*to*/) {}
+  virtual void appearanceChanged() {}  ///< threshold, or a structure's appearance
+  virtual void stateChanged() {}       ///< strokes
+  virtual void attachmentsChanged() {} ///< or a recording ended
   /// A burr or an instrument in use, at X_PT; each frame.
   virtual void toolMoved(const presenters::MeasuredTool& /*tool*/, const haptics::Pose& /*pose*/) {}
   virtual void toolGone() {} ///< it was put away

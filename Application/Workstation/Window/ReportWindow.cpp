@@ -13,6 +13,7 @@
 
 #include "Application.h"
 #include "AskName.h"
+#include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Core/OutputFile.h"
@@ -33,7 +34,7 @@ void showReport(QWidget* parent, const QString& title, const QString& head, cons
   auto* first = new QLabel(head);
   first->setObjectName("reportHead");
   first->setTextFormat(Qt::PlainText);
-  first->setWordWrap(true);
+  wrapWords(*first);
   first->setTextInteractionFlags(Qt::TextSelectableByMouse);
   auto* whole = new QPlainTextEdit(text);
   whole->setObjectName("reportText");
@@ -44,7 +45,7 @@ void showReport(QWidget* parent, const QString& title, const QString& head, cons
   auto* outcome = new QLabel;
   outcome->setObjectName("dim");
   outcome->setTextFormat(Qt::PlainText);
-  outcome->setWordWrap(true);
+  wrapWords(*outcome);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
   auto* save = buttons->addButton(QObject::tr("&Save…"), QDialogButtonBox::ActionRole);
   save->setObjectName("saveReport");

@@ -19,6 +19,7 @@
 
 #include "Application.h"
 #include "Language.h"
+#include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowSettings.h"
 #include "WindowTexts.h"
@@ -124,7 +125,7 @@ void SettingsDialog::addLibrary(QFormLayout& form)
 {
   m_place->setObjectName("libraryFolder");
   m_place->setTextFormat(Qt::PlainText);
-  m_place->setWordWrap(true);
+  wrapWords(*m_place);
   m_place->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   auto* change = new QPushButton(tr("Another &folder…"));
   change->setObjectName("changeLibrary");

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <QApplication>
+#include <QKeyEvent>
 #include <QMouseEvent>
 
 #include "PanelLayout.h"
@@ -73,6 +74,26 @@ void ViewArea::toggleEnlarged(ViewPane pane)
   place();
   widget(pane).setFocus();
   emit arrangementChanged();
+}
+
+void ViewArea::focusView()
+{
+  for (const ViewPane pane :
+       {ViewPane::ThreeD, ViewPane::Axial, ViewPane::Coronal, ViewPane::Sagittal})
+    if (!widget(pane).isHidden())
+      return widget(pane).setFocus();
+}
+
+// Esc comes here where no tool takes it. What is drilled or dragged goes on in the place where it
+// began.
+void ViewArea::keyPressEvent(QKeyEvent* event)
+{
+  const bool isLeft = event->key() == Qt::Key_Escape && event->modifiers() == Qt::NoModifier &&
+                      m_arrangement.enlarged() && !m_view.tool().GetDrilling() &&
+                      QApplication::mouseButtons() == Qt::NoButton;
+  if (!isLeft)
+    return QWidget::keyPressEvent(event);
+  toggleEnlarged(*m_arrangement.enlarged());
 }
 
 ViewPane ViewArea::focusedPane() const

@@ -27,6 +27,8 @@ public:
   /// OneSlice shows the slice with the keyboard focus large, if one has it.
   void setLayout(presenters::ViewLayout layout);
   void toggleEnlarged(presenters::ViewPane pane);
+  /// Gives the keyboard to the 3D view, or where that is not shown to the first slice that is.
+  void focusView();
   presenters::ViewPane focusedPane() const; ///< the 3D view if no slice has the focus
   QWidget& widget(presenters::ViewPane pane) const;
 
@@ -35,6 +37,7 @@ signals:
 
 protected:
   void resizeEvent(QResizeEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override; ///< of the views, what they leave over
   bool eventFilter(QObject* watched, QEvent* event) override; ///< of the dividers
 
 private:

@@ -359,7 +359,7 @@ QMenu* WindowActions::addLayouts()
   menu->addSeparator();
   enlargeView = make(menu, tr("&Enlarge the view"), Qt::Key_E,
                      tr("The view that was clicked last fills the window, and goes back; as a "
-                        "double click on it"));
+                        "double click on it. Esc goes back, too"));
   enlargeView->setCheckable(true);
   m_needCase.push_back(enlargeView);
   return menu;

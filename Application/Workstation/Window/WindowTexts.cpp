@@ -23,13 +23,23 @@ QString numberText(double value, int decimals)
 {
   const double unit = std::pow(10.0, -decimals);
   const bool isZero = std::abs(value) < 0.5 * unit;
-  return QString::number(isZero ? 0.0 : value, 'f', decimals);
+  return numberLocale().toString(isZero ? 0.0 : value, 'f', decimals);
+}
+
+QString numberText(const std::string& text)
+{
+  QString shown = words(text);
+  const QChar point = numberLocale().decimalPoint();
+  if (point == '.')
+    return shown;
+  static const QRegularExpression decimal("(?<=\\d)\\.(?=\\d)");
+  return shown.replace(", ", "; ").replace(decimal, point);
 }
 
 QString volumeText(double volume)
 {
   const int decimals = volume < 100.0 ? 2 : volume < 10000.0 ? 1 : 0;
-  return QObject::tr("%1 mm³").arg(volume, 0, 'f', decimals);
+  return QObject::tr("%1 mm³").arg(numberText(volume, decimals));
 }
 
 QString shownName(const std::string& part)
@@ -67,7 +77,7 @@ QString removedText(const scene::Case& value, bool drilling)
       QObject::tr("%1 %2, %3 mm³ removed")
           .arg(value.applied())
           .arg(value.applied() == 1 ? QObject::tr("stroke") : QObject::tr("strokes"))
-          .arg(value.removedVolume(), 0, 'f', 1);
+          .arg(numberText(value.removedVolume(), 1));
   const dissection::History& history = value.dissection.history();
   const QString where = history.branches().size() > 1
                             ? QObject::tr("%1: %2").arg(approachName(history.branch().name), text)
@@ -79,10 +89,11 @@ QString strokeText(const dissection::Stroke* stroke)
 {
   if (!stroke)
     return QObject::tr("Nothing was cut");
-  QString text = QObject::tr("Removed %1 mm³").arg(stroke->info.removed, 0, 'f', 2);
+  QString text = QObject::tr("Removed %1 mm³").arg(numberText(stroke->info.removed, 2));
   for (const auto& touched : stroke->info.structures)
-    text +=
-        QObject::tr("  ·  %1 %2 mm³").arg(shownName(touched.name)).arg(touched.volume, 0, 'f', 2);
+    text += QObject::tr("  ·  %1 %2 mm³")
+                .arg(shownName(touched.name))
+                .arg(numberText(touched.volume, 2));
   return text;
 }
 
@@ -191,11 +202,10 @@ QString translatedText(const QString& text)
 {
   QString result = text;
   if (shownLanguage() == "de")
-    if (const auto german = presenters::germanPhrases().find(bytes(text)))
-      result = words(*german);
+    result = words(presenters::germanPhrases().text(bytes(text)));
   for (const Hint& hint : hints())
     result.replace(hint.command, hint.window);
-  return result;
+  return shownLanguage() == "de" ? words(presenters::withDecimalCommas(bytes(result))) : result;
 }
 
 } // namespace

@@ -10,8 +10,11 @@
 namespace petrous::workstation
 {
 
-/// "-0.3"; never "-0.0".
+/// "-0.3", in German "-0,3"; never "-0.0".
 QString numberText(double value, int decimals);
+/// A text of numbers and units alone, with a point, as the window's language has it: "0,25 mm",
+/// "0,5; 12,0" for "0.5, 12.0".
+QString numberText(const std::string& text);
 
 /// "12.34 mm³", with decimals as its size deserves.
 QString volumeText(double cubicMillimetres);

@@ -208,6 +208,13 @@ void AppearanceEditor::refresh()
     m_point.reset();
 }
 
+void AppearanceEditor::renamed(const std::string& from, const std::string& to)
+{
+  for (Part& part : m_parts)
+    if (part.name == from)
+      part.name = to;
+}
+
 const AppearanceEditor::Part* AppearanceEditor::selected() const noexcept
 {
   return m_selected < m_parts.size() ? &m_parts[m_selected] : nullptr;

@@ -517,6 +517,7 @@ void WorkstationModel::rename(const std::string& name, const std::string& to)
       follow(reader.part);
   if (m_assembly.thicknessOver() == name)
     m_assembly.showThickness({});
+  notify(events.partRenamed, name, to);
   partsMoved();
 }
 

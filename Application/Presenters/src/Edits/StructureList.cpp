@@ -128,4 +128,17 @@ void OnlyThese::toggle(const std::vector<std::string>& parts)
   m_now = shown();
 }
 
+void OnlyThese::renamed(const std::string& from, const std::string& to)
+{
+  const auto follow = [&](Shown& list)
+  {
+    for (auto& [part, isShown] : list)
+      if (part == from)
+        part = to;
+  };
+  follow(m_before);
+  if (m_now)
+    follow(*m_now);
+}
+
 } // namespace petrous::presenters

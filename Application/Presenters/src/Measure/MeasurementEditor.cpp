@@ -92,6 +92,7 @@ void MeasurementEditor::caseChanged()
   m_tool = Tool::None;
   forgetPoints();
   m_chosen.reset();
+  hearNames();
   m_dragged.reset();
   m_lines.clear();
   m_wall.reset();
@@ -418,6 +419,14 @@ void MeasurementEditor::store(std::vector<Measurement> next)
     throw;
   }
   m_storing = false;
+  hearNames();
+}
+
+void MeasurementEditor::hearNames()
+{
+  m_names.clear();
+  for (const Measurement& one : all())
+    m_names.push_back(one.name);
 }
 
 void MeasurementEditor::record(const std::string& text, std::vector<Measurement> before)
@@ -434,7 +443,20 @@ void MeasurementEditor::measurementsChanged()
   if (m_dragged)
     giveUp();
   m_dragged.reset();
-  m_chosen.reset();
+  if (m_chosen && *m_chosen >= m_names.size())
+    m_chosen.reset();
+  if (m_chosen)
+  {
+    // By its name, which no other one has; where that is gone and none came or went, by its place.
+    const auto named =
+        std::find_if(all().begin(), all().end(),
+                     [name = m_names[*m_chosen]](const auto& one) { return one.name == name; });
+    if (named != all().end())
+      m_chosen = static_cast<std::size_t>(named - all().begin());
+    else if (all().size() != m_names.size())
+      m_chosen.reset();
+  }
+  hearNames();
   tell();
 }
 

@@ -87,7 +87,8 @@ const std::map<std::string, std::string>& germanTexts()
        "Jede Zeile hat Schichten durch die Stelle der Höhle, die einer Struktur am nächsten ist; "
        "das Kreuz zeigt sie. Strukturen sind getönt und umrandet, Gebohrtes ist rot und "
        "schraffiert; die Linie ist der Abstand, in einer Ebene, die ihn enthält."},
-      {"Farther than %1 mm, and without slices: %2.", "Ferner als %1 mm und ohne Schichten: %2."},
+      {"Farther than %1 mm, and without slices: %2.",
+       "Weiter als %1 mm entfernt und ohne Schichten: %2."},
       {"Only the first %1 have slices; without are: %2.",
        "Nur die ersten %1 haben Schichten; ohne sind: %2."},
       {"Along the distance", "Entlang des Abstands"},
@@ -223,55 +224,6 @@ bool isDigit(char c) noexcept
   return c >= '0' && c <= '9';
 }
 
-bool isOfWord(char c) noexcept
-{
-  return isDigit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '/' ||
-         c == '\\';
-}
-
-/// Whether the text's digits and points from `begin` to `end` are a number of their own, not part
-/// of a name, a version or a UID: "T2-0.5", "1.2.840".
-bool isDecimal(std::string_view text, std::size_t begin, std::size_t end) noexcept
-{
-  const auto at = [text](std::size_t n) { return n < text.size() ? text[n] : ' '; };
-  const std::string_view number = text.substr(begin, end - begin);
-  const bool hasSign = begin > 0 && (at(begin - 1) == '-' || at(begin - 1) == '+');
-  const std::size_t first = hasSign ? begin - 1 : begin;
-  return std::count(number.begin(), number.end(), '.') == 1 && isDigit(number.front()) &&
-         !(first > 0 && isOfWord(at(first - 1))) && !isOfWord(at(end));
-}
-
-/// A sentence with a comma in each of its decimal numbers, and semicolons between those of a list.
-/// What stands in quotation marks is a name.
-std::string withCommas(std::string text)
-{
-  constexpr std::string_view kOpening = "\u201e", kClosing = "\u201c";
-  bool isQuoted = false;
-  for (std::size_t n = 0; n < text.size(); ++n)
-  {
-    if (text.compare(n, kOpening.size(), kOpening) == 0)
-      isQuoted = true;
-    else if (text.compare(n, kClosing.size(), kClosing) == 0)
-      isQuoted = false;
-    else if (text[n] == '\'')
-      isQuoted = !isQuoted && (n == 0 || text[n - 1] == ' ' || text[n - 1] == '(');
-    if (isQuoted || !isDigit(text[n]))
-      continue;
-    std::size_t end = std::min(text.find_first_not_of("0123456789.", n), text.size());
-    while (text[end - 1] == '.')
-      --end;
-    if (isDecimal(text, n, end))
-    {
-      text[text.find('.', n)] = ',';
-      const char next = end + 2 < text.size() ? text[end + 2] : ' ';
-      if (text.compare(end, 2, ", ") == 0 && (isDigit(next) || next == '-'))
-        text[end] = ';'; // of a list
-    }
-    n = end - 1;
-  }
-  return text;
-}
-
 } // namespace
 
 std::string reportText(ReportLanguage language, const std::string& english)
@@ -279,7 +231,8 @@ std::string reportText(ReportLanguage language, const std::string& english)
   if (language == ReportLanguage::English)
     return english;
   const auto found = germanTexts().find(english);
-  return found == germanTexts().end() ? withCommas(germanPhrases().text(english)) : found->second;
+  return found == germanTexts().end() ? withDecimalCommas(germanPhrases().text(english))
+                                      : found->second;
 }
 
 std::string reportNumber(ReportLanguage language, std::string text)

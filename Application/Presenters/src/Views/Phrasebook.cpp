@@ -373,6 +373,59 @@ std::optional<Phrasebook::Found> Phrasebook::divided(std::string_view part, Memo
   return best;
 }
 
+namespace
+{
+
+bool isOfWord(char c) noexcept
+{
+  return isDecimalDigit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+         c == '/' || c == '\\';
+}
+
+/// Whether the text's digits and points from `begin` to `end` are a number of their own, not part
+/// of a name, a file, a version or a UID: "T2-0.5", "0.5.nii", "1.2.840".
+bool isDecimal(std::string_view text, std::size_t begin, std::size_t end) noexcept
+{
+  const auto at = [text](std::size_t n) { return n < text.size() ? text[n] : ' '; };
+  const std::string_view number = text.substr(begin, end - begin);
+  const bool hasSign = begin > 0 && (at(begin - 1) == '-' || at(begin - 1) == '+');
+  const std::size_t first = hasSign ? begin - 1 : begin;
+  return std::count(number.begin(), number.end(), '.') == 1 && isDecimalDigit(number.front()) &&
+         !(first > 0 && isOfWord(at(first - 1))) && !isOfWord(at(end)) &&
+         !(at(end) == '.' && isOfWord(at(end + 1)));
+}
+
+} // namespace
+
+std::string withDecimalCommas(std::string text)
+{
+  constexpr std::string_view kOpening = "\u201e", kClosing = "\u201c";
+  bool isQuoted = false;
+  for (std::size_t n = 0; n < text.size(); ++n)
+  {
+    if (text.compare(n, kOpening.size(), kOpening) == 0)
+      isQuoted = true;
+    else if (text.compare(n, kClosing.size(), kClosing) == 0)
+      isQuoted = false;
+    else if (text[n] == '\'')
+      isQuoted = !isQuoted && (n == 0 || text[n - 1] == ' ' || text[n - 1] == '(');
+    if (isQuoted || !isDecimalDigit(text[n]))
+      continue;
+    std::size_t end = std::min(text.find_first_not_of("0123456789.", n), text.size());
+    while (text[end - 1] == '.')
+      --end;
+    if (isDecimal(text, n, end))
+    {
+      text[text.find('.', n)] = ',';
+      const char next = end + 2 < text.size() ? text[end + 2] : ' ';
+      if (text.compare(end, 2, ", ") == 0 && (isDecimalDigit(next) || next == '-'))
+        text[end] = ';'; // of a list
+    }
+    n = end - 1;
+  }
+  return text;
+}
+
 const std::vector<Phrasebook::Phrase>& germanPhraseList()
 {
   static const std::vector<Phrasebook::Phrase> kPhrases = []

@@ -82,6 +82,8 @@ public:
 
   /// Takes over the case and its looks as they are; call when they changed.
   void refresh();
+  /// A part has another name; before `refresh`. One that is selected stays so, with its point.
+  void renamed(const std::string& from, const std::string& to);
 
   const std::vector<Part>& parts() const noexcept { return m_parts; } ///< bone, soft tissue
   const Part* selected() const noexcept;                              ///< nullptr: there is no case

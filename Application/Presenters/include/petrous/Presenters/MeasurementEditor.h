@@ -103,7 +103,8 @@ public:
   std::optional<std::size_t> chosen() const noexcept { return m_chosen; }
   void choose(std::optional<std::size_t> measurement);
 
-  /// By another than this: undo, another case.
+  /// By another than this, as by undo. What is chosen stays so while it is there, also under
+  /// another name.
   void measurementsChanged();
 
   /// A point that was set, or the last change of the case: changes of measurements stand in its
@@ -136,6 +137,7 @@ private:
   void store(std::vector<scene::Measurement> next);
   void record(const std::string& text, std::vector<scene::Measurement> before);
   void tell() const;
+  void hearNames();
   scene::Measurement pointsAs(scene::Measurement::Kind kind) const; ///< those that are set
   void forgetPoints();
   void run(Work work);
@@ -156,6 +158,7 @@ private:
   std::vector<std::string> m_images; // of each
   std::optional<Eigen::Vector3d> m_hover;
   std::optional<std::size_t> m_chosen;
+  std::vector<std::string> m_names; // of all(), as it was heard of last
   std::optional<Drag> m_dragged;
   bool m_storing = false;
   bool m_computing = false;

@@ -76,4 +76,9 @@ private:
 const Phrasebook& germanPhrases();
 const std::vector<Phrasebook::Phrase>& germanPhraseList();
 
+/// A text with a comma in each of its decimal numbers, and semicolons between those of a list, as
+/// German has them. What stands in quotation marks is a name; so is a number within a word, a path,
+/// a version or a UID.
+std::string withDecimalCommas(std::string text);
+
 } // namespace petrous::presenters

@@ -66,8 +66,9 @@ public:
   const std::string& mr() const noexcept { return m_name; }
   std::vector<std::string> mrNames() const; ///< of the case
   const scene::ImagePart* part() const;     ///< nullptr if the case has no MR
-  std::string primary() const;              ///< "CT", or "primary MR": what MRs are registered to
-  std::string stateText() const;            ///< "not registered", or how, how well, signed by
+  bool hasCase() const noexcept { return m_model.hasCase(); }
+  std::string primary() const;   ///< "CT", or "primary MR": what MRs are registered to
+  std::string stateText() const; ///< "not registered", or how, how well, signed by
 
   /// Manual motion of the MR overlay on the CT, rotation about the crosshair; the user interface
   /// has steps of 0.1 and 1 mm or degree. Recorded as "by hand, not judged".

@@ -61,6 +61,7 @@ public:
   bool isOn(const std::vector<std::string>& parts) const;
   /// Shows these alone; if they are it already, what was shown before others were shown alone.
   void toggle(const std::vector<std::string>& parts);
+  void renamed(const std::string& from, const std::string& to); ///< a part has another name
 
 private:
   using Shown = std::vector<std::pair<std::string, bool>>;

@@ -15,6 +15,9 @@ struct WorkstationEvents
   std::function<void()> caseClosed;        ///< none is open any more
   std::function<void()> preparationWanted; ///< see WorkstationModel::preparation
   std::function<void()> partsChanged;      ///< images, structures or meshes were added to the case
+  /// A part has another name, also by undo or redo; before partsChanged. What is selected by name
+  /// goes along.
+  std::function<void(const std::string& from, const std::string& to)> partRenamed;
   std::function<void()> appearanceChanged; ///< threshold, or a structure's appearance
   std::function<void(const core::IndexBox&)> maskChanged; ///< within a box of CT voxels
   std::function<void()> crosshairMoved;

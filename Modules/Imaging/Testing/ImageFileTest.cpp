@@ -644,6 +644,23 @@ TEST(ImageFile, KeepsThePaddingOfEveryFormatThatIsWritten)
   }
 }
 
+TEST(ImageFile, KeepsThatValuesAreHounsfieldUnitsInEveryFormatThatIsWritten)
+{
+  const TestFolder folder;
+  const core::GridGeometry grid({4, 4, 4}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero());
+  const auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{700});
+  const volume::IntensityVolume image(std::shared_ptr<const volume::Volume<std::int16_t>>(voxels),
+                                      -3024.0);
+  for (const char* name : {"a.nrrd", "a.nii", "a.nii.gz", "a.mha"})
+    for (const bool isHounsfield : {true, false})
+    {
+      writeVolume(folder / name, image, {}, isHounsfield);
+      const auto back = readImageFile(folder / name);
+      EXPECT_EQ(back.isHounsfield, isHounsfield) << name;
+      EXPECT_EQ(back.volume->padding(), -3024.0) << name;
+    }
+}
+
 TEST(ImageFile, RefusesVoxelsThatAreNotFinite)
 {
   const TestFolder folder;

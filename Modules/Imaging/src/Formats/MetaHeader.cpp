@@ -269,6 +269,8 @@ MetaHeader readMetaHeader(const std::filesystem::path& path)
   header.component = *component;
   if (const std::string* comment = valueOf(fields, {"Comment"}))
     header.comment = *comment;
+  if (const std::string* unit = valueOf(fields, {kUnitKey}))
+    header.isHounsfield = *unit == kHounsfield;
   findVoxels(path, fields, header);
   readRescale(path, fields, header);
   readPlacement(path, fields, header);

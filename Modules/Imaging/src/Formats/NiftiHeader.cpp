@@ -33,17 +33,18 @@ constexpr double kMaxQuaternion = 1.001; // squared norm; float32 and few digits
 const Eigen::Vector3d kLpsFromRas(-1.0, -1.0, 1.0);
 
 constexpr std::size_t kDescription = 80; // bytes
+constexpr std::size_t kIntentName = 16;
 
 /// Byte offsets of the fields.
 struct Offsets
 {
   std::size_t magic, dataType, bits, dim, pixdim, voxels, slope, intercept, units, qformCode,
-      sformCode, quaternion, qoffset, srow, description;
+      sformCode, quaternion, qoffset, srow, description, intentName;
 };
 constexpr Offsets kNifti1{344, 70,  72,  40,  76,  108, 112, 116,
-                          123, 252, 254, 256, 268, 280, 148}; // nifti1.h
+                          123, 252, 254, 256, 268, 280, 148, 328}; // nifti1.h
 constexpr Offsets kNifti2{4,   12,  14,  16,  104, 168, 176, 184,
-                          500, 344, 348, 352, 376, 400, 240}; // nifti2.h
+                          500, 344, 348, 352, 376, 400, 240, 508}; // nifti2.h
 
 /// A header of either version: NIfTI-2 has the same fields, wider and elsewhere.
 class Fields
@@ -78,11 +79,8 @@ public:
   double srow(std::size_t n) const { return real(m_at.srow, n); }
   Eigen::Vector3d quaternion() const { return vector(m_at.quaternion); }
   Eigen::Vector3d qoffset() const { return vector(m_at.qoffset); }
-  std::string description() const
-  {
-    const std::string all = m_bytes.substr(m_at.description, kDescription);
-    return all.substr(0, all.find('\0'));
-  }
+  std::string description() const { return text(m_at.description, kDescription); }
+  std::string intentName() const { return text(m_at.intentName, kIntentName); }
   double voxels() const
   {
     return m_second ? static_cast<double>(get<std::int64_t>(m_at.voxels)) : real(m_at.voxels);
@@ -109,6 +107,11 @@ private:
   double real(std::size_t offset, std::size_t index = 0) const
   {
     return m_second ? get<double>(offset, index) : double{get<float>(offset, index)};
+  }
+  std::string text(std::size_t offset, std::size_t size) const
+  {
+    const std::string all = m_bytes.substr(offset, size);
+    return all.substr(0, all.find('\0'));
   }
   Eigen::Vector3d vector(std::size_t offset) const
   {
@@ -319,6 +322,7 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& given)
   const Fields fields = checkedFields(path);
   NiftiHeader header;
   header.description = fields.description();
+  header.intentName = fields.intentName();
   const bool pair = isPair(path, fields);
   header.file = pair ? otherOfPair(path, {".img", ".IMG"}) : path;
   const std::int64_t count = fields.dim(0);
@@ -364,7 +368,7 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& given)
 }
 
 std::string niftiHeaderBytes(const core::GridGeometry& geometry, int dataType, int bits,
-                             const std::string& description)
+                             const std::string& description, const std::string& intentName)
 {
   std::string bytes(kDataOffset, '\0');
   const auto put = [&bytes](std::size_t offset, auto value, std::size_t index = 0)
@@ -407,8 +411,10 @@ std::string niftiHeaderBytes(const core::GridGeometry& geometry, int dataType, i
   putFloat(kNifti1.quaternion, q.x(), 0);
   putFloat(kNifti1.quaternion, q.y(), 1);
   putFloat(kNifti1.quaternion, q.z(), 2);
-  bytes.replace(kNifti1.description, std::min(description.size(), kDescription - 1), description, 0,
-                kDescription - 1);
+  const auto putText = [&bytes](std::size_t offset, std::size_t size, const std::string& text)
+  { bytes.replace(offset, std::min(text.size(), size - 1), text, 0, size - 1); };
+  putText(kNifti1.description, kDescription, description);
+  putText(kNifti1.intentName, kIntentName, intentName);
   std::memcpy(bytes.data() + kNifti1.magic, "n+1", 4);
   return bytes;
 }

@@ -28,6 +28,7 @@ struct NiftiHeader
   double apart = 0.0;     ///< mm, by which the qform places a corner elsewhere than the sform
   LengthUnit unit;
   std::string description;
+  std::string intentName;
   bool isSideAssumed = false; ///< it states no place in the patient, and RAS is taken
   std::vector<std::string> notes;
 
@@ -41,8 +42,9 @@ struct NiftiHeader
 NiftiHeader readNiftiHeader(const std::filesystem::path& path);
 
 /// The 352 bytes before the voxels of a .nii: identical sform and qform, RAS, mm. `dataType` and
-/// `bits` as the standard's DT_ codes; at most 79 bytes of description.
+/// `bits` as the standard's DT_ codes; at most 79 bytes of description and 15 of intent_name.
 std::string niftiHeaderBytes(const core::GridGeometry& geometry, int dataType, int bits,
-                             const std::string& description = {});
+                             const std::string& description = {},
+                             const std::string& intentName = {});
 
 } // namespace petrous::imaging

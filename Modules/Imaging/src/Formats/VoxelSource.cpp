@@ -150,6 +150,7 @@ void VoxelSource::openNifti()
   NiftiHeader header = readNiftiHeader(m_path);
   m_notes = std::move(header.notes);
   m_padding = paddingIn(header.description);
+  m_isHounsfield = header.intentName == std::string(kUnitKey) + "=" + kHounsfield;
   const auto stored = niftiComponent(header.dataType);
   if (!stored)
     fail(FileError::Reason::Unsupported, m_path,
@@ -311,6 +312,8 @@ void VoxelSource::openNrrd()
   NrrdLayout layout = readNrrdLayout(m_path, *m_nrrd);
   if (const std::string* text = m_nrrd->key(kPaddingKey))
     m_padding = parseDouble(trimmed(*text));
+  if (const std::string* unit = m_nrrd->key(kUnitKey))
+    m_isHounsfield = trimmed(*unit) == kHounsfield;
   m_notes = std::move(layout.notes);
   m_dims = std::move(layout.dims);
   m_components = layout.components;
@@ -332,6 +335,7 @@ void VoxelSource::openMeta()
 {
   MetaHeader header = readMetaHeader(m_path);
   m_padding = paddingIn(header.comment);
+  m_isHounsfield = header.isHounsfield;
   m_notes = std::move(header.notes);
   m_dims = std::move(header.dims);
   countVolumes();

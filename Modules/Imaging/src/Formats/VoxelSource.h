@@ -64,6 +64,8 @@ public:
   void takeFileUnit();
   /// The value of voxels outside the scanned field, as this program's files keep it.
   const std::optional<double>& padding() const noexcept { return m_padding; }
+  /// Whether this program wrote it as an image in Hounsfield units.
+  bool isHounsfield() const noexcept { return m_isHounsfield; }
   /// The text header of a NRRD; nullopt for other formats.
   const std::optional<NrrdHeader>& nrrd() const noexcept { return m_nrrd; }
 
@@ -117,6 +119,7 @@ private:
   UnitDoubt m_unitDoubt;
   std::optional<bool> m_assumedRas;
   std::optional<double> m_padding;
+  bool m_isHounsfield = false;
   std::vector<std::string> m_notes;
   std::vector<std::string> m_placeNotes; ///< by the unit that was taken
   std::optional<NrrdHeader> m_nrrd;

@@ -323,6 +323,26 @@ TEST(ImageFile, TurnsUnitsIntoMillimetresAndNotesThem)
   expectTruth(putFile(folder / "m.mha", metaIn(1000.0, "m")), "is in m;");
 }
 
+// What was read and what was assumed, and not the one and then the other.
+TEST(ImageFile, SaysInWhichUnitAFileWasRead)
+{
+  const TestFolder folder;
+  const auto notesOf = [&](char unit, const std::optional<double>& asked)
+  {
+    std::string all;
+    const auto path = putFile(folder / "a.nii", niftiIn(1000.0, unit)); // 0.0005 each
+    for (const std::string& note : readImageFile(path, {}, {}, {}, 0, asked).notes)
+      all += note + "\n";
+    return all;
+  };
+  EXPECT_EQ(notesOf(1, {}), "is in metres; converted, its voxels are 0.5 x 0.5 x 0.5 mm\n");
+  EXPECT_EQ(notesOf(1, 10.0), "states metres, but its numbers were taken in units of 10 mm, as "
+                              "asked: its voxels are 0.005 x 0.005 x 0.005 mm\n");
+  EXPECT_EQ(notesOf(0, 1000.0), "states no unit of length, but its numbers were taken in units of "
+                                "1000 mm, as asked: its voxels are 0.5 x 0.5 x 0.5 mm\n");
+  EXPECT_EQ(notesOf(2, {}), "");
+}
+
 // Half a millimetre is 500 micrometres, and 0.0005 metres.
 TEST(ImageFile, AsksForTheUnitWhereTheSizeMakesNoSense)
 {
@@ -527,6 +547,49 @@ TEST(ImageFile, TakesTheScannersPlaceAndNotThatOfATemplate)
     EXPECT_EQ(
         readImageFile(putFile(folder / "b.nii", nifti.bytes())).volume->geometry().origin()[2],
         0.0);
+  }
+}
+
+// Of a label map the grid of the image on which it was drawn tells which place is meant.
+TEST(ImageFile, TakesThePlaceOfLabelsByWhichTheirGridIsThatOfAnImage)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.offset = {0.0F, 0.0F, 3.0F}; // of the qform; the sform is at 0
+  nifti.qform = 1;
+  const auto gridAt = [](double z)
+  {
+    return ImageGrid(core::GridGeometry({4, 3, 2}, Eigen::Vector3d::Ones(), {0.0, 0.0, z},
+                                        Eigen::Vector3d(-1.0, -1.0, 1.0).asDiagonal()));
+  };
+  for (const std::int16_t code : {std::int16_t{1}, std::int16_t{4}}) // the scanner's, a template's
+  {
+    SCOPED_TRACE(code);
+    nifti.sform = code;
+    const auto path = putFile(folder / "labels.nii", nifti.bytes());
+    const auto read = [&](const std::vector<ImageGrid>& images)
+    { return loadLabels(path, {}, {}, images); };
+    const auto says = [](const LoadedLabels& labels, const std::string& words)
+    {
+      return std::any_of(labels.notes.begin(), labels.notes.end(),
+                         [&words](const auto& note)
+                         { return note.find(words) != std::string::npos; });
+    };
+    const auto height = [](const LoadedLabels& labels)
+    { return labels.maps.at(0).voxels->geometry().origin()[2]; };
+    const double first = code == 1 ? 0.0 : 3.0;
+    EXPECT_NEAR(height(read({})), first, 1e-6);
+    for (const double z : {0.0, 3.0})
+    {
+      const LoadedLabels labels = read({gridAt(50.0), gridAt(z)});
+      EXPECT_NEAR(height(labels), z, 1e-6);
+      EXPECT_TRUE(says(labels, "up to 3 mm apart"));
+      EXPECT_TRUE(says(labels, z == 0.0 ? "the sform is used" : "the qform is used"));
+      EXPECT_EQ(says(labels, "that of an image of the case"), z != first);
+    }
+    const LoadedLabels neither = read({gridAt(10.0)});
+    EXPECT_NEAR(height(neither), first, 1e-6);
+    EXPECT_TRUE(says(neither, "7 mm from that of the first by the qform, and 10 mm by the sform"));
   }
 }
 

@@ -213,8 +213,7 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
   const bool hasS = fields.hasSform();
   if (!hasQ && !hasS)
   {
-    header.linear = spacing.asDiagonal();
-    header.origin.setZero();
+    header.placement = {spacing.asDiagonal(), Eigen::Vector3d::Zero()};
     header.isSideAssumed = true;
     header.notes.emplace_back("states no place in the patient: its axes are taken as the "
                               "patient's, from 0, 0, 0"); // which way, is settled later
@@ -229,19 +228,19 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
            "its header turns it by a quaternion (qform) that is not a rotation; export it again "
            "with "
            "its geometry");
-    header.linear = *qLinear;
-    header.origin = qOrigin;
+    header.placement = {*qLinear, qOrigin};
     if (std::min({fields.pixdim(1), fields.pixdim(2), fields.pixdim(3)}) < 0.0)
       header.notes.emplace_back("states a negative voxel size (pixdim), which was taken without "
                                 "its sign");
     return;
   }
+  NiftiPlacement& sform = header.placement;
   for (int row = 0; row < 3; ++row)
   {
     const std::size_t at = static_cast<std::size_t>(row) * 4;
     for (std::size_t column = 0; column < 3; ++column)
-      header.linear(row, static_cast<Eigen::Index>(column)) = fields.srow(at + column);
-    header.origin[row] = fields.srow(at + 3);
+      sform.linear(row, static_cast<Eigen::Index>(column)) = fields.srow(at + column);
+    sform.origin[row] = fields.srow(at + 3);
   }
   if (!hasQ)
     return;
@@ -259,41 +258,35 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
       index[a] = (corner >> a & 1)
                      ? static_cast<double>(header.dims[static_cast<std::size_t>(a)]) - 1
                      : 0.0;
-    const double d = ((header.linear - *qLinear) * index + header.origin - qOrigin).norm();
+    const double d = ((sform.linear - *qLinear) * index + sform.origin - qOrigin).norm();
     apart = std::max(apart, header.unit.mm * d);
   }
-  constexpr double kPlacementsDiffer = 0.1; // mm
-  if (fields.isSformOfTemplate() && apart > kPlacementsDiffer)
+  header.apart = apart;
+  header.other = NiftiPlacement{*qLinear, qOrigin};
+  header.isSformOfTemplate = fields.isSformOfTemplate();
+  if (header.isSformOfTemplate && apart > kPlacementsDiffer)
   {
-    header.linear = *qLinear;
-    header.origin = qOrigin;
-    header.notes.push_back("places itself twice, in the space of a template (sform) and in that of "
-                           "the scanner (qform), up to " +
-                           core::generalText(apart, 3) +
-                           " mm apart; the qform is used, as the patient lies there");
+    std::swap(header.placement, *header.other);
+    header.isQform = true;
     return;
   }
-  if (header.linear.determinant() * qLinear->determinant() < 0.0)
+  if (sform.linear.determinant() * qLinear->determinant() < 0.0)
     fail(FileError::Reason::NoGeometry, path,
          "places itself twice (sform and qform), and the two are mirror images of each other: left "
          "and right cannot be told; export it again with one of them");
-  header.apart = apart;
 }
 
-LengthUnit unitOf(int code, std::vector<std::string>& notes)
+LengthUnit unitOf(int code)
 {
   switch (code & 7)
   {
   case 1:
-    notes.emplace_back("is in metres; converted to mm");
-    return {1e3, true};
+    return {1e3, true, "metres"};
   case 2:
     return {1.0, true};
   case 3:
-    notes.emplace_back("is in micrometres; converted to mm");
-    return {1e-3, true};
+    return {1e-3, true, "micrometres"};
   default:
-    notes.emplace_back("states no unit of length; taken as mm");
     return {};
   }
 }
@@ -360,10 +353,16 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& given)
   if (!std::isfinite(header.slope) || !std::isfinite(header.intercept))
     fail(FileError::Reason::Unreadable, path,
          "its rescale slope or intercept is not a number; export it again from where it came");
-  header.unit = unitOf(fields.units(), header.notes);
+  header.unit = unitOf(fields.units());
   readPlacement(path, fields, header);
-  header.linear = header.unit.mm * kLpsFromRas.asDiagonal() * header.linear;
-  header.origin = header.unit.mm * kLpsFromRas.cwiseProduct(header.origin);
+  const auto toLps = [&header](NiftiPlacement& placement)
+  {
+    placement.linear = header.unit.mm * kLpsFromRas.asDiagonal() * placement.linear;
+    placement.origin = header.unit.mm * kLpsFromRas.cwiseProduct(placement.origin);
+  };
+  toLps(header.placement);
+  if (header.other)
+    toLps(*header.other);
   return header;
 }
 

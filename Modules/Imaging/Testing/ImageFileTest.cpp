@@ -312,8 +312,8 @@ TEST(ImageFile, TurnsUnitsIntoMillimetresAndNotesThem)
     EXPECT_TRUE(unitDoubtOf(path).likely.empty()) << path << word;
   };
   expectTruth(putFile(folder / "0.nii", niftiIn(1.0, 0)), "taken as mm");
-  expectTruth(putFile(folder / "1.nii", niftiIn(1000.0, 1)), "metres");
-  expectTruth(putFile(folder / "3.nii", niftiIn(0.001, 3)), "micrometres");
+  expectTruth(putFile(folder / "1.nii", niftiIn(1000.0, 1)), "is in m;");
+  expectTruth(putFile(folder / "3.nii", niftiIn(0.001, 3)), "is in um;");
   expectTruth(putFile(folder / "no.nrrd", nrrdIn(1.0, "")), "taken as mm");
   expectTruth(putFile(folder / "m.nrrd", nrrdIn(1000.0, "m")), "is in m;");
   expectTruth(putFile(folder / "um.nrrd", nrrdIn(0.001, "um")), "is in um;");
@@ -335,8 +335,8 @@ TEST(ImageFile, SaysInWhichUnitAFileWasRead)
       all += note + "\n";
     return all;
   };
-  EXPECT_EQ(notesOf(1, {}), "is in metres; converted, its voxels are 0.5 x 0.5 x 0.5 mm\n");
-  EXPECT_EQ(notesOf(1, 10.0), "states metres, but its numbers were taken in units of 10 mm, as "
+  EXPECT_EQ(notesOf(1, {}), "is in m; converted, its voxels are 0.5 x 0.5 x 0.5 mm\n");
+  EXPECT_EQ(notesOf(1, 10.0), "states m, but its numbers were taken in units of 10 mm, as "
                               "asked: its voxels are 0.005 x 0.005 x 0.005 mm\n");
   EXPECT_EQ(notesOf(0, 1000.0), "states no unit of length, but its numbers were taken in units of "
                                 "1000 mm, as asked: its voxels are 0.5 x 0.5 x 0.5 mm\n");

@@ -842,7 +842,7 @@ void judgeSigns(SeriesGeometry& geometry, const core::Progress& progress)
     const MixedSigns signs = mixedSigns(geometry.slices, 0, geometry.slices.size(), progress);
     if (signs.unclear.empty())
       return;
-    geometry.findings.push_back({FindingKind::Unreadable, signs.unclear + ".", 0.0});
+    geometry.findings.push_back({FindingKind::Unreadable, signs.unclear, 0.0});
     geometry.verdict = Verdict::Refused;
   }
   catch (const DicomError&)

@@ -50,7 +50,7 @@ MixedSigns mixedSigns(const std::vector<SliceHeader>& slices, std::size_t first,
                      ", and other slices of the series that theirs are not (Pixel "
                      "Representation): " +
                      std::to_string(unclear) + (unclear == 1 ? " value" : " values") +
-                     " would be another one if it is as they are. Export the series again";
+                     " would be another one if it is as they are. Export the series again.";
     break;
   }
   return result;

@@ -281,11 +281,11 @@ LengthUnit unitOf(int code)
   switch (code & 7)
   {
   case 1:
-    return {1e3, true, "metres"};
+    return {1e3, true, "m"};
   case 2:
     return {1.0, true};
   case 3:
-    return {1e-3, true, "micrometres"};
+    return {1e-3, true, "um"};
   default:
     return {};
   }

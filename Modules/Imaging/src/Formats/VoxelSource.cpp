@@ -174,7 +174,7 @@ void VoxelSource::openNifti()
   m_other = header.other;
   m_isQform = header.isQform;
   m_isSformOfTemplate = header.isSformOfTemplate;
-  m_placementWhy = m_isQform ? "as the patient lies there" : "as the NIfTI standard says";
+  m_whyPlacement = m_isQform ? "as the patient lies there" : "as the NIfTI standard says";
   place(header.placement.linear, header.placement.origin, header.unit);
   if (header.isSideAssumed)
     m_assumedRas = true;
@@ -208,7 +208,7 @@ void VoxelSource::scaleTo(double unit, bool isUnitKnown)
                                            "the scanner (qform)"
                                          : " (sform and qform)") +
                     ", up to " + roughText(scale * m_apart) + " mm apart; the " +
-                    (m_isQform ? "qform" : "sform") + " is used, " + m_placementWhy);
+                    (m_isQform ? "qform" : "sform") + " is used, " + m_whyPlacement);
   m_geometry =
       gridFromAffine(m_path, m_dims, scale * m_linear, scale * m_origin, notes, isUnitKnown);
   m_placeNotes = std::move(notes);
@@ -221,15 +221,19 @@ std::string VoxelSource::unitNote() const
   const Eigen::Vector3d& h = m_geometry->spacing();
   const std::string voxels = core::generalText(h[0], 4) + " x " + core::generalText(h[1], 4) +
                              " x " + core::generalText(h[2], 4) + " mm";
-  const std::string stated = m_unit.isStated
-                                 ? "states " + (m_unit.name.empty() ? "mm" : m_unit.name)
-                             : m_unit.isUnknown ? "states a unit of length that is not known"
-                                                : "states no unit of length";
   if (!m_unitWhy.empty())
-    return stated + ", but its numbers were taken in units of " + core::generalText(m_taken) +
+  {
+    const std::string unitText = m_unit.isUnknown      ? "states a unit of length that is not known"
+                                 : !m_unit.isStated    ? "states no unit of length"
+                                 : m_unit.name.empty() ? "states mm"
+                                                       : "states " + m_unit.name;
+    return unitText + ", but its numbers were taken in units of " + core::generalText(m_taken) +
            " mm, " + m_unitWhy + ": its voxels are " + voxels;
+  }
+  if (m_unit.isUnknown)
+    return "states a unit of length that is not known; taken as mm";
   if (!m_unit.isStated)
-    return stated + "; taken as mm";
+    return "states no unit of length; taken as mm";
   return m_unit.name.empty() ? std::string()
                              : "is in " + m_unit.name + "; converted, its voxels are " + voxels;
 }
@@ -314,11 +318,11 @@ void VoxelSource::settlePlacement(const std::vector<ImageGrid>& images)
   if (isOfImage())
     return;
   const double own = away();
-  const std::string why = m_placementWhy;
+  const std::string why = m_whyPlacement;
   exchange();
   try
   {
-    m_placementWhy = "as its grid is then that of an image of the case";
+    m_whyPlacement = "as its grid is then that of an image of the case";
     scaleTo(m_taken);
     if (isOfImage())
       return;
@@ -334,7 +338,7 @@ void VoxelSource::settlePlacement(const std::vector<ImageGrid>& images)
     // No size or place that can be true.
   }
   exchange();
-  m_placementWhy = why;
+  m_whyPlacement = why;
   scaleTo(m_taken);
 }
 

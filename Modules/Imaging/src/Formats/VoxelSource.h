@@ -128,7 +128,7 @@ private:
   std::optional<NiftiPlacement> m_other;
   bool m_isQform = false;
   bool m_isSformOfTemplate = false;
-  std::string m_placementWhy;
+  std::string m_whyPlacement;
   UnitDoubt m_unitDoubt;
   std::optional<bool> m_assumedRas;
   std::optional<double> m_padding;

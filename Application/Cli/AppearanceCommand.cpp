@@ -243,7 +243,10 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
   {
     const volume::IntensityHistogram histogram(*value.ct.volume.get());
     const bool isMr = value.ct.modality == scene::Modality::Mr;
-    const auto scale = isMr ? volume::suggestMrScale(histogram) : volume::suggestScale(histogram);
+    // A box in Hounsfield units need not show them.
+    const auto scale = presenters::calibratedScale(value).calibrated ? volume::IntensityScale()
+                       : isMr ? volume::suggestMrScale(histogram)
+                              : volume::suggestScale(histogram);
     context.refuseDamaged();
     value.iso = scale.iso;
     value.softTissueValues = scale.soft;

@@ -204,8 +204,16 @@
         <translation>%~1 Luft und Weichteile haben darin die Werte eines CT, deshalb liegt die Knochenoberfläche bei %#2, aber kein Wert wird HU genannt. Ist es ein CT in Hounsfield-Einheiten, öffnen Sie es noch einmal und geben Sie es auf die Frage an.</translation>
     </message>
     <message>
+        <source>Its histogram has no peaks of air and soft tissue, as that of a small part of a CT. It was judged by its values: soft tissue is near 40, and nothing below air, so they are taken for Hounsfield units, and the surface of bone is put at 300 HU; 'petrous appearance --iso' moves it.</source>
+        <translation>Sein Histogramm hat keine Gipfel von Luft und Weichteilen, wie das eines kleinen Teils eines CT. Beurteilt wurde es nach seinen Werten: Weichteile liegen nahe 40, und nichts unter Luft, also gelten sie als Hounsfield-Einheiten, und die Oberfläche des Knochens liegt bei 300 HU; die Knochenschwelle (F9) verschiebt sie.</translation>
+    </message>
+    <message>
         <source>The file does not say whether it is a CT or an MR; it is taken for a CT with units of its own, such as cone beam. Build the case with --modality MR if it is an MR, --modality CT if it is not.</source>
         <translation>Die Datei sagt nicht, ob sie ein CT oder ein MR ist; sie wird als CT mit eigenen Einheiten genommen, etwa eine DVT. Ist sie ein MR, öffnen Sie sie noch einmal und geben Sie es auf die Frage an.</translation>
+    </message>
+    <message>
+        <source>The intensities are not Hounsfield units: the surface of bone is put at %#1, and dense bone taken for %#2, by the image's histogram; 'petrous appearance --iso' moves the surface. Of a small part of a CT this may be wrong: where its values are Hounsfield units all the same, bone begins at 300 ('petrous appearance --iso 300').</source>
+        <translation>Die Intensitäten sind keine Hounsfield-Einheiten: Die Oberfläche des Knochens liegt nach dem Histogramm des Bildes bei %#1, dichter Knochen bei %#2; die Knochenschwelle (F9) verschiebt die Oberfläche. Bei einem kleinen Teil eines CT kann das falsch sein: Sind seine Werte doch Hounsfield-Einheiten, beginnt Knochen bei 300 (Knochenschwelle 300).</translation>
     </message>
     <message>
         <source>The intensities are not Hounsfield units: the surface of bone is put at %#1, and dense bone taken for %#2, by the image's histogram; 'petrous appearance --iso' moves the surface.</source>
@@ -4274,26 +4282,6 @@
         <translation>Das Padding hatte den Wert %1, der als Gewebe gälte; er wurde durch %#2 ersetzt.</translation>
     </message>
     <message>
-        <source>reading slices</source>
-        <translation>Schichten werden gelesen</translation>
-    </message>
-    <message>
-        <source>%1 says that its pixels are signed, and other slices of the series that theirs are not (Pixel Representation): %#2 value would be another one if it is as they are. Export the series again</source>
-        <translation>%1 gibt seine Bildpunkte mit Vorzeichen an, andere Schichten der Serie ihre ohne (Pixel Representation): %#2 Wert wäre ein anderer, wenn sie wie die anderen ist. Exportieren Sie die Serie neu</translation>
-    </message>
-    <message>
-        <source>%1 says that its pixels are signed, and other slices of the series that theirs are not (Pixel Representation): %#2 values would be another one if it is as they are. Export the series again</source>
-        <translation>%1 gibt seine Bildpunkte mit Vorzeichen an, andere Schichten der Serie ihre ohne (Pixel Representation): %#2 Werte wären andere, wenn sie wie die anderen ist. Exportieren Sie die Serie neu</translation>
-    </message>
-    <message>
-        <source>%1 says that its pixels are unsigned, and other slices of the series that theirs are not (Pixel Representation): %#2 value would be another one if it is as they are. Export the series again</source>
-        <translation>%1 gibt seine Bildpunkte ohne Vorzeichen an, andere Schichten der Serie ihre mit (Pixel Representation): %#2 Wert wäre ein anderer, wenn sie wie die anderen ist. Exportieren Sie die Serie neu</translation>
-    </message>
-    <message>
-        <source>%1 says that its pixels are unsigned, and other slices of the series that theirs are not (Pixel Representation): %#2 values would be another one if it is as they are. Export the series again</source>
-        <translation>%1 gibt seine Bildpunkte ohne Vorzeichen an, andere Schichten der Serie ihre mit (Pixel Representation): %#2 Werte wären andere, wenn sie wie die anderen ist. Exportieren Sie die Serie neu</translation>
-    </message>
-    <message>
         <source>Of %#1 slices %#2 says that the pixels are unsigned, the others that they are signed; no value depends on it.</source>
         <translation>Von %#1 Schichten gibt %#2 die Bildpunkte ohne Vorzeichen an, die anderen mit; kein Wert hängt davon ab.</translation>
     </message>
@@ -4304,6 +4292,10 @@
     <message>
         <source>Values whose highest stored bit is set were read as negative, as the header says (signed, Bits Stored %#1); no bit above tells them from positive ones that are too large. Look whether metal shows as air.</source>
         <translation>Werte mit gesetztem höchstem Bit wurden als negativ gelesen, wie der Header sagt (mit Vorzeichen, Bits Stored %#1); kein Bit darüber unterscheidet sie von zu großen positiven. Sehen Sie nach, ob Metall als Luft erscheint.</translation>
+    </message>
+    <message>
+        <source>reading slices</source>
+        <translation>Schichten werden gelesen</translation>
     </message>
     <message>
         <source>%#1 pixel has bits beside those stored that the file does not declare (Bits Stored); they were kept, as if stored, as asked. Look whether air or tissue shows as metal there.</source>
@@ -4632,6 +4624,22 @@
     <message>
         <source>%1: no DICOM image found (%#2 other files); give the folder that holds the CT's .dcm files</source>
         <translation>%1: kein DICOM-Bild gefunden (%#2 andere Dateien); nennen Sie den Ordner mit den .dcm-Dateien des CT</translation>
+    </message>
+    <message>
+        <source>%1 says that its pixels are signed, and other slices of the series that theirs are not (Pixel Representation): %#2 value would be another one if it is as they are. Export the series again.</source>
+        <translation>%1 gibt seine Bildpunkte mit Vorzeichen an, andere Schichten der Serie ihre ohne (Pixel Representation): %#2 Wert wäre ein anderer, wenn sie wie die anderen ist. Exportieren Sie die Serie neu.</translation>
+    </message>
+    <message>
+        <source>%1 says that its pixels are signed, and other slices of the series that theirs are not (Pixel Representation): %#2 values would be another one if it is as they are. Export the series again.</source>
+        <translation>%1 gibt seine Bildpunkte mit Vorzeichen an, andere Schichten der Serie ihre ohne (Pixel Representation): %#2 Werte wären andere, wenn sie wie die anderen ist. Exportieren Sie die Serie neu.</translation>
+    </message>
+    <message>
+        <source>%1 says that its pixels are unsigned, and other slices of the series that theirs are not (Pixel Representation): %#2 value would be another one if it is as they are. Export the series again.</source>
+        <translation>%1 gibt seine Bildpunkte ohne Vorzeichen an, andere Schichten der Serie ihre mit (Pixel Representation): %#2 Wert wäre ein anderer, wenn sie wie die anderen ist. Exportieren Sie die Serie neu.</translation>
+    </message>
+    <message>
+        <source>%1 says that its pixels are unsigned, and other slices of the series that theirs are not (Pixel Representation): %#2 values would be another one if it is as they are. Export the series again.</source>
+        <translation>%1 gibt seine Bildpunkte ohne Vorzeichen an, andere Schichten der Serie ihre mit (Pixel Representation): %#2 Werte wären andere, wenn sie wie die anderen ist. Exportieren Sie die Serie neu.</translation>
     </message>
     <message>
         <source>%1 %~2; copy it again from where it came from</source>
@@ -5090,18 +5098,6 @@
         <translation>nicht senkrechte Achsen wurden aufgerichtet, was kein Voxel um mehr als %#1 mm verschiebt</translation>
     </message>
     <message>
-        <source>is in %~1; converted to mm</source>
-        <translation>ist in %~1; in mm umgerechnet</translation>
-    </message>
-    <message>
-        <source>states no unit of length; taken as mm</source>
-        <translation>nennt keine Längeneinheit; als mm genommen</translation>
-    </message>
-    <message>
-        <source>states a unit of length that is not known; taken as mm</source>
-        <translation>nennt eine unbekannte Längeneinheit; als mm genommen</translation>
-    </message>
-    <message>
         <source>holds %#1 voxels that are not finite numbers (NaN, infinite or beyond float); give them the value of what lies outside the scanned field, such as -1024 in a CT</source>
         <translation>enthält %#1 Voxel, die keine endlichen Zahlen sind (NaN, unendlich oder zu groß); geben Sie ihnen den Wert dessen, was außerhalb des Messfeldes liegt, etwa -1024 im CT</translation>
     </message>
@@ -5398,20 +5394,8 @@
         <translation>nennt ihre Lage zweimal, einmal mit einem Quaternion (qform), das keine Drehung ist; die sform gilt</translation>
     </message>
     <message>
-        <source>places itself twice, in the space of a template (sform) and in that of the scanner (qform), up to %#1 mm apart; the qform is used, as the patient lies there</source>
-        <translation>gibt seine Lage zweimal an, im Raum einer Vorlage (sform) und in dem des Scanners (qform), bis zu %#1 mm auseinander; die qform wird verwendet, denn dort liegt der Patient</translation>
-    </message>
-    <message>
         <source>places itself twice (sform and qform), and the two are mirror images of each other: left and right cannot be told; export it again with one of them</source>
         <translation>gibt ihren Ort zweimal an (sform und qform), und beide sind Spiegelbilder voneinander: Links und rechts lassen sich nicht unterscheiden; exportieren Sie sie neu mit einem davon</translation>
-    </message>
-    <message>
-        <source>is in metres; converted to mm</source>
-        <translation>ist in Metern; in mm umgerechnet</translation>
-    </message>
-    <message>
-        <source>is in micrometres; converted to mm</source>
-        <translation>ist in Mikrometern; in mm umgerechnet</translation>
     </message>
     <message>
         <source>is one of a pair of files; its %1 is not there, keep both in one folder</source>
@@ -5598,12 +5582,60 @@
         <translation>ihre Voxel sind von einem nicht lesbaren Typ (Farben, komplex oder long double); speichern Sie sie als ganze oder Gleitkommazahlen</translation>
     </message>
     <message>
-        <source>places itself twice (sform and qform), up to %#1 mm apart; the sform is used, as the NIfTI standard says</source>
-        <translation>nennt ihre Lage zweimal (sform und qform), bis zu %#1 mm auseinander; die sform gilt, wie der NIfTI-Standard sagt</translation>
+        <source>as the patient lies there</source>
+        <translation>denn dort liegt der Patient</translation>
     </message>
     <message>
-        <source>was taken in a unit of length of %#1 mm%~2</source>
-        <translation>wurde in einer Längeneinheit von %#1 mm gelesen%~2</translation>
+        <source>as the NIfTI standard says</source>
+        <translation>wie der NIfTI-Standard sagt</translation>
+    </message>
+    <message>
+        <source>places itself twice, in the space of a template (sform) and in that of the scanner (qform), up to %#1 mm apart; the qform is used, %~2</source>
+        <translation>gibt seine Lage zweimal an, im Raum einer Vorlage (sform) und in dem des Scanners (qform), bis zu %#1 mm auseinander; die qform gilt, %~2</translation>
+    </message>
+    <message>
+        <source>places itself twice, in the space of a template (sform) and in that of the scanner (qform), up to %#1 mm apart; the sform is used, %~2</source>
+        <translation>gibt seine Lage zweimal an, im Raum einer Vorlage (sform) und in dem des Scanners (qform), bis zu %#1 mm auseinander; die sform gilt, %~2</translation>
+    </message>
+    <message>
+        <source>places itself twice (sform and qform), up to %#1 mm apart; the qform is used, %~2</source>
+        <translation>nennt ihre Lage zweimal (sform und qform), bis zu %#1 mm auseinander; die qform gilt, %~2</translation>
+    </message>
+    <message>
+        <source>places itself twice (sform and qform), up to %#1 mm apart; the sform is used, %~2</source>
+        <translation>nennt ihre Lage zweimal (sform und qform), bis zu %#1 mm auseinander; die sform gilt, %~2</translation>
+    </message>
+    <message>
+        <source>states a unit of length that is not known</source>
+        <translation>nennt eine unbekannte Längeneinheit</translation>
+    </message>
+    <message>
+        <source>states no unit of length</source>
+        <translation>nennt keine Längeneinheit</translation>
+    </message>
+    <message>
+        <source>states mm</source>
+        <translation>nennt mm</translation>
+    </message>
+    <message>
+        <source>states %1</source>
+        <translation>nennt %1</translation>
+    </message>
+    <message>
+        <source>%~1, but its numbers were taken in units of %#2 mm, %~3: its voxels are %4</source>
+        <translation>%~1, aber die Zahlen gelten in Einheiten von %#2 mm, %~3: Die Voxel sind %4</translation>
+    </message>
+    <message>
+        <source>states a unit of length that is not known; taken as mm</source>
+        <translation>nennt eine unbekannte Längeneinheit; als mm genommen</translation>
+    </message>
+    <message>
+        <source>states no unit of length; taken as mm</source>
+        <translation>nennt keine Längeneinheit; als mm genommen</translation>
+    </message>
+    <message>
+        <source>is in %1; converted, its voxels are %2</source>
+        <translation>ist in %1; umgerechnet sind die Voxel %2</translation>
     </message>
     <message>
         <source>as asked</source>
@@ -5612,6 +5644,10 @@
     <message>
         <source>as its grid is then that of an image of the case</source>
         <translation>da das Gitter dann das eines Bildes des Falls ist</translation>
+    </message>
+    <message>
+        <source>has the grid of no image of the case by either place: its middle is %#1 mm from that of the first by the qform, and %#2 mm by the sform</source>
+        <translation>hat nach keiner der beiden Lagen das Gitter eines Bildes des Falls: Seine Mitte ist nach der qform %#1 mm von der des ersten entfernt, nach der sform %#2 mm</translation>
     </message>
     <message>
         <source>does not say which side of the patient is left; its axes were taken as RAS%~1</source>

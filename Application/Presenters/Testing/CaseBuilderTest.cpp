@@ -303,6 +303,46 @@ TEST_F(CaseBuilder, ABoxHasTheUnitOfItsImage)
     }
 }
 
+// A file that is a box: bone alone shows no unit, and is believed where this program wrote it; soft
+// tissue beside bone does.
+TEST_F(CaseBuilder, AFileOfABoxHasTheUnitThatItStatesOrShows)
+{
+  const core::GridGeometry grid({40, 40, 40}, Vector3d::Ones(), Vector3d::Zero());
+  const auto noise = [](int i, int j, int k, int range)
+  { return (i * 7919 + j * 104729 + k * 1299709) % range; };
+  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{0});
+  const auto caseOf = [&](bool isBone, bool isStated)
+  {
+    for (int k = 0; k < 40; ++k)
+      for (int j = 0; j < 40; ++j)
+        for (int i = 0; i < 40; ++i)
+          voxels->at(i, j, k) = static_cast<std::int16_t>(
+              isBone || i > 32 ? 100 + noise(i, j, k, 1500)
+                               : -40 + noise(i, j, k, 81) + noise(j, k, i, 81)); // peak at 40
+    imaging::writeVolume(m_folder / "box.nrrd", volume::IntensityVolume(voxels), {}, isStated);
+    presenters::CaseSources sources;
+    sources.ct = m_folder / "box.nrrd";
+    return presenters::buildCase("ear", sources, {});
+  };
+  const auto says = [](const scene::Case& value, const char* words)
+  {
+    return std::any_of(value.ct.notes.begin(), value.ct.notes.end(),
+                       [words](const auto& note) { return note.find(words) != std::string::npos; });
+  };
+  for (const bool isBone : {true, false})
+  {
+    const auto stated = caseOf(isBone, true);
+    EXPECT_EQ(stated.iso, 300.0);
+    EXPECT_TRUE(presenters::calibratedScale(stated).calibrated);
+    EXPECT_EQ(stated.ct.modality, scene::Modality::Ct);
+  }
+  const auto bone = caseOf(true, false);
+  EXPECT_FALSE(presenters::calibratedScale(bone).calibrated);
+  EXPECT_GT(bone.iso, 400.0);
+  EXPECT_TRUE(says(bone, "Of a small part of a CT this may be wrong"));
+  EXPECT_TRUE(presenters::calibratedScale(caseOf(false, false)).calibrated);
+}
+
 TEST_F(CaseBuilder, PutsTheSurfaceOfAnMrWhereTissueBegins)
 {
   // Air of 10, a head of 400 with a skull of 20 and fluid of 1500 in it.

@@ -15,6 +15,7 @@
 #include "BoneCase.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
+#include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Presenters/CaseExport.h"
@@ -271,6 +272,29 @@ TEST_F(CaseExport, DicomStatesWhatIsKnownToBeWrongWithTheImage)
   const std::string slices = "slices 3, 7-9";
   EXPECT_NE(file.find("Repaired: " + slices + " of 40 interpolated"), std::string::npos);
   EXPECT_NE(m_warnings.find(slices + " interpolated"), std::string::npos) << m_warnings;
+}
+
+TEST_F(CaseExport, StatesHounsfieldUnitsOfACtThatIsInThese)
+{
+  scene::ImagePart mr = m_case.ct;
+  mr.name = "T2";
+  m_case.mr = {mr};
+  const auto isStated = [this](const std::string& what, const std::string& name)
+  {
+    scene::Case value = m_case;
+    ExportOptions options;
+    options.what = what;
+    options.out = (m_folder / name).string();
+    exportCase(m_library, value, options, {}, [](const std::string&) {}, {});
+    return imaging::readImageFile(options.out).isHounsfield;
+  };
+  for (const char* name : {"a.nrrd", "a.nii.gz", "a.mha"})
+  {
+    EXPECT_TRUE(isStated("ct", name)) << name;
+    EXPECT_FALSE(isStated("mr", name)) << name;
+  }
+  m_case.denseBone = 1500.0; // of a cone beam
+  EXPECT_FALSE(isStated("ct", "a.nrrd"));
 }
 
 TEST_F(CaseExport, PaddingThatNoVoxelHasNeedsNoRoom)

@@ -185,7 +185,7 @@ TEST(DicomReader, RefusesOneUnsignedSliceAmongSignedOnesWhereThatMakesAirMetal)
       }
       catch (const DicomError& error)
       {
-        EXPECT_EQ(error.reason(), DicomError::Reason::Unreadable);
+        EXPECT_EQ(error.reason(), DicomError::Reason::Misleading); // as the scan says
         const std::string why = error.what();
         EXPECT_NE(why.find("6 values would be another one"), why.npos) << why; // a column
         EXPECT_NE(why.find("Pixel Representation"), why.npos) << why;

@@ -1247,6 +1247,37 @@ TEST(DicomScan, LeavesOutNoSliceOfOnePlaceThatCannotBeCompared)
   }
 }
 
+// What is refused when it is read is not called sound before.
+TEST(DicomScan, RefusesSignedSlicesAmongUnsignedOnesWhereAValueDependsOnIt)
+{
+  for (const bool areFewSigned : {false, true})
+    for (const bool depends : {false, true})
+    {
+      const TemporaryFolder folder;
+      writeSeries(folder.path(), 4,
+                  [=](int k, TestSlice& slice)
+                  {
+                    slice.isSigned = (k == 2) == areFewSigned;
+                    slice.cell = [=](int i, int j)
+                    {
+                      return depends && i == 0 && k == 2
+                                 ? 0xFC18U
+                                 : static_cast<std::uint32_t>(7 * (i + j + k));
+                    }; // -1000
+                  });
+      const ScanResult result = scanDicom(folder.path(), {});
+      ASSERT_EQ(result.series.size(), 1U);
+      const SeriesGeometry& geometry = result.series.front().geometry;
+      EXPECT_EQ(geometry.verdict, depends ? Verdict::Refused : Verdict::Ok);
+      ASSERT_EQ(geometry.findings.size(), depends ? 1U : 0U);
+      if (depends)
+      {
+        const std::string& why = geometry.findings.front().text;
+        EXPECT_NE(why.find("6 values would be another one"), why.npos) << why; // a column
+      }
+    }
+}
+
 TEST(DicomScan, SaysThatPixelsWereCompressedWithLoss)
 {
   const auto notes = [](const std::function<void(TestSlice&)>& change)

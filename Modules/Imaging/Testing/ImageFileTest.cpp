@@ -312,8 +312,8 @@ TEST(ImageFile, TurnsUnitsIntoMillimetresAndNotesThem)
     EXPECT_TRUE(unitDoubtOf(path).likely.empty()) << path << word;
   };
   expectTruth(putFile(folder / "0.nii", niftiIn(1.0, 0)), "taken as mm");
-  expectTruth(putFile(folder / "1.nii", niftiIn(1000.0, 1)), "metres");
-  expectTruth(putFile(folder / "3.nii", niftiIn(0.001, 3)), "micrometres");
+  expectTruth(putFile(folder / "1.nii", niftiIn(1000.0, 1)), "is in m;");
+  expectTruth(putFile(folder / "3.nii", niftiIn(0.001, 3)), "is in um;");
   expectTruth(putFile(folder / "no.nrrd", nrrdIn(1.0, "")), "taken as mm");
   expectTruth(putFile(folder / "m.nrrd", nrrdIn(1000.0, "m")), "is in m;");
   expectTruth(putFile(folder / "um.nrrd", nrrdIn(0.001, "um")), "is in um;");
@@ -321,6 +321,26 @@ TEST(ImageFile, TurnsUnitsIntoMillimetresAndNotesThem)
   expectTruth(putFile(folder / "no.mha", metaIn(1.0, "")), "taken as mm");
   expectTruth(putFile(folder / "um.mha", metaIn(0.001, "um")), "is in um;");
   expectTruth(putFile(folder / "m.mha", metaIn(1000.0, "m")), "is in m;");
+}
+
+// What was read and what was assumed, and not the one and then the other.
+TEST(ImageFile, SaysInWhichUnitAFileWasRead)
+{
+  const TestFolder folder;
+  const auto notesOf = [&](char unit, const std::optional<double>& asked)
+  {
+    std::string all;
+    const auto path = putFile(folder / "a.nii", niftiIn(1000.0, unit)); // 0.0005 each
+    for (const std::string& note : readImageFile(path, {}, {}, {}, 0, asked).notes)
+      all += note + "\n";
+    return all;
+  };
+  EXPECT_EQ(notesOf(1, {}), "is in m; converted, its voxels are 0.5 x 0.5 x 0.5 mm\n");
+  EXPECT_EQ(notesOf(1, 10.0), "states m, but its numbers were taken in units of 10 mm, as "
+                              "asked: its voxels are 0.005 x 0.005 x 0.005 mm\n");
+  EXPECT_EQ(notesOf(0, 1000.0), "states no unit of length, but its numbers were taken in units of "
+                                "1000 mm, as asked: its voxels are 0.5 x 0.5 x 0.5 mm\n");
+  EXPECT_EQ(notesOf(2, {}), "");
 }
 
 // Half a millimetre is 500 micrometres, and 0.0005 metres.
@@ -530,6 +550,49 @@ TEST(ImageFile, TakesTheScannersPlaceAndNotThatOfATemplate)
   }
 }
 
+// Of a label map the grid of the image on which it was drawn tells which place is meant.
+TEST(ImageFile, TakesThePlaceOfLabelsByWhichTheirGridIsThatOfAnImage)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.offset = {0.0F, 0.0F, 3.0F}; // of the qform; the sform is at 0
+  nifti.qform = 1;
+  const auto gridAt = [](double z)
+  {
+    return ImageGrid(core::GridGeometry({4, 3, 2}, Eigen::Vector3d::Ones(), {0.0, 0.0, z},
+                                        Eigen::Vector3d(-1.0, -1.0, 1.0).asDiagonal()));
+  };
+  for (const std::int16_t code : {std::int16_t{1}, std::int16_t{4}}) // the scanner's, a template's
+  {
+    SCOPED_TRACE(code);
+    nifti.sform = code;
+    const auto path = putFile(folder / "labels.nii", nifti.bytes());
+    const auto read = [&](const std::vector<ImageGrid>& images)
+    { return loadLabels(path, {}, {}, images); };
+    const auto says = [](const LoadedLabels& labels, const std::string& words)
+    {
+      return std::any_of(labels.notes.begin(), labels.notes.end(),
+                         [&words](const auto& note)
+                         { return note.find(words) != std::string::npos; });
+    };
+    const auto height = [](const LoadedLabels& labels)
+    { return labels.maps.at(0).voxels->geometry().origin()[2]; };
+    const double first = code == 1 ? 0.0 : 3.0;
+    EXPECT_NEAR(height(read({})), first, 1e-6);
+    for (const double z : {0.0, 3.0})
+    {
+      const LoadedLabels labels = read({gridAt(50.0), gridAt(z)});
+      EXPECT_NEAR(height(labels), z, 1e-6);
+      EXPECT_TRUE(says(labels, "up to 3 mm apart"));
+      EXPECT_TRUE(says(labels, z == 0.0 ? "the sform is used" : "the qform is used"));
+      EXPECT_EQ(says(labels, "that of an image of the case"), z != first);
+    }
+    const LoadedLabels neither = read({gridAt(10.0)});
+    EXPECT_NEAR(height(neither), first, 1e-6);
+    EXPECT_TRUE(says(neither, "7 mm from that of the first by the qform, and 10 mm by the sform"));
+  }
+}
+
 TEST(ImageFile, RefusesTwoPlacesThatAreMirrorImages)
 {
   const TestFolder folder;
@@ -642,6 +705,23 @@ TEST(ImageFile, KeepsThePaddingOfEveryFormatThatIsWritten)
     EXPECT_EQ(back.volume->range().min, -1000.0) << name;
     EXPECT_EQ(back.volume->at(0, 0, 0), -3024.0) << name;
   }
+}
+
+TEST(ImageFile, KeepsThatValuesAreHounsfieldUnitsInEveryFormatThatIsWritten)
+{
+  const TestFolder folder;
+  const core::GridGeometry grid({4, 4, 4}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero());
+  const auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{700});
+  const volume::IntensityVolume image(std::shared_ptr<const volume::Volume<std::int16_t>>(voxels),
+                                      -3024.0);
+  for (const char* name : {"a.nrrd", "a.nii", "a.nii.gz", "a.mha"})
+    for (const bool isHounsfield : {true, false})
+    {
+      writeVolume(folder / name, image, {}, isHounsfield);
+      const auto back = readImageFile(folder / name);
+      EXPECT_EQ(back.isHounsfield, isHounsfield) << name;
+      EXPECT_EQ(back.volume->padding(), -3024.0) << name;
+    }
 }
 
 TEST(ImageFile, RefusesVoxelsThatAreNotFinite)

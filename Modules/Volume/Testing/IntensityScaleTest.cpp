@@ -128,6 +128,45 @@ TEST(IntensityScale, LeavesHounsfieldUnitsAsTheyAre)
   expectHounsfield(scaleOf<float>(lonely));
 }
 
+// Parts of a head as they are cut out: of a petrous bone with and without its air cells, whose
+// walls are blurred, and of soft tissue about bone as dense as the otic capsule, which is a peak.
+TEST(IntensityScale, KnowsHounsfieldUnitsInAPartOfAHead)
+{
+  Random random(12);
+  const std::vector<std::vector<Tissue>> parts = {
+      {{0.01, -1000, -1000}, {0.20, -900, -840}, {0.35, 20, 60}, {0.44, 300, 1700}},
+      {{0.02, -40, -20}, {0.70, 20, 60}, {0.08, 60, 1200}, {0.20, 1200, 1500}},
+      {{0.002, -1000, -900}, {0.80, 20, 60}, {0.10, 600, 900}, {0.098, 1300, 1600}}};
+  for (const std::vector<Tissue>& part : parts)
+    for (const double noise : {8.0, 12.0})
+      expectHounsfield(scaleOf<std::int16_t>(draw(part, noise, random), 1, 0, -1024, 3071));
+}
+
+TEST(IntensityScale, TakesNoPartInOtherUnitsForHounsfield)
+{
+  Random random(13);
+  const std::vector<Tissue> withAir = {
+      {0.10, -1000, -1000}, {0.04, -1000, 40}, {0.46, 20, 60}, {0.40, 300, 1700}};
+  const std::vector<Tissue> without = {
+      {0.02, -110, -90}, {0.78, 20, 60}, {0.05, 60, 1200}, {0.15, 1200, 1500}};
+  struct Unit
+  {
+    double gain;
+    double offset;
+  };
+  // Of scanners that begin at zero, or cone beams whose air or whose soft tissue is elsewhere.
+  for (const auto& [gain, offset] :
+       {Unit{1.0, 1000.0}, {1.0, 1024.0}, {0.5, 500.0}, {1.0, -300.0}, {0.7, -300.0}})
+  {
+    EXPECT_FALSE(scaleOf<std::int16_t>(draw(withAir, 15.0, random), gain, offset).calibrated)
+        << gain << " " << offset;
+    EXPECT_FALSE(scaleOf<std::int16_t>(draw(without, 15.0, random), gain, offset).calibrated)
+        << gain << " " << offset;
+  }
+  // Soft tissue at 40, and air not at -1000.
+  EXPECT_FALSE(scaleOf<std::int16_t>(draw(withAir, 15.0, random), 0.7, 12.0).calibrated);
+}
+
 TEST(IntensityScale, FindsTheBoneOfAHeadUnderAnyGainAndOffset)
 {
   Random random(2);

@@ -388,6 +388,7 @@ struct ReadImage
   OtherQuantity otherQuantity;
   /// Of the whole image where the part is a box of it.
   std::optional<volume::IntensityHistogram> whole = std::nullopt;
+  bool isHounsfield = false; // as its file states, which this program wrote
 };
 
 // Of every few of all slices, as a box may have neither air nor soft tissue, by which values are
@@ -465,7 +466,8 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
     part.volume = image.volume;
     part.notes = std::move(image.notes);
     part.provenance.assumedRas = image.assumedRas;
-    if (isPrimary && options.roi)
+    read.isHounsfield = image.isHounsfield;
+    if (isPrimary && options.roi && !read.isHounsfield)
       read.whole = histogramOf(
           [&](std::size_t count)
           {
@@ -553,6 +555,15 @@ void noteBeyondCt(scene::ImagePart& image)
                           "slope that the file states is wrong.");
 }
 
+// Whether its values may be Hounsfield units that its histogram does not show.
+bool mayBePart(const volume::IntensityHistogram& histogram)
+{
+  constexpr volume::ValueRange kHounsfield{-1150.0, 4100.0}; // with metal in 12 bits
+  constexpr double kBone = volume::IntensityScale{}.iso;
+  const volume::ValueRange& range = histogram.range();
+  return range.min >= kHounsfield.min && range.max <= kHounsfield.max && range.max > kBone;
+}
+
 // Cone-beam and micro-CT have units of their own, in which 300 may be air or nothing at all; an MR
 // always has, and shows no surface of bone.
 void placeSurface(scene::Case& value, scene::Modality wanted, const ReadImage& read)
@@ -601,7 +612,7 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const ReadImage& r
     return;
   }
   noteBeyondCt(image);
-  const auto scale = volume::suggestScale(histogram);
+  const auto scale = read.isHounsfield ? volume::IntensityScale() : volume::suggestScale(histogram);
   if (scale.calibrated && isOther)
   {
     // Bone looks as in Hounsfield units; calibratedScale tells these by the value of dense bone.
@@ -618,6 +629,12 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const ReadImage& r
   if (scale.calibrated)
   {
     image.modality = Modality::Ct;
+    if (scale.isOfPart)
+      image.notes.push_back(
+          "Its histogram has no peaks of air and soft tissue, as that of a small part of a CT. It "
+          "was judged by its values: soft tissue is near 40, and nothing below air, so they are "
+          "taken for Hounsfield units, and the surface of bone is put at 300 HU; 'petrous "
+          "appearance --iso' moves it.");
     return;
   }
   if (isOther)
@@ -633,7 +650,12 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const ReadImage& r
       "The intensities are not Hounsfield units: the surface of bone is put at " +
       core::generalText(scale.iso, 4) + ", and dense bone taken for " +
       core::generalText(scale.dense, 4) +
-      ", by the image's histogram; 'petrous appearance --iso' moves the surface.");
+      ", by the image's histogram; 'petrous appearance --iso' moves the surface." +
+      (mayBePart(histogram) && !read.whole
+           ? " Of a small part of a CT this may be wrong: where its values are Hounsfield units "
+             "all "
+             "the same, bone begins at 300 ('petrous appearance --iso 300')."
+           : ""));
 }
 
 bool isAmong(const std::vector<scene::StructurePart>& structures, const std::string& name)

@@ -505,7 +505,8 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
       summary.words = ", " + std::to_string(image.geometry().dims()[2]) + " DICOM files";
     }
     else
-      imaging::writeVolume(options.out, image, progress.part(0.5, 1.0));
+      imaging::writeVolume(options.out, image, progress.part(0.5, 1.0),
+                           &part == &value.ct && displayOf(value).hounsfield);
   };
   const auto writeSurface = [&](core::TriangleMesh mesh, const std::array<float, 3>& color)
   {

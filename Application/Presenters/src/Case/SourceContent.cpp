@@ -311,9 +311,10 @@ Content contentOfFile(const fs::path& path, std::size_t volume, const imaging::U
                       bool& isTooLarge, const core::Progress& progress)
 try
 {
-  return presenters::contentOf(*imaging::readImageFile(path, std::nullopt, progress, std::nullopt,
-                                                       volume, imaging::likelyUnit(doubt))
-                                    .volume);
+  const imaging::LoadedImage image = imaging::readImageFile(
+      path, std::nullopt, progress, std::nullopt, volume, imaging::likelyUnit(doubt));
+  const Content content = presenters::contentOf(*image.volume);
+  return content == Content::Image && image.isHounsfield ? Content::Ct : content;
 }
 catch (const imaging::FileError& error)
 {

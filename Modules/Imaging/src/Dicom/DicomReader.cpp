@@ -14,6 +14,8 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "MixedSigns.h"
+#include "PaddingRange.h"
 #include "PixelCodec.h"
 #include "SeriesRepair.h"
 #include "SliceStack.h"
@@ -57,26 +59,6 @@ bool isWhole(double value)
 {
   return value == std::nearbyint(value) && std::abs(value) < 1e9;
 }
-
-/// The range of stored values that a slice declares as padding: [low, high].
-template <class Stored>
-struct PaddingRange
-{
-  Stored low = 1;
-  Stored high = 0;
-
-  explicit PaddingRange(const SliceHeader& slice, bool wanted)
-  {
-    if (!wanted || !slice.padding)
-      return;
-    const auto value = static_cast<Stored>(*slice.padding);
-    const auto limit = static_cast<Stored>(slice.paddingRangeLimit.value_or(*slice.padding));
-    low = std::min(value, limit);
-    high = std::max(value, limit);
-  }
-  bool empty() const { return low > high; }
-  bool contains(Stored stored) const { return stored >= low && stored <= high; }
-};
 
 double rescaled(const SliceHeader& slice, double stored)
 {
@@ -220,56 +202,17 @@ private:
                : IntensityVolume(std::shared_ptr<const Volume<T>>(voxels));
   }
 
-  /// Where slices of one rescale disagree whether pixels are signed, the highest stored bit makes a
-  /// large value in one and a negative one in the other: air would be metal, or bone air.
   void judgeMixedSigns()
   {
-    const auto inBox = [this](int k) -> const SliceHeader&
-    { return m_slices[static_cast<std::size_t>(k)]; };
-    const SliceHeader& first = inBox(m_box.lower[2]);
-    std::size_t counts[2] = {}; // unsigned, signed
-    for (int k = m_box.lower[2]; k < m_box.upper[2]; ++k)
-    {
-      const SliceHeader& slice = inBox(k);
-      if (slice.pixels.isReal || slice.slope != first.slope || slice.intercept != first.intercept ||
-          slice.pixels.bitsStored != first.pixels.bitsStored)
-        return;
-      ++counts[slice.pixels.isSigned ? 1 : 0];
-    }
-    if (counts[0] == 0 || counts[1] == 0)
-      return;
-    // Negative values are what most slices are signed for; large ones are of no CT.
-    const bool areFewSigned = counts[1] < counts[0];
-    StoredPixels pixels;
-    for (int k = m_box.lower[2]; k < m_box.upper[2]; ++k)
-    {
-      const SliceHeader& slice = inBox(k);
-      const bool isSigned = slice.pixels.isSigned;
-      if (isSigned && !areFewSigned)
-        continue;
-      m_progress.check("reading slices");
-      decodePixels(slice, pixels, UndeclaredBits::LeaveOut);
-      const PaddingRange<double> padding(slice, true);
-      const double half = std::ldexp(1.0, slice.pixels.bitsStored - 1);
-      std::size_t unclear = 0;
-      for (std::size_t n = 0; n < pixels.size(); ++n)
-      {
-        const double value = pixels.at(n);
-        unclear += (isSigned ? value < 0.0 : value >= half) && !padding.contains(value) ? 1 : 0;
-      }
-      if (unclear > 0)
-        throw DicomError(DicomError::Reason::Unreadable,
-                         slice.file.filename().string() + " says that its pixels are " +
-                             (isSigned ? "signed" : "unsigned") +
-                             ", and other slices of the series that theirs are not (Pixel "
-                             "Representation): " +
-                             std::to_string(unclear) + (unclear == 1 ? " value" : " values") +
-                             " would be another one if it is as they are. Export the series again");
-    }
-    const std::size_t count = counts[0] + counts[1];
-    note("Of " + std::to_string(count) + " slices " + std::to_string(counts[0]) +
-         (counts[0] == 1 ? " says" : " say") +
-         " that the pixels are unsigned, the others that they are signed; no value depends on it.");
+    const MixedSigns signs = mixedSigns(m_slices, static_cast<std::size_t>(m_box.lower[2]),
+                                        static_cast<std::size_t>(m_box.upper[2]), m_progress);
+    if (!signs.unclear.empty())
+      throw DicomError(DicomError::Reason::Unreadable, signs.unclear);
+    if (signs.slices > 0)
+      note("Of " + std::to_string(signs.slices) + " slices " + std::to_string(signs.unsignedOnes) +
+           (signs.unsignedOnes == 1 ? " says" : " say") +
+           " that the pixels are unsigned, the others that they are signed; no value depends on "
+           "it.");
   }
 
   /// One slice without copies of the sign cannot tell a negative value from a positive one that is

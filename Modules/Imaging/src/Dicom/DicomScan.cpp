@@ -24,6 +24,7 @@
 #include "DicomHeader.h"
 #include "DicomItem.h"
 #include "HeaderCache.h"
+#include "MixedSigns.h"
 #include "PixelCodec.h"
 #include "SegmentationReader.h"
 #include "SeriesVolumes.h"
@@ -831,6 +832,25 @@ void compareDuplicates(SeriesGeometry& geometry, Comparisons& comparisons)
                       "reconstruction in the folder.";
 }
 
+/// Refuses what the reader would for its pixels' signs. `progress`: for a cancellation.
+void judgeSigns(SeriesGeometry& geometry, const core::Progress& progress)
+{
+  if (geometry.verdict == Verdict::Refused)
+    return;
+  try
+  {
+    const MixedSigns signs = mixedSigns(geometry.slices, 0, geometry.slices.size(), progress);
+    if (signs.unclear.empty())
+      return;
+    geometry.findings.push_back({FindingKind::Unreadable, signs.unclear, 0.0});
+    geometry.verdict = Verdict::Refused;
+  }
+  catch (const DicomError&)
+  {
+    // Read again, the slice says so.
+  }
+}
+
 std::string setAsideNote(std::size_t files, const SeriesGeometry& geometry,
                          const Numbering& numbering)
 {
@@ -923,6 +943,7 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
     try
     {
       compareDuplicates(one.geometry, comparisons);
+      judgeSigns(one.geometry, progress);
     }
     catch (const DicomError& error)
     {

@@ -18,6 +18,11 @@ namespace petrous::imaging
 /// "petrous_padding=VALUE" in the description of a NIfTI and the comment of a MetaImage.
 constexpr const char* kPaddingKey = "petrous_padding";
 
+/// The key under which files that this program writes say that their values are Hounsfield units:
+/// of a NRRD and a MetaImage, or "petrous_unit=HU" as the intent_name of a NIfTI.
+constexpr const char* kUnitKey = "petrous_unit";
+constexpr const char* kHounsfield = "HU";
+
 /// The value in "petrous_padding=VALUE"; nullopt for other text.
 std::optional<double> paddingIn(std::string_view text);
 

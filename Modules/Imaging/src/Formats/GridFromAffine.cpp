@@ -86,7 +86,7 @@ core::GridGeometry gridFromAffine(const std::filesystem::path& path,
   return {size, spacing, origin, axes};
 }
 
-LengthUnit namedUnit(std::string name, std::vector<std::string>& notes)
+LengthUnit namedUnit(std::string name)
 {
   name.erase(std::remove(name.begin(), name.end(), '"'), name.end());
   const std::string unit(trimmed(name));
@@ -101,13 +101,8 @@ LengthUnit namedUnit(std::string name, std::vector<std::string>& notes)
         std::pair("m", 1e3), std::pair("meter", 1e3), std::pair("meters", 1e3),
         std::pair("metre", 1e3)})
     if (unit == known)
-    {
-      notes.push_back("is in " + unit + "; converted to mm");
-      return {scale, true};
-    }
-  notes.emplace_back(unit.empty() ? "states no unit of length; taken as mm"
-                                  : "states a unit of length that is not known; taken as mm");
-  return {};
+      return {scale, true, unit};
+  return {1.0, false, {}, !unit.empty()};
 }
 
 double longestEdge(const std::vector<std::uint64_t>& dims, const Eigen::Matrix3d& linear)

@@ -25,12 +25,14 @@ core::GridGeometry gridFromAffine(const std::filesystem::path& path,
 struct LengthUnit
 {
   double mm = 1.0;
-  bool isStated = false; ///< false: mm is assumed
+  bool isStated = false;  ///< false: mm is assumed
+  std::string name = {};  ///< as the file states it, if it is known and not mm
+  bool isUnknown = false; ///< the file states one that is not known
 };
 
-/// As named by NRRD and MetaImage ("mm", "um", "m"), with or without quotes; units other than mm,
-/// and unknown or empty ones, which are taken as mm, are noted.
-LengthUnit namedUnit(std::string name, std::vector<std::string>& notes);
+/// As named by NRRD and MetaImage ("mm", "um", "m"), with or without quotes; unknown and empty ones
+/// are taken as mm.
+LengthUnit namedUnit(std::string name);
 
 /// Whether voxels of these axes (mm) are those of a head, an ear or a specimen of one: neither is
 /// all of it below a millimetre, nor is it metres of coarse voxels, as of a whole body.

@@ -203,6 +203,7 @@ LoadedImage readImageFile(const std::filesystem::path& path,
     image.notes.push_back("Values were rounded to 32-bit floating point, by up to " +
                           core::generalText(rounding) + ".");
   image.assumedRas = source.assumedRas();
+  image.isHounsfield = source.isHounsfield();
   image.volume =
       std::make_shared<const volume::IntensityVolume>(std::move(voxels), source.padding());
   progress.report(1.0, "reading image");

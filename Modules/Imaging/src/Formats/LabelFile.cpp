@@ -223,6 +223,7 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
   }
   VoxelSource source(path);
   source.settleUnit(unit, images);
+  source.settlePlacement(images);
   const bool isSideKnown = source.settleSide(isRas, images);
   const bool named = hasSegments(source);
   if (!named || source.components() == 1) // else the layers of a segmentation

@@ -219,7 +219,7 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Meta
 {
   const std::size_t n = header.dims.size();
   const std::string* units = valueOf(fields, {"DistanceUnits"});
-  header.unit = namedUnit(units ? *units : "", header.notes);
+  header.unit = namedUnit(units ? *units : "");
   const double unit = header.unit.mm;
   const auto spacing = numbersOf(valueOf(fields, {"ElementSpacing", "ElementSize"}));
   const std::string* place = valueOf(fields, kPlace);
@@ -269,6 +269,8 @@ MetaHeader readMetaHeader(const std::filesystem::path& path)
   header.component = *component;
   if (const std::string* comment = valueOf(fields, {"Comment"}))
     header.comment = *comment;
+  if (const std::string* unit = valueOf(fields, {kUnitKey}))
+    header.isHounsfield = *unit == kHounsfield;
   findVoxels(path, fields, header);
   readRescale(path, fields, header);
   readPlacement(path, fields, header);

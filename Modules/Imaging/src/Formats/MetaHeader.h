@@ -25,6 +25,7 @@ struct MetaHeader
   double slope = 1.0; ///< rescale of the stored values (ElementToIntensityFunction)
   double intercept = 0.0;
   std::string comment;
+  bool isHounsfield = false;  ///< as this program's files say (kUnitKey)
   bool isSideAssumed = false; ///< it states no axes in the patient, and LPS is taken
   std::vector<std::string> notes;
 

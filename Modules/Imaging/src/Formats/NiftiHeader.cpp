@@ -33,17 +33,18 @@ constexpr double kMaxQuaternion = 1.001; // squared norm; float32 and few digits
 const Eigen::Vector3d kLpsFromRas(-1.0, -1.0, 1.0);
 
 constexpr std::size_t kDescription = 80; // bytes
+constexpr std::size_t kIntentName = 16;
 
 /// Byte offsets of the fields.
 struct Offsets
 {
   std::size_t magic, dataType, bits, dim, pixdim, voxels, slope, intercept, units, qformCode,
-      sformCode, quaternion, qoffset, srow, description;
+      sformCode, quaternion, qoffset, srow, description, intentName;
 };
 constexpr Offsets kNifti1{344, 70,  72,  40,  76,  108, 112, 116,
-                          123, 252, 254, 256, 268, 280, 148}; // nifti1.h
+                          123, 252, 254, 256, 268, 280, 148, 328}; // nifti1.h
 constexpr Offsets kNifti2{4,   12,  14,  16,  104, 168, 176, 184,
-                          500, 344, 348, 352, 376, 400, 240}; // nifti2.h
+                          500, 344, 348, 352, 376, 400, 240, 508}; // nifti2.h
 
 /// A header of either version: NIfTI-2 has the same fields, wider and elsewhere.
 class Fields
@@ -78,11 +79,8 @@ public:
   double srow(std::size_t n) const { return real(m_at.srow, n); }
   Eigen::Vector3d quaternion() const { return vector(m_at.quaternion); }
   Eigen::Vector3d qoffset() const { return vector(m_at.qoffset); }
-  std::string description() const
-  {
-    const std::string all = m_bytes.substr(m_at.description, kDescription);
-    return all.substr(0, all.find('\0'));
-  }
+  std::string description() const { return text(m_at.description, kDescription); }
+  std::string intentName() const { return text(m_at.intentName, kIntentName); }
   double voxels() const
   {
     return m_second ? static_cast<double>(get<std::int64_t>(m_at.voxels)) : real(m_at.voxels);
@@ -109,6 +107,11 @@ private:
   double real(std::size_t offset, std::size_t index = 0) const
   {
     return m_second ? get<double>(offset, index) : double{get<float>(offset, index)};
+  }
+  std::string text(std::size_t offset, std::size_t size) const
+  {
+    const std::string all = m_bytes.substr(offset, size);
+    return all.substr(0, all.find('\0'));
   }
   Eigen::Vector3d vector(std::size_t offset) const
   {
@@ -210,8 +213,7 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
   const bool hasS = fields.hasSform();
   if (!hasQ && !hasS)
   {
-    header.linear = spacing.asDiagonal();
-    header.origin.setZero();
+    header.placement = {spacing.asDiagonal(), Eigen::Vector3d::Zero()};
     header.isSideAssumed = true;
     header.notes.emplace_back("states no place in the patient: its axes are taken as the "
                               "patient's, from 0, 0, 0"); // which way, is settled later
@@ -226,19 +228,19 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
            "its header turns it by a quaternion (qform) that is not a rotation; export it again "
            "with "
            "its geometry");
-    header.linear = *qLinear;
-    header.origin = qOrigin;
+    header.placement = {*qLinear, qOrigin};
     if (std::min({fields.pixdim(1), fields.pixdim(2), fields.pixdim(3)}) < 0.0)
       header.notes.emplace_back("states a negative voxel size (pixdim), which was taken without "
                                 "its sign");
     return;
   }
+  NiftiPlacement& sform = header.placement;
   for (int row = 0; row < 3; ++row)
   {
     const std::size_t at = static_cast<std::size_t>(row) * 4;
     for (std::size_t column = 0; column < 3; ++column)
-      header.linear(row, static_cast<Eigen::Index>(column)) = fields.srow(at + column);
-    header.origin[row] = fields.srow(at + 3);
+      sform.linear(row, static_cast<Eigen::Index>(column)) = fields.srow(at + column);
+    sform.origin[row] = fields.srow(at + 3);
   }
   if (!hasQ)
     return;
@@ -256,41 +258,35 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
       index[a] = (corner >> a & 1)
                      ? static_cast<double>(header.dims[static_cast<std::size_t>(a)]) - 1
                      : 0.0;
-    const double d = ((header.linear - *qLinear) * index + header.origin - qOrigin).norm();
+    const double d = ((sform.linear - *qLinear) * index + sform.origin - qOrigin).norm();
     apart = std::max(apart, header.unit.mm * d);
   }
-  constexpr double kPlacementsDiffer = 0.1; // mm
-  if (fields.isSformOfTemplate() && apart > kPlacementsDiffer)
+  header.apart = apart;
+  header.other = NiftiPlacement{*qLinear, qOrigin};
+  header.isSformOfTemplate = fields.isSformOfTemplate();
+  if (header.isSformOfTemplate && apart > kPlacementsDiffer)
   {
-    header.linear = *qLinear;
-    header.origin = qOrigin;
-    header.notes.push_back("places itself twice, in the space of a template (sform) and in that of "
-                           "the scanner (qform), up to " +
-                           core::generalText(apart, 3) +
-                           " mm apart; the qform is used, as the patient lies there");
+    std::swap(header.placement, *header.other);
+    header.isQform = true;
     return;
   }
-  if (header.linear.determinant() * qLinear->determinant() < 0.0)
+  if (sform.linear.determinant() * qLinear->determinant() < 0.0)
     fail(FileError::Reason::NoGeometry, path,
          "places itself twice (sform and qform), and the two are mirror images of each other: left "
          "and right cannot be told; export it again with one of them");
-  header.apart = apart;
 }
 
-LengthUnit unitOf(int code, std::vector<std::string>& notes)
+LengthUnit unitOf(int code)
 {
   switch (code & 7)
   {
   case 1:
-    notes.emplace_back("is in metres; converted to mm");
-    return {1e3, true};
+    return {1e3, true, "m"};
   case 2:
     return {1.0, true};
   case 3:
-    notes.emplace_back("is in micrometres; converted to mm");
-    return {1e-3, true};
+    return {1e-3, true, "um"};
   default:
-    notes.emplace_back("states no unit of length; taken as mm");
     return {};
   }
 }
@@ -319,6 +315,7 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& given)
   const Fields fields = checkedFields(path);
   NiftiHeader header;
   header.description = fields.description();
+  header.intentName = fields.intentName();
   const bool pair = isPair(path, fields);
   header.file = pair ? otherOfPair(path, {".img", ".IMG"}) : path;
   const std::int64_t count = fields.dim(0);
@@ -356,15 +353,21 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& given)
   if (!std::isfinite(header.slope) || !std::isfinite(header.intercept))
     fail(FileError::Reason::Unreadable, path,
          "its rescale slope or intercept is not a number; export it again from where it came");
-  header.unit = unitOf(fields.units(), header.notes);
+  header.unit = unitOf(fields.units());
   readPlacement(path, fields, header);
-  header.linear = header.unit.mm * kLpsFromRas.asDiagonal() * header.linear;
-  header.origin = header.unit.mm * kLpsFromRas.cwiseProduct(header.origin);
+  const auto toLps = [&header](NiftiPlacement& placement)
+  {
+    placement.linear = header.unit.mm * kLpsFromRas.asDiagonal() * placement.linear;
+    placement.origin = header.unit.mm * kLpsFromRas.cwiseProduct(placement.origin);
+  };
+  toLps(header.placement);
+  if (header.other)
+    toLps(*header.other);
   return header;
 }
 
 std::string niftiHeaderBytes(const core::GridGeometry& geometry, int dataType, int bits,
-                             const std::string& description)
+                             const std::string& description, const std::string& intentName)
 {
   std::string bytes(kDataOffset, '\0');
   const auto put = [&bytes](std::size_t offset, auto value, std::size_t index = 0)
@@ -407,8 +410,10 @@ std::string niftiHeaderBytes(const core::GridGeometry& geometry, int dataType, i
   putFloat(kNifti1.quaternion, q.x(), 0);
   putFloat(kNifti1.quaternion, q.y(), 1);
   putFloat(kNifti1.quaternion, q.z(), 2);
-  bytes.replace(kNifti1.description, std::min(description.size(), kDescription - 1), description, 0,
-                kDescription - 1);
+  const auto putText = [&bytes](std::size_t offset, std::size_t size, const std::string& text)
+  { bytes.replace(offset, std::min(text.size(), size - 1), text, 0, size - 1); };
+  putText(kNifti1.description, kDescription, description);
+  putText(kNifti1.intentName, kIntentName, intentName);
   std::memcpy(bytes.data() + kNifti1.magic, "n+1", 4);
   return bytes;
 }

@@ -163,8 +163,7 @@ Eigen::Vector3d lpsFromSpace(const Path& path, const NrrdHeader& header, NrrdLay
 
 /// The unit of all axes of the file's frame. `firstAxis`: the first of the file's own that is one
 /// of space.
-LengthUnit unitOf(const Path& path, const NrrdHeader& header, std::size_t firstAxis,
-                  std::vector<std::string>& notes)
+LengthUnit unitOf(const Path& path, const NrrdHeader& header, std::size_t firstAxis)
 {
   const std::string* text = header.field("space units"); // of the frame; "units" are of all axes
   const std::size_t first = text ? 0 : firstAxis;
@@ -172,17 +171,18 @@ LengthUnit unitOf(const Path& path, const NrrdHeader& header, std::size_t firstA
   LengthUnit unit;
   for (std::size_t a = 0; a < 3; ++a)
   {
-    std::vector<std::string> said;
-    const LengthUnit one =
-        namedUnit(first + a < words.size() ? words[first + a] : std::string(), said);
+    LengthUnit one = namedUnit(first + a < words.size() ? words[first + a] : std::string());
     if (a > 0 && one.mm != unit.mm)
       fail(FileError::Reason::NoGeometry, path,
            "its header gives the axes different units of length ('space units'), which cannot be "
            "meant; export it again with its geometry");
-    unit = {one.mm, one.isStated && (a == 0 || unit.isStated)};
-    for (std::string& note : said)
-      if (std::find(notes.begin(), notes.end(), note) == notes.end())
-        notes.push_back(std::move(note));
+    if (a == 0)
+      unit = std::move(one);
+    else
+    {
+      unit.isStated = unit.isStated && one.isStated;
+      unit.isUnknown = unit.isUnknown || one.isUnknown;
+    }
   }
   return unit;
 }
@@ -230,7 +230,7 @@ std::vector<bool> rangeAxes(const NrrdHeader& header, std::size_t count)
 void readPlacement(const Path& path, const NrrdHeader& header, std::size_t firstAxis,
                    NrrdLayout& layout)
 {
-  layout.unit = unitOf(path, header, firstAxis, layout.notes);
+  layout.unit = unitOf(path, header, firstAxis);
   const double scale = layout.unit.mm;
   const auto directions = axisWords(header.field("space directions"));
   const auto spacings = axisWords(header.field("spacings"));

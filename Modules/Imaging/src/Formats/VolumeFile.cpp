@@ -20,7 +20,7 @@ std::string paddingText(const std::optional<double>& padding)
 }
 
 std::string metaHeaderText(const core::GridGeometry& geometry, const VoxelType& type,
-                           const std::string& comment)
+                           const std::string& comment, bool isHounsfield)
 {
   const auto row = [](const Eigen::Vector3d& v)
   { return exactText(v[0]) + " " + exactText(v[1]) + " " + exactText(v[2]); };
@@ -29,6 +29,7 @@ std::string metaHeaderText(const core::GridGeometry& geometry, const VoxelType& 
   // TransformMatrix lists the axes consecutively, so its rows are our columns.
   return "ObjectType = Image\nNDims = 3\n" +
          (comment.empty() ? "" : "Comment = " + comment + "\n") +
+         (isHounsfield ? std::string(kUnitKey) + " = " + kHounsfield + "\n" : std::string()) +
          "BinaryData = True\nBinaryDataByteOrderMSB = False\n"
          "CompressedData = False\nTransformMatrix = " +
          row(axes.col(0)) + " " + row(axes.col(1)) + " " + row(axes.col(2)) +
@@ -72,8 +73,9 @@ std::string niftiHeader(const VoxelsToWrite& voxels)
       fail(FileError::Reason::Unsupported, voxels.path,
            "NIfTI holds at most 32767 voxels along an axis, not " + std::to_string(n) +
                "; write .nrrd");
-  return niftiHeaderBytes(voxels.geometry, voxels.type.nifti, voxels.type.bits,
-                          paddingText(voxels.padding));
+  return niftiHeaderBytes(
+      voxels.geometry, voxels.type.nifti, voxels.type.bits, paddingText(voxels.padding),
+      voxels.isHounsfield ? std::string(kUnitKey) + "=" + kHounsfield : std::string());
 }
 
 } // namespace
@@ -91,7 +93,8 @@ void writeNiftiGz(OutputFile& file, const VoxelsToWrite& voxels)
 
 void writeMeta(OutputFile& file, const VoxelsToWrite& voxels)
 {
-  file.write(metaHeaderText(voxels.geometry, voxels.type, paddingText(voxels.padding)));
+  file.write(metaHeaderText(voxels.geometry, voxels.type, paddingText(voxels.padding),
+                            voxels.isHounsfield));
   file.writeVoxels(voxels.voxels, voxels.bytes(), voxels.progress);
 }
 
@@ -105,11 +108,12 @@ void writeNrrd(OutputFile& file, const VoxelsToWrite& voxels)
 void writeVoxelFile(const std::filesystem::path& path, FileContent content,
                     const core::GridGeometry& geometry, const VoxelType& type, const void* voxels,
                     const std::string& nrrdKeys, const core::Progress& progress,
-                    const std::optional<double>& padding)
+                    const std::optional<double>& padding, bool isHounsfield)
 {
   const FileFormat& format = writingFormat(path, content);
   OutputFile file(path);
-  format.writeVoxels(file, {path, geometry, type, voxels, nrrdKeys, progress, 1, padding});
+  format.writeVoxels(file,
+                     {path, geometry, type, voxels, nrrdKeys, progress, 1, padding, isHounsfield});
   progress.check("writing voxels");
   file.commit();
 }
@@ -122,16 +126,17 @@ void writeVolume(const std::filesystem::path& path, const volume::Volume<T>& vol
 }
 
 void writeVolume(const std::filesystem::path& path, const volume::IntensityVolume& volume,
-                 const core::Progress& progress)
+                 const core::Progress& progress, bool isHounsfield)
 {
   const std::string keys =
-      volume.padding() ? nrrdKeyText(kPaddingKey, exactText(*volume.padding())) : "";
+      (volume.padding() ? nrrdKeyText(kPaddingKey, exactText(*volume.padding())) : "") +
+      (isHounsfield ? nrrdKeyText(kUnitKey, kHounsfield) : "");
   volume.visit(
       [&](const auto& voxels)
       {
         using T = typename std::decay_t<decltype(voxels)>::Value;
         writeVoxelFile(path, kImage, voxels.geometry(), voxelTypeOf<T>(), voxels.data(), keys,
-                       progress, volume.padding());
+                       progress, volume.padding(), isHounsfield);
       });
 }
 

@@ -150,6 +150,7 @@ void VoxelSource::openNifti()
   NiftiHeader header = readNiftiHeader(m_path);
   m_notes = std::move(header.notes);
   m_padding = paddingIn(header.description);
+  m_isHounsfield = header.intentName == std::string(kUnitKey) + "=" + kHounsfield;
   const auto stored = niftiComponent(header.dataType);
   if (!stored)
     fail(FileError::Reason::Unsupported, m_path,
@@ -169,20 +170,24 @@ void VoxelSource::openNifti()
   m_place.packing = header.packed ? Packing::Zlib : Packing::None;
   m_swapped = header.swapped;
   checkRoom();
-  place(header.linear, header.origin, header.unit, header.apart);
+  m_apart = header.apart;
+  m_other = header.other;
+  m_isQform = header.isQform;
+  m_isSformOfTemplate = header.isSformOfTemplate;
+  m_whyPlacement = m_isQform ? "as the patient lies there" : "as the NIfTI standard says";
+  place(header.placement.linear, header.placement.origin, header.unit);
   if (header.isSideAssumed)
     m_assumedRas = true;
 }
 
 /// Places the voxels in the file's unit, whether or not that makes sense.
 void VoxelSource::place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin,
-                        const LengthUnit& unit, double apart)
+                        const LengthUnit& unit)
 {
   constexpr double kUnits[] = {1.0, 1e-3, 1e3, 10.0, 1e-6, 25.4}; // mm, as namedUnit
-  m_unit = unit.mm;
+  m_unit = unit;
   m_linear = linear;
   m_origin = origin;
-  m_apart = apart;
   if (m_dims.size() >= 3 && linear.allFinite() && !isPlausibleSize(m_dims, linear))
   {
     m_unitDoubt = {unit.mm, unit.isStated, longestEdge(m_dims, linear), {}};
@@ -190,25 +195,54 @@ void VoxelSource::place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& or
       if (other != unit.mm && isPlausibleSize(m_dims, other / unit.mm * linear))
         m_unitDoubt.likely.push_back(other);
   }
-  scaleTo(m_unit, m_unitDoubt.likely.empty());
+  scaleTo(m_unit.mm, m_unitDoubt.likely.empty());
 }
 
 void VoxelSource::scaleTo(double unit, bool isUnitKnown)
 {
-  constexpr double kPlacementsDiffer = 0.1; // mm between sform and qform; noted if exceeded
-  const double scale = unit / m_unit;
+  const double scale = unit / m_unit.mm;
   std::vector<std::string> notes; // in the millimetres of this unit
   if (scale * m_apart > kPlacementsDiffer)
-    notes.push_back("places itself twice (sform and qform), up to " + roughText(scale * m_apart) +
-                    " mm apart; the sform is used, as the NIfTI standard says");
+    notes.push_back(std::string("places itself twice") +
+                    (m_isSformOfTemplate ? ", in the space of a template (sform) and in that of "
+                                           "the scanner (qform)"
+                                         : " (sform and qform)") +
+                    ", up to " + roughText(scale * m_apart) + " mm apart; the " +
+                    (m_isQform ? "qform" : "sform") + " is used, " + m_whyPlacement);
   m_geometry =
       gridFromAffine(m_path, m_dims, scale * m_linear, scale * m_origin, notes, isUnitKnown);
   m_placeNotes = std::move(notes);
+  m_taken = unit;
+}
+
+/// What was read and what was assumed; empty if mm is stated and taken.
+std::string VoxelSource::unitNote() const
+{
+  const Eigen::Vector3d& h = m_geometry->spacing();
+  const std::string voxels = core::generalText(h[0], 4) + " x " + core::generalText(h[1], 4) +
+                             " x " + core::generalText(h[2], 4) + " mm";
+  if (!m_unitWhy.empty())
+  {
+    const std::string unitText = m_unit.isUnknown      ? "states a unit of length that is not known"
+                                 : !m_unit.isStated    ? "states no unit of length"
+                                 : m_unit.name.empty() ? "states mm"
+                                                       : "states " + m_unit.name;
+    return unitText + ", but its numbers were taken in units of " + core::generalText(m_taken) +
+           " mm, " + m_unitWhy + ": its voxels are " + voxels;
+  }
+  if (m_unit.isUnknown)
+    return "states a unit of length that is not known; taken as mm";
+  if (!m_unit.isStated)
+    return "states no unit of length; taken as mm";
+  return m_unit.name.empty() ? std::string()
+                             : "is in " + m_unit.name + "; converted, its voxels are " + voxels;
 }
 
 std::vector<std::string> VoxelSource::notes() const
 {
   std::vector<std::string> all = m_notes;
+  if (std::string unit = unitNote(); !unit.empty())
+    all.push_back(std::move(unit));
   all.insert(all.end(), m_placeNotes.begin(), m_placeNotes.end());
   return all;
 }
@@ -216,20 +250,20 @@ std::vector<std::string> VoxelSource::notes() const
 bool VoxelSource::settleUnit(const std::optional<double>& unit,
                              const std::vector<ImageGrid>& images)
 {
-  const auto settle = [this](double taken, const char* why)
+  const auto settle = [this](const char* why)
   {
-    m_notes.push_back("was taken in a unit of length of " + core::generalText(taken) + " mm" + why);
+    m_unitWhy = why;
     m_unitDoubt = {};
     return true;
   };
   if (unit)
   {
     scaleTo(*unit);
-    return settle(*unit, ", as asked");
+    return settle("as asked");
   }
   if (m_unitDoubt.likely.empty() || images.empty())
     return m_unitDoubt.likely.empty();
-  std::vector<double> units = {m_unit};
+  std::vector<double> units = {m_unit.mm};
   units.insert(units.end(), m_unitDoubt.likely.begin(), m_unitDoubt.likely.end());
   for (const double one : units)
   {
@@ -243,16 +277,69 @@ bool VoxelSource::settleUnit(const std::optional<double>& unit,
     }
     if (std::any_of(images.begin(), images.end(),
                     [this](const ImageGrid& grid) { return core::sameGrid(grid, *m_geometry); }))
-      return settle(one, ", as its grid is then that of an image of the case");
+      return settle("as its grid is then that of an image of the case");
   }
-  scaleTo(m_unit, false);
+  scaleTo(m_unit.mm, false);
   return false;
 }
 
 void VoxelSource::takeFileUnit()
 {
   if (!m_unitDoubt.likely.empty())
-    scaleTo(m_unit);
+    scaleTo(m_unit.mm);
+}
+
+void VoxelSource::settlePlacement(const std::vector<ImageGrid>& images)
+{
+  const bool isUnitKnown = m_unitDoubt.likely.empty();
+  if (!m_other || images.empty() || !isUnitKnown ||
+      m_taken / m_unit.mm * m_apart <= kPlacementsDiffer)
+    return;
+  // Both are float32, the qform a rotation besides; more than one of them cannot be within this.
+  constexpr double kSame = 0.5 * kPlacementsDiffer;
+  const auto isOfImage = [&]
+  {
+    return std::any_of(images.begin(), images.end(),
+                       [&](const ImageGrid& grid)
+                       { return core::sameGrid(grid, *m_geometry, kSame); });
+  };
+  const auto center = [](const core::GridGeometry& grid)
+  {
+    const core::Index3& n = grid.dims();
+    return grid.patientFromVoxel(0.5 * Eigen::Vector3d(n[0] - 1, n[1] - 1, n[2] - 1));
+  };
+  const auto away = [&] { return (center(*m_geometry) - center(images.front())).norm(); };
+  const auto exchange = [this]
+  {
+    std::swap(m_linear, m_other->linear);
+    std::swap(m_origin, m_other->origin);
+    m_isQform = !m_isQform;
+  };
+  if (isOfImage())
+    return;
+  const double own = away();
+  const std::string why = m_whyPlacement;
+  exchange();
+  try
+  {
+    m_whyPlacement = "as its grid is then that of an image of the case";
+    scaleTo(m_taken);
+    if (isOfImage())
+      return;
+    const double others = away();
+    m_notes.push_back("has the grid of no image of the case by either place: its middle is " +
+                      roughText(m_isQform ? others : own) +
+                      " mm from that of the first by the "
+                      "qform, and " +
+                      roughText(m_isQform ? own : others) + " mm by the sform");
+  }
+  catch (const FileError&)
+  {
+    // No size or place that can be true.
+  }
+  exchange();
+  m_whyPlacement = why;
+  scaleTo(m_taken);
 }
 
 void VoxelSource::assume(bool isRas)
@@ -311,6 +398,8 @@ void VoxelSource::openNrrd()
   NrrdLayout layout = readNrrdLayout(m_path, *m_nrrd);
   if (const std::string* text = m_nrrd->key(kPaddingKey))
     m_padding = parseDouble(trimmed(*text));
+  if (const std::string* unit = m_nrrd->key(kUnitKey))
+    m_isHounsfield = trimmed(*unit) == kHounsfield;
   m_notes = std::move(layout.notes);
   m_dims = std::move(layout.dims);
   m_components = layout.components;
@@ -332,6 +421,7 @@ void VoxelSource::openMeta()
 {
   MetaHeader header = readMetaHeader(m_path);
   m_padding = paddingIn(header.comment);
+  m_isHounsfield = header.isHounsfield;
   m_notes = std::move(header.notes);
   m_dims = std::move(header.dims);
   countVolumes();

@@ -14,6 +14,7 @@
 
 #include "Component.h"
 #include "GridFromAffine.h"
+#include "NiftiHeader.h"
 #include "NrrdHeader.h"
 #include "VoxelStream.h"
 #include "petrous/Imaging/ImageFile.h"
@@ -59,11 +60,17 @@ public:
   /// an image; notes it. Whether it is settled. Before the side. Until then the voxels lie in the
   /// file's unit, wherever that puts them.
   bool settleUnit(const std::optional<double>& unit, const std::vector<ImageGrid>& images);
+  /// Of a NIfTI that places itself twice (sform and qform): takes the place by which its grid is
+  /// that of one of the images, and notes it; where neither is, how far both are from the first.
+  /// After the unit.
+  void settlePlacement(const std::vector<ImageGrid>& images);
   /// Takes the file's unit all the same. Throws FileError (NoGeometry) where the size or the place
   /// cannot be true in it.
   void takeFileUnit();
   /// The value of voxels outside the scanned field, as this program's files keep it.
   const std::optional<double>& padding() const noexcept { return m_padding; }
+  /// Whether this program wrote it as an image in Hounsfield units.
+  bool isHounsfield() const noexcept { return m_isHounsfield; }
   /// The text header of a NRRD; nullopt for other formats.
   const std::optional<NrrdHeader>& nrrd() const noexcept { return m_nrrd; }
 
@@ -84,8 +91,8 @@ public:
 
 private:
   void countVolumes();
-  void place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin, const LengthUnit& unit,
-             double apart = 0.0);
+  void place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin, const LengthUnit& unit);
+  std::string unitNote() const;
   void scaleTo(double unit, bool isUnitKnown = true);
   long double voxelBytes() const;
   void checkRoom();
@@ -109,14 +116,23 @@ private:
   std::size_t m_listed = 1;            ///< volumes whose voxels are interleaved, if one is selected
   double m_slope = 0.0;                ///< 0: no rescaling
   double m_intercept = 0.0;
-  double m_unit = 1.0; ///< mm, of the file
+  LengthUnit m_unit;     ///< of the file
+  double m_taken = 1.0;  ///< mm, in which it is read
+  std::string m_unitWhy; ///< of m_taken, if it was settled
   /// As GridFromAffine.h, in that unit.
   Eigen::Matrix3d m_linear = Eigen::Matrix3d::Identity();
   Eigen::Vector3d m_origin = Eigen::Vector3d::Zero();
-  double m_apart = 0.0; ///< NiftiHeader::apart, in that unit
+  /// Of a NIfTI that states two, in that unit: how far they are apart, the one that is not used,
+  /// and why the other is.
+  double m_apart = 0.0;
+  std::optional<NiftiPlacement> m_other;
+  bool m_isQform = false;
+  bool m_isSformOfTemplate = false;
+  std::string m_whyPlacement;
   UnitDoubt m_unitDoubt;
   std::optional<bool> m_assumedRas;
   std::optional<double> m_padding;
+  bool m_isHounsfield = false;
   std::vector<std::string> m_notes;
   std::vector<std::string> m_placeNotes; ///< by the unit that was taken
   std::optional<NrrdHeader> m_nrrd;

@@ -36,6 +36,7 @@ struct VoxelsToWrite
   std::size_t layers = 1; ///< values of a voxel, which adjoin; for NRRD
   /// Value of voxels outside the scanned field, kept in the header; NRRD: among its keys.
   std::optional<double> padding = std::nullopt;
+  bool isHounsfield = false; ///< kept in the header; NRRD: among its keys
 
   std::size_t bytes() const
   {
@@ -53,6 +54,6 @@ void writeMeta(OutputFile& file, const VoxelsToWrite& voxels);
 void writeVoxelFile(const std::filesystem::path& path, FileContent content,
                     const core::GridGeometry& geometry, const VoxelType& type, const void* voxels,
                     const std::string& nrrdKeys, const core::Progress& progress,
-                    const std::optional<double>& padding = std::nullopt);
+                    const std::optional<double>& padding = std::nullopt, bool isHounsfield = false);
 
 } // namespace petrous::imaging

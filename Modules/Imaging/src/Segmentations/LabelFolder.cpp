@@ -102,6 +102,7 @@ void readMask(Mask& mask, const core::Progress& progress, const std::vector<Imag
 {
   VoxelSource source(mask.path);
   source.settleUnit(unit, images);
+  source.settlePlacement(images);
   mask.unitDoubt = source.unitDoubt();
   mask.isSideOpen = !source.settleSide(isRas, images);
   mask.assumedRas = source.assumedRas();

@@ -280,6 +280,38 @@ bool looksCalibrated(const IntensityHistogram& histogram, const Density& density
   return near(mode, kAir, kAirSlack) || near(mode, kSoft, kSoftSlack);
 }
 
+// Hounsfield units of a part of a head, where peaks need not be those of air and soft tissue: bone
+// is one, air has none, or that of air cells is of their walls, too. Judged by values that hardly
+// any other unit has together: soft tissue stands out at 40 HU; something is below zero, which is
+// not in images that begin at air; nothing is below air; and the densest is bone.
+bool looksLikePartInHounsfield(const IntensityHistogram& histogram, const Density& density,
+                               const std::optional<Tissues>& tissues)
+{
+  constexpr ValueRange kSoftMode{10.0, 90.0};   // HU: brain, muscle; air of other units is at 0
+  constexpr ValueRange kDensest{700.0, 2600.0}; // HU: bone and enamel
+  constexpr double kBelowZero = -30.0;          // HU: fat, or noise of soft tissue
+  constexpr double kLowest = -1150.0;           // HU: noise of air
+  constexpr double kCells = -800.0;             // HU: air cells, blurred
+  constexpr double kFat = -200.0;               // HU
+  constexpr double kDensestShare = 0.999;
+  const auto isIn = [](double value, const ValueRange& range)
+  { return value >= range.min && value <= range.max; };
+  const std::vector<double>& s = density.smoothed;
+  const auto levels = static_cast<double>(s.size()) - 1.0;
+  const auto levelOf = [&](double value)
+  {
+    const double level = (value - density.value(0.0)) / (density.value(1.0) - density.value(0.0));
+    return static_cast<std::size_t>(std::clamp(level, 0.0, levels));
+  };
+  const double least = histogram.range().min;
+  const double lowest = histogram.percentile(kTrimmed);
+  // The highest above air.
+  const double mode = density.value(static_cast<double>(modeIn(s, levelOf(kCells), s.size())));
+  const bool isAirElsewhere = tissues && tissues->air > kCells && tissues->air < kFat;
+  return least <= kBelowZero && lowest >= kLowest && isIn(mode, kSoftMode) &&
+         isIn(histogram.percentile(kDensestShare), kDensest) && !isAirElsewhere;
+}
+
 // Outside the scanner's field of view, images often have one constant value, which is not tissue.
 bool hasFrame(const IntensityHistogram& histogram)
 {
@@ -363,6 +395,12 @@ IntensityScale suggestScale(const IntensityHistogram& histogram)
   if (tissues ? near(tissues->air, kAir, kAirSlack) && near(tissues->soft, kSoft, kSoftSlack)
               : looksCalibrated(histogram, density))
     return {};
+  if (looksLikePartInHounsfield(histogram, density, tissues))
+  {
+    IntensityScale part;
+    part.isOfPart = true;
+    return part;
+  }
 
   IntensityScale scale;
   scale.calibrated = false;

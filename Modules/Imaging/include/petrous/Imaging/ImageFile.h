@@ -33,6 +33,8 @@ struct LoadedImage
   /// Whether the file leaves open which side of the patient is left: axes RAS (true) or LPS (false)
   /// were taken. nullopt: it states it.
   std::optional<bool> assumedRas;
+  /// Its values are Hounsfield units: this program wrote it of an image in these.
+  bool isHounsfield = false;
 };
 
 /// Reads a CT or MR from a NIfTI, NRRD or MetaImage file.

@@ -18,9 +18,10 @@ template <class T>
 void writeVolume(const std::filesystem::path& path, const volume::Volume<T>& volume,
                  const core::Progress& progress = {});
 
-/// As above, with the voxel type of the image.
+/// As above, with the voxel type of the image. `isHounsfield`: its values are Hounsfield units,
+/// which the file then states for this program (LoadedImage).
 void writeVolume(const std::filesystem::path& path, const volume::IntensityVolume& volume,
-                 const core::Progress& progress = {});
+                 const core::Progress& progress = {}, bool isHounsfield = false);
 
 extern template void writeVolume(const std::filesystem::path&, const volume::Volume<std::int16_t>&,
                                  const core::Progress&);

@@ -23,13 +23,17 @@ struct IntensityScale
   double dense = 1800.0;  ///< dense cortical bone; always above iso
   bool calibrated = true; ///< in Hounsfield units, with the values above
   std::optional<SoftTissueValues> soft = std::nullopt; ///< not of Hounsfield units
+  bool isOfPart = false; ///< calibrated, but judged without peaks of air and soft tissue
 };
 
 /// Estimated from the histogram alone, so that bone is visible at once in cone-beam and micro-CT
 /// too.
 ///
 /// Calibrated (300, 1800): air is near -1000 and soft tissue, if it has a peak, near 0 to 100; or
-/// there are values of -100 or less and one of the two is found. Otherwise, given peaks of air and
+/// there are values of -100 or less and one of the two is found; or, as of a part of a head
+/// (isOfPart), the highest peak above air (-800) is soft tissue's (10 to 90), some values are below
+/// -30, few below -1150, the 99.9th percentile is bone (700 to 2600), and no peak of air is
+/// elsewhere. Otherwise, given peaks of air and
 /// soft tissue, these two points define gain and offset, for -1000 and 40 HU, and with them iso and
 /// the minimum of dense; iso stays clear of the noise of soft tissue, and is moved halfway to
 /// Otsu's threshold if the file's value range cuts off air. Otherwise iso is the midpoint of the

@@ -87,6 +87,7 @@
 #include "WindowSettings.h"
 #include "WindowTexts.h"
 #include "petrous/Dissection/Catalogues.h"
+#include "petrous/Dissection/StrokeNumber.h"
 #include "petrous/Interaction/OrbitCamera.h"
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/CasePicture.h"
@@ -1346,9 +1347,9 @@ void MainWindow::stepped(bool back)
   if (m_actions->strokeCamera->isChecked() && stroke < strokes.size() &&
       strokes[stroke]->info.camera)
     m_view->setCamera(*strokes[stroke]->info.camera);
-  // As `petrous history` counts, over all approaches.
-  statusBar()->showMessage(
-      (back ? tr("Stroke %1 undone") : tr("Stroke %1 drilled again")).arg(stroke + 1), kMessage);
+  statusBar()->showMessage((back ? tr("Stroke %1 undone") : tr("Stroke %1 drilled again"))
+                               .arg(dissection::strokeNumber(stroke)),
+                           kMessage);
 }
 
 void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke)

@@ -315,9 +315,7 @@ void MainWindow::layOut()
   connect(m_view, &ThreeDView::toolModeSet, banners,
           [this, banners]
           { banners->setHeld(m_view->tool().GetDrillMode() || m_view->tool().GetProbeMode()); });
-  connect(banners, &BannerStack::covers, m_view,
-          [this](int pixels)
-          { m_view->display().setCovered(double(pixels) / std::max(m_view->height(), 1)); });
+  connect(banners, &BannerStack::covers, m_area, &ViewArea::setCovered);
   auto* stack = new QVBoxLayout(whole);
   stack->setContentsMargins(0, 0, 0, 0);
   stack->setSpacing(0);

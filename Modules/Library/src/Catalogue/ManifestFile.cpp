@@ -173,10 +173,8 @@ std::vector<ObjectUse> objectsOf(const scene::Case& value)
   }
   const auto& strokes = value.dissection.strokes();
   for (std::size_t n = 0; n < strokes.size(); ++n)
-  {
-    const std::string number = std::to_string(dissection::strokeNumber(n));
-    add(strokes[n]->object, ObjectUse::Kind::Stroke, number, "stroke " + number);
-  }
+    add(strokes[n]->object, ObjectUse::Kind::Stroke, std::to_string(dissection::strokeNumber(n)),
+        "stroke " + std::to_string(dissection::strokeNumber(n)));
   for (const scene::Attachment& attachment : value.attachments)
     if (!attachment.object.empty())
       add(attachment.object, ObjectUse::Kind::Attachment, attachment.name,

@@ -2,6 +2,7 @@
 
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Dissection/BurrName.h"
+#include "petrous/Dissection/StrokeNumber.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Scene/ApplyRegistration.h"
@@ -451,8 +452,8 @@ json strokesJson(const scene::Case& value)
     const dissection::Stroke& stroke = *value.dissection.strokes()[n];
     const auto& burr = stroke.info.burr;
     strokes.push_back(
-        {{"number", n + 1},
-         {"parent", history.parent(n) + 1},
+        {{"number", dissection::strokeNumber(n)},
+         {"parent", dissection::strokeNumber(history.parent(n))},
          {"done", static_cast<bool>(done[n])},
          {"recovered", stroke.info.recovered},
          {"started_at", stroke.info.startedAt.empty() ? json() : json(stroke.info.startedAt)},

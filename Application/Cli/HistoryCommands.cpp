@@ -9,6 +9,7 @@
 #include "Numbers.h"
 #include "ViewOptions.h"
 #include "petrous/Dissection/BurrName.h"
+#include "petrous/Dissection/StrokeNumber.h"
 #include "petrous/Presenters/ApproachComparison.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Rendering/OffscreenView.h"
@@ -63,7 +64,7 @@ void addStep(CLI::App& app, Context& context, const std::string& name, const std
 void printStroke(const Context& context, const scene::Case& value, std::size_t n, const char* state)
 {
   const auto& info = value.dissection.strokes()[n]->info;
-  std::string line = std::to_string(n + 1) + state +
+  std::string line = std::to_string(dissection::strokeNumber(n)) + state +
                      (info.startedAt.empty() ? "" : info.startedAt + "  ") +
                      fixed(info.burr.diameter, 1) + " mm " + dissection::nameOf(info.burr) + ", " +
                      fixed(info.duration, 1) + " s, " + fixed(info.removed, 2) + " mm3";
@@ -91,7 +92,8 @@ void printHistory(const Context& context, const scene::Case& value)
     const auto own = history.path(history.branch().tip, branch.tip).redone;
     context.print("branch " + branch.name + ": " +
                   (own.empty() ? "no strokes of its own"
-                               : "after stroke " + std::to_string(history.parent(own[0]) + 1)));
+                               : "after stroke " + std::to_string(dissection::strokeNumber(
+                                                       history.parent(own[0])))));
     for (const std::size_t n : own)
       printStroke(context, value, n, "          ");
   }

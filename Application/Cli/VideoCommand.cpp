@@ -6,6 +6,7 @@
 #include "Numbers.h"
 #include "ViewOptions.h"
 #include "petrous/Core/InputFile.h"
+#include "petrous/Dissection/StrokeNumber.h"
 #include "petrous/Library/Attachments.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/LabelledPicture.h"
@@ -146,12 +147,13 @@ nlohmann::json videoJson(const Context& context, const library::Library& library
   for (const auto& bookmark : notes.bookmarks)
   {
     const auto stroke = scene::strokeWith(value, bookmark.stroke);
-    bookmarks.push_back(
-        {{"name", bookmark.name},
-         {"time_s", seconds(bookmark.time)},
-         {"stroke", stroke ? nlohmann::json(*stroke + 1) : nlohmann::json(nullptr)}});
-    context.print("    " + presenters::timeText(bookmark.time) + "  " + bookmark.name +
-                  (stroke ? ", after stroke " + std::to_string(*stroke + 1) : ""));
+    bookmarks.push_back({{"name", bookmark.name},
+                         {"time_s", seconds(bookmark.time)},
+                         {"stroke", stroke ? nlohmann::json(dissection::strokeNumber(*stroke))
+                                           : nlohmann::json(nullptr)}});
+    context.print(
+        "    " + presenters::timeText(bookmark.time) + "  " + bookmark.name +
+        (stroke ? ", after stroke " + std::to_string(dissection::strokeNumber(*stroke)) : ""));
   }
   nlohmann::json stills = nlohmann::json::array();
   for (const auto& still : notes.stills)

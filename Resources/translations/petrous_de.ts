@@ -1891,6 +1891,45 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     </message>
 </context>
 <context>
+    <name>petrous::workstation::CaseJobs</name>
+    <message>
+        <source>Still running</source>
+        <translation>Läuft noch</translation>
+    </message>
+    <message>
+        <source>Still running: %1</source>
+        <translation>Läuft noch: %1</translation>
+    </message>
+    <message>
+        <source>What is stopped now is lost, and the case stays as it was before.</source>
+        <translation>Was jetzt beendet wird, ist verloren, und der Fall bleibt, wie er vorher war.</translation>
+    </message>
+    <message>
+        <source>&amp;Wait for it</source>
+        <translation>&amp;Abwarten</translation>
+    </message>
+    <message>
+        <source>Goes on with this as soon as it is done; you can work meanwhile</source>
+        <translation>Fährt damit fort, sobald es fertig ist; Sie können inzwischen weiterarbeiten</translation>
+    </message>
+    <message>
+        <source>&amp;Stop it</source>
+        <translation>&amp;Beenden</translation>
+    </message>
+    <message>
+        <source>Without its result</source>
+        <translation>Ohne das Ergebnis</translation>
+    </message>
+    <message>
+        <source>&amp;Go on working</source>
+        <translation>&amp;Weiterarbeiten</translation>
+    </message>
+    <message>
+        <source>It goes on running, and the case stays open</source>
+        <translation>Es läuft weiter, und der Fall bleibt offen</translation>
+    </message>
+</context>
+<context>
     <name>petrous::workstation::CaseSaver</name>
     <message>
         <source>The save was stopped.</source>
@@ -4317,6 +4356,10 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
         <source>The case keeps no instrument</source>
         <translation>Der Fall behält kein Instrument</translation>
     </message>
+    <message>
+        <source>reading the attachment “%1”</source>
+        <translation>Lesen des Anhangs „%1“</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::MeasureController</name>
@@ -5752,6 +5795,10 @@ Verletzt: %1, %2</translation>
         <source>The registration ended with its case; the MR lies as before</source>
         <translation>Die Registrierung endete mit ihrem Fall; das MR liegt wie zuvor</translation>
     </message>
+    <message>
+        <source>the registration of the MR “%1”</source>
+        <translation>Registrierung des MR „%1“</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::RegistrationPanel</name>
@@ -6329,6 +6376,22 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Let the name end in .pdf or .html.</source>
         <translation>Der Name soll auf .pdf oder .html enden.</translation>
+    </message>
+    <message>
+        <source>“%1” is left out, as it is nowhere on the %2: %3</source>
+        <translation>„%1“ ist weggelassen, da es nirgends auf dem %2 liegt: %3</translation>
+    </message>
+    <message>
+        <source>“%1” stays where it was made: %2</source>
+        <translation>„%1“ bleibt, wo es gemacht wurde: %2</translation>
+    </message>
+    <message>
+        <source>The report says so, too</source>
+        <translation>Das steht auch im Bericht</translation>
+    </message>
+    <message>
+        <source>Without:</source>
+        <translation>Ohne:</translation>
     </message>
 </context>
 <context>

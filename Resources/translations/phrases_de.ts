@@ -1568,6 +1568,10 @@
         <translation>weiche Glanzlichter</translation>
     </message>
     <message>
+        <source>stroke %#1</source>
+        <translation>Bohrzug %#1</translation>
+    </message>
+    <message>
         <source>color</source>
         <translation>Farbe</translation>
     </message>
@@ -1602,10 +1606,6 @@
     <message>
         <source>hide %1</source>
         <translation>%1 ausblenden</translation>
-    </message>
-    <message>
-        <source>stroke %#1</source>
-        <translation>Bohrzug %#1</translation>
     </message>
     <message>
         <source>side</source>

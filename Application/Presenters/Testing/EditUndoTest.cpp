@@ -427,6 +427,21 @@ TEST_F(EditUndoTest, StrokesOfAnotherBranchDoNotBarTheWay)
   EXPECT_EQ(look().color, (Color{1.0F, 0.0F, 0.0F}));
 }
 
+TEST_F(EditUndoTest, StrokesAreNumberedOverAllBranchesAsTheReportNumbersThem)
+{
+  open();
+  stroke();
+  stroke();
+  model->undo();
+  model->startBranch("other"); // after the first
+  stroke();
+  EXPECT_EQ(model->value().applied(), 2u);
+  EXPECT_EQ(model->undoText(), "stroke 3");
+  model->undo();
+  EXPECT_EQ(model->undoText(), "stroke 1");
+  EXPECT_EQ(model->redoText(), "stroke 3");
+}
+
 // As its name is shown: it is no name that a user gave, and is translated.
 TEST_F(EditUndoTest, TheDeletionOfTheMainApproachHasAPhraseOfItsOwn)
 {

@@ -262,6 +262,29 @@ TEST_F(RegistrationSessionTest, AnotherMrKeepsItsOwnPlace)
   EXPECT_TRUE(t2().registered);
 }
 
+TEST_F(RegistrationSessionTest, PrefersTheLastMrThatIsNotRegistered)
+{
+  EXPECT_FALSE(session.preferUnregistered()) << "the present one is not registered either";
+  EXPECT_EQ(session.mr(), "T2");
+  session.shift({1, 0, 0});
+  ASSERT_TRUE(t2().registered);
+  model.setCrosshair({0, 0, 0});
+  session.addLandmark();
+  EXPECT_FALSE(session.preferUnregistered()) << "its points would be lost";
+  EXPECT_EQ(session.mr(), "T2");
+  session.landmarks().clear();
+  EXPECT_TRUE(session.preferUnregistered());
+  EXPECT_EQ(session.mr(), "DWI");
+  session.shift({0, 1, 0});
+  EXPECT_FALSE(session.preferUnregistered()) << "all are registered";
+  EXPECT_EQ(session.mr(), "DWI");
+  session.choose("T2");
+  session.unregister();
+  session.choose("DWI");
+  EXPECT_TRUE(session.preferUnregistered());
+  EXPECT_EQ(session.mr(), "T2");
+}
+
 TEST_F(RegistrationSessionTest, AsksForWhatTheAimSays)
 {
   using From = RegistrationRequest::From;

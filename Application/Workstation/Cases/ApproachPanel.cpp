@@ -18,6 +18,7 @@
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Dissection/BurrName.h"
+#include "petrous/Dissection/StrokeNumber.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Scene/Branches.h"
 
@@ -245,7 +246,7 @@ void ApproachPanel::add(QTreeWidgetItem* above, const ApproachNode& node)
   case Kind::Stroke:
   {
     const dissection::StrokeInfo& info = value.dissection.strokes()[node.state]->info;
-    item->setText(Stroke, QString::number(node.number));
+    item->setText(Stroke, QString::number(dissection::strokeNumber(node.state)));
     item->setText(Removed, volumeText(info.removed));
     item->setText(Time, durationText(info.duration));
     item->setText(Burr, burrText(info.burr));

@@ -82,6 +82,7 @@ bool AttachmentsController::take(const std::filesystem::path& file, bool isLink)
   }
   library::AttachOptions options;
   options.link = isLink;
+  m_taking = QFile::decodeName(file.filename().c_str());
   m_work.start(
       [this, file, options,
        shownAs = m_model.shownAs()](const core::Progress& progress) -> BackgroundWork::Reply
@@ -94,6 +95,16 @@ bool AttachmentsController::take(const std::filesystem::path& file, bool isLink)
         };
       });
   return true;
+}
+
+QString AttachmentsController::taking() const
+{
+  return m_work.busy() ? m_taking : QString();
+}
+
+void AttachmentsController::stop()
+{
+  m_work.dropInLoop();
 }
 
 void AttachmentsController::add(scene::Attachment attachment)
@@ -169,6 +180,7 @@ void AttachmentsController::extract(const std::string& name)
   const std::filesystem::path file = askFile(dialog);
   if (file.empty() || !m_model.hasCase())
     return;
+  m_taking.clear();
   scene::Case of; // its name is said in messages
   of.name = m_model.value().name;
   m_work.start(

@@ -29,6 +29,9 @@ public:
   /// A file, or a link to one, that the user chooses. False: none was chosen.
   bool attach();
 
+  QString taking() const; ///< name of the file that is being read into the case; empty: none
+  void stop();            ///< and waits
+
 signals:
   void changed(); ///< the case has other attachments and is unsaved
   void panelWanted();
@@ -49,6 +52,7 @@ private:
   QWidget& m_window;
   AttachmentsPanel* m_panel;
   BackgroundWork m_work;
+  QString m_taking; // what it reads into the case; empty: it writes
 };
 
 } // namespace petrous::workstation

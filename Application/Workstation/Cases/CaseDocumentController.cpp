@@ -438,9 +438,10 @@ void CaseDocumentController::open(const QStringList& what, const Purpose& purpos
 
 // Runs one task with a progress dialog. What it made is taken when no dialog or menu is open:
 // one may have been opened before the progress was shown, for the case that is open.
-void CaseDocumentController::work(const QString& title, BackgroundWork::Work work)
+void CaseDocumentController::work(const QString& title, BackgroundWork::Work work, bool changesCase)
 {
   endWork();
+  m_changing = changesCase ? title : QString();
   m_progress = std::make_unique<QProgressDialog>(title + "…", tr("Cancel"), 0, 1000, &m_window);
   m_progress->setObjectName("importProgress");
   m_progress->setWindowTitle(title);
@@ -518,6 +519,24 @@ void CaseDocumentController::endWork()
   emit working({});
 }
 
+QString CaseDocumentController::changing() const
+{
+  return m_work.busy() || m_held ? m_changing : QString();
+}
+
+void CaseDocumentController::stopWork()
+{
+  m_work.dropInLoop();
+  m_held = {};
+  endWork();
+}
+
+bool CaseDocumentController::mayStopJobs(const std::function<void()>& again)
+{
+  const QScopedValueRollback<bool> asking(m_asking, true);
+  return !mayDropJobs || mayDropJobs(again);
+}
+
 // Saves the open case before another one is opened; no tool can be taken up until then.
 bool CaseDocumentController::leaveCase()
 {
@@ -536,7 +555,8 @@ void CaseDocumentController::openCase(const std::string& name)
 {
   if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
-  if (m_model.library().folder().empty() || !leaveCase())
+  if (m_model.library().folder().empty() || !mayStopJobs([this, name] { openCase(name); }) ||
+      !leaveCase())
     return;
   m_model.beginOpen(name);
   work(tr("Opening %1").arg(words(name)),
@@ -987,74 +1007,76 @@ void CaseDocumentController::makeCase(
   if (!leaveCase())
     return;
   m_model.notOpened(); // it stays usable while the other one is made
-  work(tr("Making the case %1").arg(words(name)),
-       [this, name, side, library = m_model.library(),
-        sources = std::move(sources)](const core::Progress& progress) -> BackgroundWork::Reply
-       {
-         double reached = 0.0; // a quick preparation does not count as half of the work
-         const core::Progress first(
-             [&](double fraction, const std::string& text)
-             {
-               reached = 0.5;
-               progress.report(0.5 * fraction, text);
-             });
-         auto from = sources(first);
-         const presenters::PartSources parts = std::exchange(from.parts, {});
-         const double image = reached + 0.5 * (1.0 - reached);
-         auto value = std::make_shared<scene::Case>();
-         try
-         {
-           *value = presenters::buildCase(name, from, progress.part(reached, image));
-         }
-         catch (const imaging::BitsUnclearError& error)
-         {
-           from.parts = parts;
-           // `sources` keeps the folder of what it made until that is read.
-           return [this, name, side, sources, from, error]() mutable
-           {
-             const auto bits = askBits(error.what(), error.canKeep);
-             if (!bits)
-               return reopen();
-             from.undeclaredBits = *bits;
-             makeCase(
-                 name, [from, sources](const core::Progress&) { return from; }, side);
-           };
-         }
-         value->description.side = side;
-         std::vector<presenters::StructureReport> report;
-         const auto failures =
-             presenters::addSoundParts(*value, parts, progress.part(image, 1.0), &report);
-         // A folder is often named after the patient, and the case's name goes wherever it goes.
-         const bool isPatients = presenters::IdentityText(*value).mayIdentify(name);
-         if (isPatients)
-           value->name = presenters::freeCaseName(library, "case");
-         const QString what = quotedNames(parts.labels);
-         return [this, value, failures, report, isPatients, what]() mutable
-         {
-           const QString named = words(value->name);
-           if (askOutside(report, what) != Outside::Added)
-             presenters::leaveOutside(*value, report);
-           const bool isShown = adopt(std::move(*value));
-           if (isPatients)
-           {
-             const QString why =
-                 tr("The case is called “%1”: the name of its folder was not taken, "
-                    "as it may be the patient's; F2 in the library, or Save as…, "
-                    "gives it another one")
-                     .arg(named);
-             emit statusMessage(why);
-             m_whyNamed = isShown ? why : QString(); // again in place of “Saved as”
-           }
-           // Where it could only be kept, the case that stays open is another one.
-           tell(failures, report, {isShown ? m_model.shownAs() : 0, named});
-         };
-       });
+  work(
+      tr("Making the case %1").arg(words(name)),
+      [this, name, side, library = m_model.library(),
+       sources = std::move(sources)](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        double reached = 0.0; // a quick preparation does not count as half of the work
+        const core::Progress first(
+            [&](double fraction, const std::string& text)
+            {
+              reached = 0.5;
+              progress.report(0.5 * fraction, text);
+            });
+        auto from = sources(first);
+        const presenters::PartSources parts = std::exchange(from.parts, {});
+        const double image = reached + 0.5 * (1.0 - reached);
+        auto value = std::make_shared<scene::Case>();
+        try
+        {
+          *value = presenters::buildCase(name, from, progress.part(reached, image));
+        }
+        catch (const imaging::BitsUnclearError& error)
+        {
+          from.parts = parts;
+          // `sources` keeps the folder of what it made until that is read.
+          return [this, name, side, sources, from, error]() mutable
+          {
+            const auto bits = askBits(error.what(), error.canKeep);
+            if (!bits)
+              return reopen();
+            from.undeclaredBits = *bits;
+            makeCase(
+                name, [from, sources](const core::Progress&) { return from; }, side);
+          };
+        }
+        value->description.side = side;
+        std::vector<presenters::StructureReport> report;
+        const auto failures =
+            presenters::addSoundParts(*value, parts, progress.part(image, 1.0), &report);
+        // A folder is often named after the patient, and the case's name goes wherever it goes.
+        const bool isPatients = presenters::IdentityText(*value).mayIdentify(name);
+        if (isPatients)
+          value->name = presenters::freeCaseName(library, "case");
+        const QString what = quotedNames(parts.labels);
+        return [this, value, failures, report, isPatients, what]() mutable
+        {
+          const QString named = words(value->name);
+          if (askOutside(report, what) != Outside::Added)
+            presenters::leaveOutside(*value, report);
+          const bool isShown = adopt(std::move(*value));
+          if (isPatients)
+          {
+            const QString why = tr("The case is called “%1”: the name of its folder was not taken, "
+                                   "as it may be the patient's; F2 in the library, or Save as…, "
+                                   "gives it another one")
+                                    .arg(named);
+            emit statusMessage(why);
+            m_whyNamed = isShown ? why : QString(); // again in place of “Saved as”
+          }
+          // Where it could only be kept, the case that stays open is another one.
+          tell(failures, report, {isShown ? m_model.shownAs() : 0, named});
+        };
+      },
+      true);
 }
 
 // False: the open one stays, and `value` is kept in the library.
 bool CaseDocumentController::adopt(scene::Case value)
 {
-  if (!leaveCase()) // a device may have drilled meanwhile, or a draft is not to be lost
+  // A device may have drilled meanwhile, or neither a draft nor a job is to be lost.
+  if (!mayStopJobs() || !leaveCase())
   {
     keepInLibrary(std::move(value));
     return false;
@@ -1139,7 +1161,8 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
           all.insert(all.end(), report.begin(), report.end());
           tell(failures, all, target);
         };
-      });
+      },
+      true);
 }
 
 // What becomes of structures that lie wholly outside of the image: of another patient, or another
@@ -2146,7 +2169,7 @@ void CaseDocumentController::maintain(
 
 bool CaseDocumentController::closeToReopen()
 {
-  if (!leaveCase())
+  if (!mayStopJobs() || !leaveCase())
     return false;
   m_reopen = m_model.value().name; // a save after a conflict may have changed it
   m_model.close();
@@ -2228,7 +2251,7 @@ void CaseDocumentController::closeCase()
 {
   if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
-  if (!m_model.hasCase() || !leaveCase())
+  if (!m_model.hasCase() || !mayStopJobs([this] { closeCase(); }) || !leaveCase())
     return;
   m_removed.hide();
   m_model.close();
@@ -2244,12 +2267,10 @@ bool CaseDocumentController::mayLeave()
   if (m_leaving) // called again while saving
     return false;
   const QScopedValueRollback<bool> leaving(m_leaving, true);
-  if (mayDropDraft && !mayDropDraft())
+  if (!mayStopJobs([this] { m_window.close(); }) || (mayDropDraft && !mayDropDraft()))
     return false;
   const FinishingNote note(m_window);
-  m_work.dropInLoop(); // a cancelled import leaves nothing behind
-  m_held = {};
-  endWork();
+  stopWork();
   m_preparation.dropInLoop();
   m_model.stopTouch();
   const bool safe = m_saver.flush();

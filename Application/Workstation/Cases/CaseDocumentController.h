@@ -96,6 +96,13 @@ public:
   /// Asks what becomes of what is not part of the case yet; false: the user wants to stay.
   std::function<bool()> mayDropDraft;
 
+  /// Asks what becomes of jobs whose results would change the open case; false: the user wants to
+  /// stay, or to wait: `again`, which leaves anew, is called then. Null: waiting is not offered.
+  std::function<bool(const std::function<void()>& again)> mayDropJobs;
+  /// What is being added to a case or made into one, for such a question; empty: nothing.
+  QString changing() const;
+  void stopWork(); ///< and waits; a stopped import leaves nothing behind
+
   /// Cancels imports, saves what is unsaved. Returns false if that failed, which the banner shows:
   /// the window stays open.
   bool mayLeave();
@@ -185,7 +192,8 @@ private:
   void keepInLibrary(scene::Case value);
   void write(const presenters::ExportOptions& options);
   void offerCtGrid(const presenters::ExportOptions& options, const QString& why);
-  void work(const QString& title, BackgroundWork::Work work);
+  /// `changesCase`: what it makes is lost when it is stopped.
+  void work(const QString& title, BackgroundWork::Work work, bool changesCase = false);
   void take(const BackgroundWork::Reply& reply);
   void fail(const QString& why);
   void endWork();
@@ -197,6 +205,7 @@ private:
   void notSaved(const QString& why);
   void bringBack(); ///< the case, which another program deleted
   bool leaveCase();
+  bool mayStopJobs(const std::function<void()>& again = {});
   void refuse(const QString& why);
   void inform(const QString& text);
 
@@ -208,6 +217,7 @@ private:
   Banner& m_damaged;
   Banner& m_removed;
   BackgroundWork m_work;
+  QString m_changing;           // what it changes a case by, while it runs
   BackgroundWork::Reply m_held; // of m_work, until no dialog is open
   QTimer m_heldAgain;
   BackgroundWork m_preparation;

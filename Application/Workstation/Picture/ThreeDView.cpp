@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <QApplication>
 #include <QKeyEvent>
@@ -151,6 +152,14 @@ void ThreeDView::setNotes(const QStringList& lines)
   emit notesChanged(lines);
 }
 
+void ThreeDView::setCovered(int pixels)
+{
+  m_display->setCovered(double(pixels) / std::max(height(), 1));
+  if (pixels == std::exchange(m_covered, pixels))
+    return;
+  placeLetters();
+}
+
 // Below the letter at the top where there is no room beside it. What it ends with counts most.
 void ThreeDView::placeStamp()
 {
@@ -160,13 +169,14 @@ void ThreeDView::placeStamp()
   const QLabel& top = *m_letters[2];
   const int left = width() - kLetterMargin - m_stamp->width();
   const bool isBeside = left > top.geometry().right();
-  m_stamp->move(left, isBeside ? kLetterMargin : top.geometry().bottom() + kLetterMargin / 2);
+  m_stamp->move(left,
+                isBeside ? m_covered + kLetterMargin : top.geometry().bottom() + kLetterMargin / 2);
 }
 
 // Below letter and stamp where there is no room beside them.
 void ThreeDView::placeNotes()
 {
-  int top = kLetterMargin;
+  int top = m_covered + kLetterMargin;
   const QLabel* const others[] = {m_letters[2], m_stamp};
   for (const QLabel* other : others)
     if (!other->isHidden() && QRect({kLetterMargin, top}, m_notes->size())
@@ -212,7 +222,7 @@ void ThreeDView::placeLetters()
   const int down = height();
   put(0, kLetterMargin, middle(down, m_letters[0]->height()));
   put(1, across - kLetterMargin - m_letters[1]->width(), middle(down, m_letters[1]->height()));
-  put(2, middle(across, m_letters[2]->width()), kLetterMargin);
+  put(2, middle(across, m_letters[2]->width()), m_covered + kLetterMargin);
   put(3, middle(across, m_letters[3]->width()), down - kLetterMargin - m_letters[3]->height());
   placeStamp();
   placeNotes();

@@ -42,6 +42,9 @@ public:
   void setNotes(const QStringList& lines);
   const QStringList& notes() const noexcept { return m_noteLines; }
 
+  /// Pixels from the upper edge that are covered: what stands there is placed below.
+  void setCovered(int pixels);
+
   /// Pick ray through the pixel at a position in the widget; side by side, of the eye whose half
   /// contains it. None: through the centre of the view.
   interaction::PickRay sightLine(const std::optional<QPointF>& position) const;
@@ -93,6 +96,7 @@ private:
   bool m_isFocused = false;
   bool m_cameByTab = false; // the focus, also while another window or a menu has it
   QStringList m_noteLines;
+  int m_covered = 0; // px, from the upper edge
 };
 
 } // namespace petrous::workstation

@@ -228,6 +228,18 @@ bool RegistrationController::running() const
   return m_run->busy() || m_waiting;
 }
 
+QString RegistrationController::runningText() const
+{
+  return running() ? tr("the registration of the MR “%1”").arg(words(m_session.mr())) : QString();
+}
+
+void RegistrationController::stop()
+{
+  m_run->dropInLoop();
+  m_waiting.reset();
+  endRun(tr("Stopped; the MR lies as before."));
+}
+
 void RegistrationController::caseChanged()
 {
   const bool stopped = running();
@@ -271,15 +283,8 @@ void RegistrationController::partsChanged()
 
 void RegistrationController::preferUnregistered()
 {
-  if (running() || !m_model.hasCase() || !m_session.landmarks().rows().empty())
+  if (running() || !m_session.preferUnregistered())
     return;
-  const auto& mrs = m_model.value().mr;
-  const auto isNot = [](const scene::ImagePart& mr) { return !mr.registered; };
-  const auto wanted = std::find_if(mrs.rbegin(), mrs.rend(), isNot);
-  const scene::ImagePart* present = scene::findMr(m_model.value(), m_session.mr());
-  if (wanted == mrs.rend() || (present && isNot(*present)))
-    return;
-  m_session.choose(wanted->name);
   m_panel->refresh();
   chosen();
 }
@@ -295,6 +300,8 @@ void RegistrationController::mrMoved()
 
 void RegistrationController::begin(Way way)
 {
+  if (way == Way::Register && !m_panel->isVisible()) // nobody sees which one is chosen there
+    preferUnregistered();
   if (m_model.hasCase() && !m_model.drilling())
     emit panelWanted(); // its verdict, or why nothing can be registered
   if (!m_session.part() || running() || m_model.drilling())

@@ -40,8 +40,9 @@ public:
   void partsChanged(); ///< the view, points and a run stay as long as the MRs do
   void mrMoved();      ///< or was signed off
   bool running() const;
-  /// Chooses the MR that was added last of those that are not registered, unless the present one is
-  /// none of these, is being registered or has landmarks.
+  QString runningText() const; ///< as it is told to the user; empty: none is running
+  void stop();                 ///< without asking whether what it reached is kept
+  /// RegistrationSession::preferUnregistered, unless the present one is being registered.
   void preferUnregistered();
 
   presenters::ShownImages shown() const; ///< in the slices

@@ -124,7 +124,7 @@ void ShareController::report()
 {
   if (!mayBegin())
     return;
-  ReportDialog dialog(m_model.value(), &m_window);
+  ReportDialog dialog(m_model.value(), m_model.leftOut(), &m_window);
   if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
     return;
   m_keeper.run(tr("Writing the report"),

@@ -26,6 +26,8 @@
 #include "WindowTexts.h"
 #include "petrous/Presenters/CameraPaths.h"
 #include "petrous/Presenters/FilmFile.h"
+#include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/StructureList.h"
 #include "petrous/Rendering/PixelSamples.h"
 
 namespace petrous::workstation
@@ -40,6 +42,24 @@ QString proposed(const scene::Case& value, const QString& what, const QString& e
   QString name = words(value.name) + ' ' + what + ending;
   name.replace('/', '_');
   return QDir::home().filePath(name);
+}
+
+// What a report lacks of the structures, or has where it was made, and why; as `petrous report`
+// warns.
+QStringList withheldFrom(const scene::Case& value, const std::vector<std::string>& leftOut)
+{
+  QStringList lines;
+  for (const std::string& why : leftOut)
+    lines += sentence(phrase(why));
+  const std::vector<presenters::StructureRow> rows = presenters::structureRows(value);
+  for (const presenters::StructureRow& row : rows)
+    if (!row.missing.empty())
+      lines += ReportDialog::tr("“%1” is left out, as it is nowhere on the %2: %3")
+                   .arg(shownName(row.part), presenters::primaryName(value), phrase(row.missing));
+    else if (!row.outdated.empty())
+      lines += ReportDialog::tr("“%1” stays where it was made: %2")
+                   .arg(shownName(row.part), phrase(row.outdated));
+  return lines;
 }
 
 } // namespace
@@ -109,7 +129,8 @@ void ShareDialog::askAndAccept()
     accept();
 }
 
-ReportDialog::ReportDialog(const scene::Case& value, QWidget* parent)
+ReportDialog::ReportDialog(const scene::Case& value, const std::vector<std::string>& leftOut,
+                           QWidget* parent)
   : ShareDialog("planReport", tr("Report of the plan"), tr("&Write the report"), parent)
   , m_approach(new QComboBox)
   , m_language(new QComboBox)
@@ -145,6 +166,16 @@ ReportDialog::ReportDialog(const scene::Case& value, QWidget* parent)
   m_note->setText(tr("Pictures, slices at the key places, distances of the dissection, strokes, "
                      "measurements, structures, registration, and what was assumed at import. A "
                      "name that ends in .html writes one page for a browser."));
+  if (const QStringList without = withheldFrom(value, leftOut); !without.isEmpty())
+  {
+    auto* label = new QLabel(without.join('\n'));
+    label->setObjectName("reportWithout");
+    label->setStyleSheet(kWarningStyle);
+    label->setTextFormat(Qt::PlainText);
+    label->setWordWrap(true);
+    label->setToolTip(tr("The report says so, too"));
+    m_form->addRow(tr("Without:"), label);
+  }
   connect(m_identity, &QCheckBox::toggled, this, &ReportDialog::check);
   setFile(proposed(value, tr("plan"), ".pdf"));
 }

@@ -56,7 +56,9 @@ class ReportDialog : public ShareDialog
 {
   Q_OBJECT
 public:
-  ReportDialog(const scene::Case& value, QWidget* parent = nullptr);
+  /// leftOut: of damaged structures, WorkstationModel::leftOut.
+  ReportDialog(const scene::Case& value, const std::vector<std::string>& leftOut = {},
+               QWidget* parent = nullptr);
 
   presenters::ReportOptions options() const; ///< without mayIdentify
   bool isPdf() const;

@@ -209,6 +209,13 @@ void SliceView::setNotice(const QString& text)
   update();
 }
 
+void SliceView::setCovered(int pixels)
+{
+  if (pixels == std::exchange(m_covered, pixels))
+    return;
+  update();
+}
+
 void SliceView::setMarks(std::vector<SliceMark> marks)
 {
   m_marks = std::move(marks);
@@ -539,13 +546,14 @@ void SliceView::paintLetters(QPainter& painter) const
   const QFontMetricsF metrics(font);
   const QColor color("#f2f5f8");
   const auto letters = slice().edgeLetters();
+  const double top = m_covered + kMargin;
   const double middle = 0.5 * height() + 0.35 * metrics.ascent();
   const auto letter = [](const std::string& text) { return words(text); };
   drawText(painter, {double(kMargin), middle}, letter(letters.left), color);
   const double right = width() - kMargin - metrics.horizontalAdvance(letter(letters.right));
   drawText(painter, {right, middle}, letter(letters.right), color);
   const double across = 0.5 * (width() - metrics.horizontalAdvance(letter(letters.top)));
-  drawText(painter, {across, kMargin + metrics.ascent()}, letter(letters.top), color);
+  drawText(painter, {across, top + metrics.ascent()}, letter(letters.top), color);
   drawText(painter, {across, double(height() - kMargin)}, letter(letters.bottom), color);
 
   font.setPixelSize(12);
@@ -553,15 +561,15 @@ void SliceView::paintLetters(QPainter& painter) const
   QString name = phrase(m_planes.name(m_orientation));
   if (m_slab.thickness > 0.0)
     name += "  " + slabText(m_slab);
-  drawText(painter, {double(kMargin), kMargin + 11.0}, name, planeColor(m_orientation));
+  drawText(painter, {double(kMargin), top + 11.0}, name, planeColor(m_orientation));
   font.setBold(false);
   painter.setFont(font);
   const QFontMetricsF small(font);
   const double whole = width() - 2.0 * kMargin;
-  drawText(painter, {double(kMargin), kMargin + 27.0},
+  drawText(painter, {double(kMargin), top + 27.0},
            small.elidedText(m_notice, Qt::ElideMiddle, whole), QColor("#f0a04d"));
   if (showsInterpolated())
-    drawText(painter, {double(kMargin), kMargin + 43.0},
+    drawText(painter, {double(kMargin), top + 43.0},
              small.elidedText(tr("interpolated slice: not measured here"), Qt::ElideRight, whole),
              kGuessed);
   // Above the letter where it is too long to stand beside it, and always left of the scale bar.
@@ -574,7 +582,7 @@ void SliceView::paintLetters(QPainter& painter) const
                              .arg(numberText(intensityDisplay().number(seenWindow().width)),
                                   numberText(intensityDisplay().number(seenWindow().level)));
     const double at = width() - kMargin - QFontMetricsF(font).horizontalAdvance(grey);
-    drawText(painter, {at, kMargin + 11.0}, grey, QColor("#b6c0ca"));
+    drawText(painter, {at, top + 11.0}, grey, QColor("#b6c0ca"));
   }
 }
 

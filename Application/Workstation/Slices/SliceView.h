@@ -76,6 +76,7 @@ public:
   void setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay,
                   const std::optional<presenters::IntensityDisplay>& alone);
   void setNotice(const QString& text); ///< a note on what is shown
+  void setCovered(int pixels);         ///< as ThreeDView
   void setMarks(std::vector<SliceMark> marks);
   void setInterpolated(std::vector<volume::SliceRange> slices); ///< of the grid
   void setRegion(double edge); ///< edge of the cube about the crosshair to fit in, mm; 0: none
@@ -175,6 +176,7 @@ private:
   std::shared_ptr<const presenters::SliceOverlay> m_overlay;
   std::optional<presenters::IntensityDisplay> m_overlayAlone; // none: the CT is seen, too
   QString m_notice;
+  int m_covered = 0; // px, from the upper edge
   std::vector<SliceMark> m_marks;
   std::vector<volume::SliceRange> m_interpolated;
   double m_region = 0.0;

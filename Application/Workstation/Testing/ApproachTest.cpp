@@ -112,8 +112,9 @@ TEST_F(Approaches, AreATreeOfTheirStrokesWithWhatEachRemoved)
   openWindow();
   openPanel();
   const QAbstractItemModelTester tester(tree().model());
-  EXPECT_EQ(rows(), QStringList({QString::fromUtf8("▶ main"), ".Untouched", ".1", "..above", "...2",
-                                 ".2"}));
+  EXPECT_EQ(rows(),
+            QStringList({QString::fromUtf8("▶ main"), ".Untouched", ".1", "..above", "...3", ".2"}))
+      << "as `petrous history` and the report number them";
   EXPECT_EQ(current(), "2");
   QTreeWidgetItem* main = tree().topLevelItem(0);
   EXPECT_EQ(main->text(1), QString::fromUtf8("21.00 mm³"));
@@ -128,11 +129,12 @@ TEST_F(Approaches, ArrowKeysGoToTheStatesLive)
   openWindow();
   openPanel();
   tree().setFocus();
-  press(Qt::Key_Up); // 2 of "above"
+  press(Qt::Key_Up); // 3, the second of "above"
   EXPECT_EQ(branch(), "above");
   EXPECT_EQ(value().applied(), 2u);
   EXPECT_DOUBLE_EQ(value().removedVolume(), 22.0);
-  EXPECT_EQ(current(), "2");
+  EXPECT_EQ(current(), "3");
+  EXPECT_EQ(window().model().undoText(), "stroke 3");
   press(Qt::Key_Up); // the approach itself
   EXPECT_EQ(branch(), "above");
   press(Qt::Key_Up); // 1 of main

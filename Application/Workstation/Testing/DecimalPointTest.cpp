@@ -1,6 +1,7 @@
 #include <clocale>
 
 #include <QDoubleSpinBox>
+#include <QLineEdit>
 #include <QStatusBar>
 #include <QTest>
 
@@ -49,7 +50,7 @@ TEST_F(DecimalPointTest, SaysWhyInTheStatusBarAndTheMarkGoes)
   type("9");
   EXPECT_EQ(exposure->value(), 0.0);
   EXPECT_EQ(window().statusBar()->currentMessage(), "9 is above the most, 4 EV");
-  EXPECT_TRUE(exposure->property("refused").toBool()) << "though the field was left";
+  EXPECT_TRUE(exposure->property("refused").toBool());
   type("-77");
   EXPECT_EQ(window().statusBar()->currentMessage(), "-7 is below the least, -4 EV");
   type("1,2,3");
@@ -57,6 +58,40 @@ TEST_F(DecimalPointTest, SaysWhyInTheStatusBarAndTheMarkGoes)
       << window().statusBar()->currentMessage().toStdString();
   EXPECT_TRUE(exposure->property("refused").toBool());
   EXPECT_TRUE(waitFor([exposure] { return !exposure->property("refused").toBool(); }));
+}
+
+// The next keys would act on the view: D takes the drill.
+TEST_F(DecimalPointTest, ARefusedNumberKeepsTheFocusWithItsTextSelected)
+{
+  saveBall("ball");
+  openWindow("ball");
+  ASSERT_TRUE(settled());
+  auto* diameter = window().findChild<QDoubleSpinBox*>("burrDiameter");
+  ASSERT_TRUE(diameter);
+  auto* line = diameter->findChild<QLineEdit*>();
+  const double before = diameter->value();
+  // Refused at its end, as no such burr is sold, and while it is typed.
+  for (const char* typed : {"3.7", "999"})
+    for (const Qt::Key end : {Qt::Key_Return, Qt::Key_Tab})
+    {
+      SCOPED_TRACE(typed);
+      diameter->setFocus();
+      diameter->selectAll();
+      QTest::keyClicks(diameter, typed);
+      QTest::keyClick(diameter, end);
+      EXPECT_EQ(window().focusWidget(), diameter);
+      EXPECT_EQ(diameter->value(), before);
+      EXPECT_TRUE(line->selectedText().startsWith(QLocale::c().toString(before, 'f', 1)))
+          << line->selectedText().toStdString();
+      EXPECT_TRUE(window().statusBar()->currentMessage().contains(typed[0]))
+          << window().statusBar()->currentMessage().toStdString();
+      QTest::keyClick(window().focusWidget(), Qt::Key_D);
+      EXPECT_FALSE(view().tool().GetDrillMode());
+      EXPECT_EQ(window().focusWidget(), diameter);
+    }
+  // A number that is taken, or the second Return, goes on to the view.
+  QTest::keyClick(diameter, Qt::Key_Return);
+  EXPECT_EQ(window().focusWidget(), &view());
 }
 
 // Run once more under a locale with a decimal comma.

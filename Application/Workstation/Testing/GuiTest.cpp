@@ -7,6 +7,7 @@
 #include <execinfo.h>
 #include <unistd.h>
 
+#include <QAbstractButton>
 #include <QApplication>
 #include <QCursor>
 #include <QFile>
@@ -148,8 +149,22 @@ void GuiTest::openWindow(const QString& what)
 
 void GuiTest::closeWindow()
 {
+  QTimer stop; // jobs that a test has left running
+  QObject::connect(&stop, &QTimer::timeout, &stop,
+                   [this]
+                   {
+                     auto* ask = m_window->findChild<QMessageBox*>("askJobs");
+                     if (!ask)
+                       return;
+                     const QList<QAbstractButton*> buttons = ask->buttons();
+                     for (QAbstractButton* button : buttons)
+                       if (ask->buttonRole(button) == QMessageBox::DestructiveRole)
+                         return button->click();
+                   });
+  stop.start(20);
   if (m_window)
     m_window->close();
+  stop.stop();
   m_window.reset();
 }
 

@@ -1501,6 +1501,35 @@ TEST_F(Import, ASideThatWasAssumedIsToldWheneverTheCaseIsOpened)
   }
 }
 
+TEST_F(Import, WhatWasNotedIsToldWheneverTheCaseIsOpenedUntilItsPartIsTakenOut)
+{
+  scene::Case value = ballCase("ball");
+  value.ct.notes = {"Slice 7 is interpolated between its neighbours."};
+  ASSERT_EQ(value.labels.size(), 1U);
+  value.labels[0].notes = {"partly outside the CT"};
+  library().save(value);
+  for (int n = 0; n < 2; ++n)
+  {
+    openWindow();
+    auto* banner = window().findChild<Banner*>("notesBanner");
+    ASSERT_TRUE(waitFor([banner] { return banner->isVisible(); }));
+    const QStringList lines = banner->text().split('\n');
+    EXPECT_EQ(lines.size(), 2) << banner->text().toStdString();
+    EXPECT_TRUE(lines.contains("CT: Slice 7 is interpolated between its neighbours."))
+        << banner->text().toStdString();
+    EXPECT_TRUE(lines.contains("nerve: partly outside the CT")) << banner->text().toStdString();
+    if (n == 0)
+    {
+      banner->findChild<QPushButton*>("dismissNotes")->click();
+      EXPECT_FALSE(banner->isVisible());
+      closeWindow();
+      continue;
+    }
+    const_cast<presenters::WorkstationModel&>(window().model()).removePart("nerve");
+    EXPECT_EQ(banner->text(), "CT: Slice 7 is interpolated between its neighbours.");
+  }
+}
+
 TEST_F(Import, ATiltedScanIsStraightenedOnlyWithConsent)
 {
   phantom::SampleOptions options;

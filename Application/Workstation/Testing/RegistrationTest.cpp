@@ -102,6 +102,22 @@ protected:
       if (box.buttonRole(button) == role)
         return button->click();
   }
+  /// Leaves the case or the window during a run, and answers the question about it.
+  void leaveBy(QMessageBox::ButtonRole role, const std::function<void()>& leave)
+  {
+    int asked = 0;
+    onMessage(
+        [&](QMessageBox& box)
+        {
+          ++asked;
+          EXPECT_EQ(box.objectName(), "askJobs");
+          EXPECT_TRUE(box.text().contains("registration of the MR")) << box.text().toStdString();
+          EXPECT_TRUE(box.text().contains("T2")) << box.text().toStdString();
+          answer(box, role);
+        });
+    leave();
+    EXPECT_EQ(asked, 1);
+  }
   /// Or hides it.
   void showPanel()
   {
@@ -657,15 +673,69 @@ TEST_F(RegistrationWindow, AResultWaitsForTheDrill)
   EXPECT_TRUE(find<QPushButton>("register").isEnabled());
 }
 
-TEST_F(RegistrationWindow, ClosingItsCaseEndsARunAndSaysSo)
+TEST_F(RegistrationWindow, ARunThatTheUserStopsEndsWithItsCase)
 {
   showPanel();
   click("register");
   ASSERT_TRUE(window().findChild<RegistrationController*>()->running());
-  action("Close the case")->trigger();
+  leaveBy(QMessageBox::DestructiveRole, [this] { action("Close the case")->trigger(); });
   EXPECT_TRUE(waitFor([this] { return !window().model().hasCase(); }));
-  EXPECT_EQ(window().statusBar()->currentMessage(),
-            "The registration ended with its case; the MR lies as before");
+  EXPECT_FALSE(library().open("ear").mr.front().registered);
+}
+
+TEST_F(RegistrationWindow, ACaseThatIsToBeClosedAfterARunIsClosedWithItsResult)
+{
+  showPanel();
+  click("register");
+  leaveBy(QMessageBox::AcceptRole, [this] { action("Close the case")->trigger(); });
+  EXPECT_TRUE(waitFor([this] { return !window().model().hasCase(); }, 240000));
+  EXPECT_TRUE(library().open("ear").mr.front().registered);
+}
+
+TEST_F(RegistrationWindow, AWindowThatIsNotToBeClosedDuringARunStaysAndTheRunGoesOn)
+{
+  showPanel();
+  click("register");
+  leaveBy(QMessageBox::RejectRole, [this] { EXPECT_FALSE(window().close()); });
+  EXPECT_TRUE(window().isVisible());
+  EXPECT_TRUE(waitFor([this] { return mr().registered; }, 240000));
+  EXPECT_TRUE(window().isVisible()) << "nobody asked for more";
+}
+
+TEST_F(RegistrationWindow, AWindowThatIsToBeClosedAfterARunClosesByItself)
+{
+  showPanel();
+  click("register");
+  leaveBy(QMessageBox::AcceptRole, [this] { window().close(); });
+  EXPECT_TRUE(waitFor([this] { return !window().isVisible(); }, 240000));
+  EXPECT_TRUE(library().open("ear").mr.front().registered);
+}
+
+TEST_F(RegistrationWindow, TheKeyTakesTheMrThatIsNotRegisteredUnlessThePanelShowsAnother)
+{
+  scene::Case value = library().open("ear");
+  scene::applyRegistration(value, "T2", phantom.mrFromCt(), {});
+  scene::ImagePart second = value.mr.front();
+  second.name = "DWI";
+  second.registered = false;
+  second.registration.reset();
+  second.mrFromCt = core::RigidTransform();
+  value.mr.push_back(second);
+  library().save(value);
+  const_cast<presenters::WorkstationModel&>(window().model()).open("ear");
+  auto& chosen = find<QComboBox>("registrationMr");
+  ASSERT_EQ(chosen.currentText(), "T2");
+  ASSERT_FALSE(window().findChild<QDockWidget*>("registrationDock")->isVisible());
+  action("Register the MR")->trigger();
+  EXPECT_EQ(chosen.currentText(), "DWI");
+  const auto& mrs = window().model().value().mr;
+  ASSERT_TRUE(waitFor([&] { return mrs.back().registered; }, 240000)) << state().toStdString();
+  EXPECT_LT(error(), 1e-9) << "stays as it was";
+
+  ASSERT_TRUE(window().findChild<QDockWidget*>("registrationDock")->isVisible());
+  chosen.setCurrentText("T2");
+  action("Register the MR")->trigger();
+  EXPECT_EQ(chosen.currentText(), "T2") << "it is seen there";
 }
 
 TEST_F(RegistrationWindow, AnMrGoesToTheCtThroughOneThatIsThere)

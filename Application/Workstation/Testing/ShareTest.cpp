@@ -7,6 +7,7 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QImage>
+#include <QLabel>
 #include <QLineEdit>
 #include <QProcess>
 #include <QPushButton>
@@ -16,6 +17,7 @@
 
 #include "PdfReport.h"
 #include "ShareController.h"
+#include "petrous/Scene/Placement.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -98,6 +100,47 @@ TEST_F(ShareWindow, WritesAReportInTwoActionsAndOpensIt)
   QTest::mouseClick(window().findChild<QPushButton*>("shareReport"), Qt::LeftButton);
   EXPECT_TRUE(asked);
   EXPECT_FALSE(QFile::exists(file("plan.html")));
+}
+
+// As `petrous report` warns.
+TEST_F(ShareWindow, TheReportsDialogSaysWhichStructureIsLeftOutAndWhy)
+{
+  openBall();
+  const auto said = [this]
+  {
+    QString text;
+    onDialog(
+        [&](QDialog& dialog)
+        {
+          if (dialog.objectName() != "planReport")
+            return false;
+          if (const auto* label = dialog.findChild<QLabel*>("reportWithout"))
+            text = label->text();
+          dialog.reject();
+          return true;
+        });
+    QTest::mouseClick(window().findChild<QPushButton*>("shareReport"), Qt::LeftButton);
+    return text;
+  };
+  EXPECT_EQ(said(), QString());
+  closeWindow();
+
+  scene::Case value = ballCase("away");
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  value.mr = {mr}; // not registered
+  ASSERT_EQ(value.labels.size(), 1U);
+  value.labels[0].drawnOn = "T2";
+  const std::string why = scene::placementOf(value, value.labels[0]).missing;
+  ASSERT_NE(why, "");
+  library().save(value);
+  openWindow("away");
+  ASSERT_TRUE(waitFor([this] { return window().model().ready(); }));
+  ASSERT_TRUE(settled());
+  const QString text = said();
+  EXPECT_TRUE(text.contains("nerve")) << text.toStdString();
+  EXPECT_TRUE(text.contains("nowhere on the CT")) << text.toStdString();
+  EXPECT_TRUE(text.contains(QString::fromStdString(why))) << text.toStdString();
 }
 
 TEST_F(ShareWindow, DrawsThePictureOfTheViewForPrint)

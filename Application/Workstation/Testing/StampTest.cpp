@@ -1,5 +1,7 @@
 #include "GuiTest.h"
 
+#include <cstdlib>
+
 #include <QLabel>
 #include <QPushButton>
 
@@ -57,6 +59,61 @@ TEST_F(Stamps, EveryViewSaysWhoseCaseItIsAndWhichSide)
   action("Close the case")->trigger();
   ASSERT_TRUE(waitFor([this] { return !window().model().hasCase(); }));
   EXPECT_TRUE(stampOn(view()).text().isEmpty());
+}
+
+// While a tool is in use the views keep their place, and a banner that comes lies over them.
+TEST_F(Stamps, ABannerThatComesInDrillModeCoversNeitherStampNorLetters)
+{
+  saveSide("ear 7", scene::Side::Left);
+  openWindow("ear 7");
+  QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(view().tool().GetDrillMode());
+  ASSERT_FALSE(question().isVisible());
+  const int before = stampOn(view()).y();
+  question().setText("one\ntwo\nthree");
+  question().show();
+  const auto bottom = [this] { return question().mapToGlobal(QPoint(0, question().height())).y(); };
+  const auto isFree = [&](const QWidget& widget)
+  { return widget.mapToGlobal(QPoint(0, 0)).y() >= bottom(); };
+  ASSERT_TRUE(waitFor([&] { return stampOn(view()).y() > before; }));
+  EXPECT_GT(bottom(), view().mapToGlobal(QPoint(0, 0)).y()) << "it does lie over the view";
+  EXPECT_TRUE(isFree(stampOn(view())));
+  const auto letters = view().findChildren<QLabel*>("direction");
+  EXPECT_EQ(letters.size(), 4);
+  for (const QLabel* letter : letters)
+    EXPECT_TRUE(isFree(*letter)) << letter->text().toStdString();
+
+  view().tool().DrillModeOff(); // then the views make room
+  EXPECT_TRUE(waitFor([&] { return stampOn(view()).y() == before && isFree(stampOn(view())); }));
+}
+
+// The upper part of a slice that is covered has no letters; they are below.
+TEST_F(Stamps, LettersOfASliceGiveWayToWhatCoversIt)
+{
+  saveSide("ear 7", scene::Side::Left);
+  openWindow("ear 7");
+  SliceView& slice = *window().findChild<SliceColumn*>()->views()[0];
+  constexpr int kCovered = 40;
+  const auto bright = [&slice](int from, int to) // pixels of the letters' colour
+  {
+    const QImage shown = slice.grab().toImage();
+    int count = 0;
+    for (int y = from; y < to; ++y)
+      for (int x = shown.width() / 2 - 10; x < shown.width() / 2 + 10; ++x)
+      {
+        const QColor color = shown.pixelColor(x, y);
+        const auto isNear = [](int a, int b) { return std::abs(a - b) < 12; };
+        count +=
+            isNear(color.red(), 0xf2) && isNear(color.green(), 0xf5) && isNear(color.blue(), 0xf8)
+                ? 1
+                : 0;
+      }
+    return count;
+  };
+  EXPECT_GT(bright(0, kCovered), 0);
+  slice.setCovered(kCovered);
+  EXPECT_EQ(bright(0, kCovered), 0);
+  EXPECT_GT(bright(kCovered, 2 * kCovered), 0);
 }
 
 TEST_F(Stamps, ALongNameIsElidedInTheSlicesAndTheSideIsNot)

@@ -36,6 +36,7 @@
 #include "BackgroundWork.h"
 #include "Banner.h"
 #include "Bind.h"
+#include "CaseJobs.h"
 #include "SliceView.h"
 #include "StartPage.h"
 #include "StructuresModel.h"
@@ -90,6 +91,55 @@ TEST_F(Window, ClosingCancelsWhatRunsAndSaysWhatItWaitsFor)
   EXPECT_TRUE(isIgnored);
   EXPECT_EQ(said, "Finishing: saving");
   EXPECT_EQ(window().findChild<QProgressDialog*>("finishing"), nullptr);
+}
+
+TEST_F(Window, AJobThatChangesTheCaseIsWaitedForStoppedOrLeftRunning)
+{
+  openWindow();
+  CaseJobs jobs(window());
+  bool runs = false;
+  int stopped = 0, left = 0;
+  jobs.add({[&] { return runs ? QString("counting") : QString(); },
+            [&]
+            {
+              ++stopped;
+              runs = false;
+            }});
+  jobs.add({[] { return QString(); }, [&] { ++stopped; }}); // never runs
+  const auto again = [&] { left += jobs.mayLeave({}) ? 1 : 0; };
+  const auto answer = [&](QMessageBox::ButtonRole role)
+  {
+    onMessage(
+        [role](QMessageBox& box)
+        {
+          EXPECT_TRUE(box.text().contains("counting")) << box.text().toStdString();
+          const QList<QAbstractButton*> buttons = box.buttons();
+          for (QAbstractButton* button : buttons)
+            if (box.buttonRole(button) == role)
+              return button->click();
+          ADD_FAILURE() << "no such button";
+          box.reject();
+        });
+  };
+  EXPECT_TRUE(jobs.mayLeave(again)) << "nothing runs";
+
+  runs = true;
+  answer(QMessageBox::RejectRole);
+  EXPECT_FALSE(jobs.mayLeave(again));
+  EXPECT_EQ(stopped, 0);
+
+  answer(QMessageBox::AcceptRole); // waits
+  EXPECT_FALSE(jobs.mayLeave(again));
+  EXPECT_EQ(left, 0);
+  runs = false;
+  EXPECT_TRUE(waitFor([&] { return left == 1; }));
+  EXPECT_EQ(stopped, 0);
+
+  runs = true;
+  answer(QMessageBox::DestructiveRole);
+  EXPECT_TRUE(jobs.mayLeave(again));
+  EXPECT_EQ(stopped, 1) << "the one that ran";
+  EXPECT_EQ(left, 1);
 }
 
 TEST_F(Window, WithoutACaseTellsHowToBegin)

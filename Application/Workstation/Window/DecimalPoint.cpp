@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <clocale>
+#include <utility>
 
 #include <QApplication>
 #include <QClipboard>
@@ -23,7 +24,7 @@ namespace petrous::workstation
 namespace
 {
 
-constexpr int kMarked = 5000; // ms; Return, as any end of a number, leaves the field at once
+constexpr int kMarked = 5000; // ms
 constexpr int kSaid = 8000;   // ms in the status bar
 
 int decimalsOf(const QAbstractSpinBox& box)
@@ -208,10 +209,14 @@ bool DecimalPoint::eventFilter(QObject* watched, QEvent* event)
   if (isEnd)
   {
     m_box.clear();
-    m_isRest = false;
+    // The keys that follow are meant for the field, not for what would have the focus next.
+    const bool isKept = std::exchange(m_isRest, false) && key;
+    if (isKept)
+      box->selectAll();
+    return isKept;
   }
-  else if (const int code = key->key();
-           code == Qt::Key_Backspace || (code >= Qt::Key_Escape && code < Qt::Key_Shift))
+  if (const int code = key->key();
+      code == Qt::Key_Backspace || (code >= Qt::Key_Escape && code < Qt::Key_Shift))
   {
     m_isRest = false;
     mark(*box, false);

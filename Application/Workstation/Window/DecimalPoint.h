@@ -18,8 +18,10 @@ namespace petrous::workstation
 ///
 /// A number that a field cannot take never becomes another one by losing characters: the field goes
 /// back to what it had, says what is possible, also in the status bar of its window, is marked for
-/// some seconds (property "refused"), and takes no more of that number until it is left, or Return,
-/// an arrow or a deleting key is pressed.
+/// some seconds (property "refused"), and takes no more of that number until it is left by the
+/// mouse, or Return, Tab, an arrow or a deleting key is pressed. The Return or Tab that ends a
+/// refused number leaves the focus in the field, with all of its text selected; the next one leaves
+/// it.
 class DecimalPoint : public QObject
 {
   Q_OBJECT

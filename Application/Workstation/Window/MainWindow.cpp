@@ -42,6 +42,7 @@
 #include "Banner.h"
 #include "BranchController.h"
 #include "CaseDocumentController.h"
+#include "CaseJobs.h"
 #include "CaseSaver.h"
 #include "CaseStamps.h"
 #include "CatalogueDialog.h"
@@ -87,6 +88,7 @@
 #include "WindowSettings.h"
 #include "WindowTexts.h"
 #include "petrous/Dissection/Catalogues.h"
+#include "petrous/Dissection/StrokeNumber.h"
 #include "petrous/Interaction/OrbitCamera.h"
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/CasePicture.h"
@@ -210,6 +212,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
   , m_actions(new WindowActions(*this, *m_bar, *m_deviceBar, m_options.quadBuffer))
   , m_stamps(new CaseStamps(m_model, *m_view, *m_slices, *m_sideBanner, *m_actions->sides, this))
   , m_saver(new CaseSaver(m_model))
+  , m_jobs(new CaseJobs(*this))
   , m_keeper(new CaseDocumentController(m_model, *m_saver, *this, *m_unsavedBanner,
                                         *m_loadingBanner, *m_damageBanner, *m_removedBanner))
   , m_watcher(new DeviceWatcher(m_options.devices, m_options.lookForDevicesEvery, this))
@@ -264,6 +267,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
   connectSegment();
   connectMeasure();
   connectThumbnails();
+  connectJobs();
   guardBoxes();
   m_saveLater.setSingleShot(true);
   m_saveLater.setInterval(std::max(m_options.saveAfter, 0));
@@ -333,9 +337,7 @@ void MainWindow::layOut()
   connect(m_view, &ThreeDView::toolModeSet, banners,
           [this, banners]
           { banners->setHeld(m_view->tool().GetDrillMode() || m_view->tool().GetProbeMode()); });
-  connect(banners, &BannerStack::covers, m_view,
-          [this](int pixels)
-          { m_view->display().setCovered(double(pixels) / std::max(m_view->height(), 1)); });
+  connect(banners, &BannerStack::covers, m_area, &ViewArea::setCovered);
   auto* stack = new QVBoxLayout(whole);
   stack->setContentsMargins(0, 0, 0, 0);
   stack->setSpacing(0);
@@ -914,6 +916,21 @@ void MainWindow::connectMeasure()
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
 }
 
+// All of them: what is not here is dropped without a question when the case is left.
+void MainWindow::connectJobs()
+{
+  m_jobs->add(
+      {[this] { return m_registration->runningText(); }, [this] { m_registration->stop(); }});
+  m_jobs->add({[this] { return m_keeper->changing(); }, [this] { m_keeper->stopWork(); }});
+  m_jobs->add({[this]
+               {
+                 const QString file = m_attachments->taking();
+                 return file.isEmpty() ? file : tr("reading the attachment “%1”").arg(file);
+               },
+               [this] { m_attachments->stop(); }});
+  m_keeper->mayDropJobs = [this](const auto& again) { return m_jobs->mayLeave(again); };
+}
+
 // In the background, while nobody drills or waits for anything.
 void MainWindow::connectThumbnails()
 {
@@ -1115,11 +1132,10 @@ void MainWindow::caseChanged()
   m_place->clear(); // of the previous case
   m_area->focusView();
   showNotes({});
-  const bool isNew = value.revision == 0;
-  m_notesTold = isNew ? QStringList() : notesOf(value);
+  m_notesTold.clear(); // told whenever the case is opened
+  if (value.revision > 0)
+    warnOfSides(); // of a new one the notes tell it
   notifyNotes();
-  if (!isNew) // told whenever the case is opened
-    warnOfSides();
   showUnregistered(true);
   m_stamps->caseOpened();
   tellOtherBurr();
@@ -1171,7 +1187,9 @@ void MainWindow::notifyNotes()
     if (notes.contains(note) || !m_notesTold.contains(note)) // one of another kind stays
       still += note;
   m_notesTold = notes;
-  if (const QStringList shown = still + fresh; shown != m_notesShown)
+  QStringList shown = still + fresh;
+  shown.removeDuplicates(); // a side that was assumed may be noted, too
+  if (shown != m_notesShown)
     showNotes(shown);
 }
 
@@ -1382,9 +1400,9 @@ void MainWindow::stepped(bool back)
   if (m_actions->strokeCamera->isChecked() && stroke < strokes.size() &&
       strokes[stroke]->info.camera)
     m_view->setCamera(*strokes[stroke]->info.camera);
-  // As `petrous history` counts, over all approaches.
-  statusBar()->showMessage(
-      (back ? tr("Stroke %1 undone") : tr("Stroke %1 drilled again")).arg(stroke + 1), kMessage);
+  statusBar()->showMessage((back ? tr("Stroke %1 undone") : tr("Stroke %1 drilled again"))
+                               .arg(dissection::strokeNumber(stroke)),
+                           kMessage);
 }
 
 void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke)

@@ -27,6 +27,7 @@ class AttachmentsController;
 class Banner;
 class BranchController;
 class CaseDocumentController;
+class CaseJobs;
 class CaseSaver;
 class CaseStamps;
 class ComparisonController;
@@ -99,6 +100,7 @@ private:
   void connectSegment();
   void connectMeasure();
   void connectThumbnails();
+  void connectJobs();
   void caseChanged();
   void caseClosed();
   void partsChanged();
@@ -173,6 +175,7 @@ private:
   CaseStamps* m_stamps;
   CaseSaver* m_saver;
   bool m_isClosing = false;
+  CaseJobs* m_jobs;
   CaseDocumentController* m_keeper;
   DeviceWatcher* m_watcher;
   ActiveDeviceController* m_devices;

@@ -105,6 +105,21 @@ ViewPane ViewArea::focusedPane() const
   return ViewPane::ThreeD;
 }
 
+void ViewArea::setCovered(int pixels)
+{
+  m_covered = pixels;
+  keepUncovered();
+}
+
+void ViewArea::keepUncovered()
+{
+  const auto share = [this](const QWidget& view)
+  { return std::clamp(m_covered - view.mapTo(this, QPoint(0, 0)).y(), 0, view.height() / 2); };
+  m_view.setCovered(share(m_view));
+  for (SliceView* slice : m_slices.views())
+    slice->setCovered(share(*slice));
+}
+
 void ViewArea::place()
 {
   const auto panes = m_arrangement.panes(width(), height());
@@ -134,6 +149,7 @@ void ViewArea::place()
   }
   m_view.raise();
   placeDividers();
+  keepUncovered();
 }
 
 void ViewArea::placeDividers()

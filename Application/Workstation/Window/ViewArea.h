@@ -32,6 +32,10 @@ public:
   presenters::ViewPane focusedPane() const; ///< the 3D view if no slice has the focus
   QWidget& widget(presenters::ViewPane pane) const;
 
+  /// Pixels from the upper edge of the area that are covered: what stands there in a view is placed
+  /// below.
+  void setCovered(int pixels);
+
 signals:
   void arrangementChanged();
 
@@ -43,10 +47,12 @@ protected:
 private:
   void place();
   void placeDividers();
+  void keepUncovered();
 
   ThreeDView& m_view;
   SliceColumn& m_slices;
   presenters::ViewArrangement m_arrangement;
+  int m_covered = 0; // px
   std::vector<QWidget*> m_dividers;
 };
 

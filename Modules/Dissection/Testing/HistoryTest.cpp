@@ -6,6 +6,7 @@
 
 #include "petrous/Core/Error.h"
 #include "petrous/Dissection/History.h"
+#include "petrous/Dissection/StrokeNumber.h"
 
 using namespace petrous;
 using dissection::History;
@@ -200,4 +201,14 @@ TEST(History, LosesNoStrokeInRandomUse)
     line.insert(line.end(), path.redone.begin(), path.redone.end());
     EXPECT_EQ(line, history.lineTo(to));
   }
+}
+
+TEST(StrokeNumber, IsTheSameWhicheverBranchTheStrokeIsReachedBy)
+{
+  History history = drilled(2);
+  history.start("above", 0);
+  const std::size_t own = history.add(); // the second stroke of its branch, the third of the case
+  EXPECT_EQ(dissection::strokeNumber(kStart), 0U);
+  EXPECT_EQ(dissection::strokeNumber(history.lineTo(own).front()), 1U);
+  EXPECT_EQ(dissection::strokeNumber(own), 3U);
 }

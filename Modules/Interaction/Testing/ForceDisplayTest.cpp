@@ -1,8 +1,11 @@
 #include "petrous/Interaction/ForceDisplay.h"
 
+#include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <vtkProp.h>
+#include <vtkPropCollection.h>
 #include <vtkRenderer.h>
 
 #include "Pixels.h"
@@ -148,6 +151,28 @@ TEST(ForceDisplay, HidesAForceBelowAFiftiethOfANewton)
       }());
   EXPECT_FALSE(difference(scene.draw({0.021, 0.0, 0.0}), scene.empty).empty());
   EXPECT_TRUE(difference(scene.draw({0.0, 0.0, 0.0}), scene.empty).empty());
+}
+
+// Else a picture at rest would begin anew with each record.
+TEST(ForceDisplay, ATremorThatCannotBeSeenChangesNoProp)
+{
+  Scene scene;
+  const auto changed = [&scene]
+  {
+    vtkMTimeType latest = 0;
+    vtkPropCollection* props = scene.renderer().GetViewProps();
+    vtkCollectionSimpleIterator at;
+    props->InitTraversal(at);
+    while (vtkProp* prop = props->GetNextProp(at))
+      latest = std::max(latest, prop->GetRedrawMTime());
+    return latest;
+  };
+  scene.draw({1.5, 0.0, 0.0}, {1.0, 0.0, 0.0});
+  const vtkMTimeType before = changed();
+  scene.display.update(recordOf({1.502, 0.001, 0.0}, {1.001, 0.0, 0.002}));
+  EXPECT_EQ(changed(), before);
+  scene.display.update(recordOf({1.6, 0.0, 0.0}, {1.0, 0.0, 0.0}));
+  EXPECT_GT(changed(), before);
 }
 
 TEST(ForceDisplay, ShowsNoForceThatIsNotGiven)

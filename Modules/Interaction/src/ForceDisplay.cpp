@@ -304,6 +304,10 @@ Vector3d colorOf(double force)
   return usual + std::min((force - 2.0) / 3.0, 1.0) * (strong - usual);
 }
 
+// Smaller changes are not visible.
+constexpr double kLeastForce = 0.01; // N
+constexpr double kLeastPlace = 0.01; // mm
+
 Vector3d forceIn(const session::TickRecord& record)
 {
   using Parameters = session::ServoParameters;
@@ -379,8 +383,17 @@ void ForceDisplay::setBarShown(bool shown)
 
 void ForceDisplay::update(const session::TickRecord& record)
 {
-  m_implementation->force = forceIn(record);
-  m_implementation->place = record.proxy.pose().position;
+  const Vector3d force = forceIn(record);
+  const Vector3d place = record.proxy.pose().position;
+  const auto isShown = [this](const Vector3d& one)
+  { return one.norm() >= m_implementation->look.least; };
+  // A hand at rest trembles: props that were changed would begin the picture at rest anew.
+  if ((force - m_implementation->force).norm() < kLeastForce &&
+      (place - m_implementation->place).norm() < kLeastPlace &&
+      isShown(force) == isShown(m_implementation->force))
+    return;
+  m_implementation->force = force;
+  m_implementation->place = place;
   m_implementation->show();
 }
 

@@ -16,6 +16,7 @@ namespace petrous::interaction
 
 namespace
 {
+constexpr double kLeastPlace = 0.01;                // mm; less is not visible
 constexpr double kGoldenTurn = 2.39996322972865332; // rad; no two pictures in a row are alike
 } // namespace
 
@@ -60,8 +61,13 @@ std::optional<rendering::ToolPose> ToolView::update(const session::TickRecord& r
   const Eigen::Vector3d hand = record.mapped.pose().position;
   m_lag = (hand - tool.position).norm();
   const bool shown = m_lag > kLag;
+  const auto isNear = [](const double* drawn, const Eigen::Vector3d& point)
+  { return (Eigen::Vector3d::Map(drawn) - point).norm() < kLeastPlace; };
+  // A hand at rest trembles: a prop that was changed would begin the picture at rest anew.
+  const bool isDrawn = m_actor->GetVisibility() && isNear(m_line->GetPoint1(), tool.position) &&
+                       isNear(m_line->GetPoint2(), hand);
   m_actor->SetVisibility(shown ? 1 : 0);
-  if (shown)
+  if (shown && !isDrawn)
   {
     m_line->SetPoint1(tool.position.x(), tool.position.y(), tool.position.z());
     m_line->SetPoint2(hand.x(), hand.y(), hand.z());

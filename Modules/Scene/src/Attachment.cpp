@@ -6,6 +6,7 @@
 #include <set>
 
 #include "petrous/Core/NumberText.h"
+#include "petrous/Dissection/StrokeNumber.h"
 #include "petrous/Scene/Case.h"
 #include "petrous/Scene/VideoNotes.h"
 
@@ -125,7 +126,7 @@ std::string freeAttachmentName(const Case& value, const std::string& name)
 std::size_t strokeOf(const Case& value, const Attachment& attachment)
 {
   const auto stroke = strokeWith(value, attachment.stroke);
-  return stroke ? *stroke + 1 : 0;
+  return stroke ? dissection::strokeNumber(*stroke) : 0;
 }
 
 } // namespace petrous::scene

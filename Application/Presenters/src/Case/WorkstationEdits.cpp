@@ -8,6 +8,7 @@
 #include "LookEdits.h"
 #include "Notify.h"
 #include "petrous/Appearance/StructureProperties.h"
+#include "petrous/Dissection/StrokeNumber.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -22,6 +23,11 @@ constexpr char kBone[] = "ct";
 
 using appearance::StructureAppearance;
 using appearance::StructureProperty;
+
+std::string strokeText(std::size_t stroke)
+{
+  return "stroke " + std::to_string(dissection::strokeNumber(stroke));
+}
 
 // nullptr: there is no such part.
 template <class Case>
@@ -136,14 +142,15 @@ bool WorkstationModel::canRedo() const noexcept
 std::string WorkstationModel::undoText() const
 {
   if (undoesStroke())
-    return "stroke " + std::to_string(m_case->applied() + (drilling() ? 1 : 0));
+    return strokeText(drilling() ? m_case->dissection.strokes().size() // the open one
+                                 : m_case->dissection.history().position());
   return canUndo() ? m_edits.next(m_case->applied())->what : std::string();
 }
 
 std::string WorkstationModel::redoText() const
 {
   if (redoesStroke())
-    return "stroke " + std::to_string(m_case->applied() + 1);
+    return strokeText(m_case->dissection.history().next());
   return canRedo() ? m_edits.nextRedo(m_case->dissection.history().ahead())->what : std::string();
 }
 

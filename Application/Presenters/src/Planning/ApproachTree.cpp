@@ -56,20 +56,14 @@ std::vector<ApproachNode> approachTree(const History& history)
     fork.after = first == line.begin() ? History::kStart : *(first - 1);
     fork.node.approach = branch.name;
     fork.node.state = branch.position;
-    fork.node.number = history.lineTo(branch.position).size();
     fork.node.applied = &branch == &history.branch();
     if (fork.after == History::kStart)
       fork.node.children.push_back(
-          {Kind::Start, branch.name, History::kStart, 0, fork.node.applied, {}});
+          {Kind::Start, branch.name, History::kStart, fork.node.applied, {}});
     for (auto stroke = first; stroke != line.end(); ++stroke)
     {
       isOwned[*stroke] = true;
-      fork.node.children.push_back({Kind::Stroke,
-                                    branch.name,
-                                    *stroke,
-                                    static_cast<std::size_t>(stroke - line.begin()) + 1,
-                                    isApplied[*stroke],
-                                    {}});
+      fork.node.children.push_back({Kind::Stroke, branch.name, *stroke, isApplied[*stroke], {}});
     }
     forks.push_back(std::move(fork));
   }

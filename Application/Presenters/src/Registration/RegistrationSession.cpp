@@ -66,6 +66,19 @@ void RegistrationSession::choose(const std::string& mr)
   m_fitted = part() ? part()->mrFromCt : core::RigidTransform();
 }
 
+bool RegistrationSession::preferUnregistered()
+{
+  if (!m_model.hasCase() || !m_landmarks.rows().empty())
+    return false;
+  const auto& mrs = m_model.value().mr;
+  const auto isNot = [](const scene::ImagePart& mr) { return !mr.registered; };
+  const auto wanted = std::find_if(mrs.rbegin(), mrs.rend(), isNot);
+  if (wanted == mrs.rend() || (part() && isNot(*part())))
+    return false;
+  choose(std::string(wanted->name));
+  return true;
+}
+
 const scene::ImagePart* RegistrationSession::part() const
 {
   return m_model.hasCase() ? scene::findMr(m_model.value(), m_name) : nullptr;

@@ -12,6 +12,7 @@
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Dissection/BurrName.h"
+#include "petrous/Dissection/StrokeNumber.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/DissectionDistances.h"
@@ -1060,7 +1061,7 @@ private:
       }
       const dissection::StrokeInfo& info = strokes[n]->info;
       addRow(
-          {numberCell(static_cast<double>(n + 1), 0, ""),
+          {numberCell(static_cast<double>(dissection::strokeNumber(n)), 0, ""),
            textCell(number(info.burr.diameter, 1) + " mm, " + say(dissection::nameOf(info.burr))),
            numberCell(info.burr.rpm, 0, "/min"), numberCell(info.duration, 1, "s"),
            numberCell(info.removed, 2, "mm³"), textCell(touchedText(info.structures))},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "petrous/Dissection/StrokeNumber.h"
 #include "petrous/Library/Attachments.h"
 
 namespace petrous::presenters
@@ -221,7 +222,7 @@ std::size_t VideoEditor::strokeOf(std::size_t bookmark) const
   if (bookmark >= notes().bookmarks.size())
     return 0;
   const auto stroke = scene::strokeWith(m_model.value(), notes().bookmarks[bookmark].stroke);
-  return stroke ? *stroke + 1 : 0;
+  return stroke ? dissection::strokeNumber(*stroke) : 0;
 }
 
 void VideoEditor::setLoop(std::size_t first, std::size_t second)

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Dissection/StrokeNumber.h"
 
 namespace petrous::dissection
 {
@@ -19,7 +20,7 @@ History::History(std::vector<std::size_t> parents, std::vector<Branch> branches,
   for (std::size_t n = 0; n < parents.size(); ++n)
   {
     if (parents[n] != kStart && parents[n] >= n)
-      throw core::InvalidParameter("history: stroke " + std::to_string(n + 1) +
+      throw core::InvalidParameter("history: stroke " + std::to_string(strokeNumber(n)) +
                                    " follows one that was made after it");
     append(parents[n]);
   }

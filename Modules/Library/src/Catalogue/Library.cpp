@@ -23,6 +23,7 @@
 #include "petrous/Core/Log.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Dissection/StrokeNumber.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/NrrdFile.h"
@@ -586,14 +587,14 @@ void Library::attach(scene::Case& value) const
         meshOf(instrument->object, {"the instrument of case '" + value.name + "'", true});
   const auto& strokes = value.dissection.strokes();
   for (std::size_t n = 0; n < strokes.size(); ++n)
-    value.dissection.setStored(
-        n, strokes[n]->object,
-        core::Lazy<dissection::Stroke::Voxels>(
-            [store, object = strokes[n]->object,
-             what = "stroke " + std::to_string(n + 1) + " of case '" + value.name + "'"] {
-              return std::make_shared<const dissection::Stroke::Voxels>(
-                  store.readChecked(object, what));
-            }));
+    value.dissection.setStored(n, strokes[n]->object,
+                               core::Lazy<dissection::Stroke::Voxels>(
+                                   [store, object = strokes[n]->object,
+                                    what = "stroke " + std::to_string(dissection::strokeNumber(n)) +
+                                           " of case '" + value.name + "'"] {
+                                     return std::make_shared<const dissection::Stroke::Voxels>(
+                                         store.readChecked(object, what));
+                                   }));
 }
 
 void Library::loadDissection(scene::Case& value) const

@@ -12,6 +12,7 @@
 #include "JournalFile.h"
 #include "LibraryFolder.h"
 #include "Sha256.h"
+#include "petrous/Dissection/StrokeNumber.h"
 #include "petrous/Imaging/NrrdFile.h"
 #include "petrous/Library/NewerVersion.h"
 #include "petrous/Scene/Manifest.h"
@@ -172,8 +173,8 @@ std::vector<ObjectUse> objectsOf(const scene::Case& value)
   }
   const auto& strokes = value.dissection.strokes();
   for (std::size_t n = 0; n < strokes.size(); ++n)
-    add(strokes[n]->object, ObjectUse::Kind::Stroke, std::to_string(n + 1),
-        "stroke " + std::to_string(n + 1));
+    add(strokes[n]->object, ObjectUse::Kind::Stroke, std::to_string(dissection::strokeNumber(n)),
+        "stroke " + std::to_string(dissection::strokeNumber(n)));
   for (const scene::Attachment& attachment : value.attachments)
     if (!attachment.object.empty())
       add(attachment.object, ObjectUse::Kind::Attachment, attachment.name,

@@ -26,8 +26,7 @@ struct ApproachNode
   Kind kind = Kind::Approach;
   std::string approach; ///< to which it belongs
   std::size_t state = dissection::History::kStart;
-  std::size_t number = 0; ///< of strokes up to this state
-  bool applied = false;   ///< on the way to the present state
+  bool applied = false; ///< on the way to the present state
   std::vector<ApproachNode> children;
 };
 

@@ -63,6 +63,9 @@ public:
   bool partsChanged();
 
   void choose(const std::string& mr); ///< clears the landmarks
+  /// Chooses the MR that was added last of those that are not registered, unless the present one is
+  /// none of these or has landmarks. Whether it did.
+  bool preferUnregistered();
   const std::string& mr() const noexcept { return m_name; }
   std::vector<std::string> mrNames() const; ///< of the case
   const scene::ImagePart* part() const;     ///< nullptr if the case has no MR

@@ -1,0 +1,89 @@
+#include "CaseJobs.h"
+
+#include <utility>
+
+#include <QAbstractButton>
+#include <QApplication>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QScopedValueRollback>
+
+namespace petrous::workstation
+{
+
+CaseJobs::CaseJobs(QWidget& window)
+  : QObject(&window)
+  , m_window(window)
+{
+  constexpr int kLook = 50; // ms
+  m_look.setInterval(kLook);
+  connect(&m_look, &QTimer::timeout, this, &CaseJobs::lookAgain);
+}
+
+void CaseJobs::add(Job job)
+{
+  m_jobs.push_back(std::move(job));
+}
+
+QStringList CaseJobs::running() const
+{
+  QStringList all;
+  for (const Job& job : m_jobs)
+    if (const QString what = job.running(); !what.isEmpty())
+      all += what;
+  return all;
+}
+
+bool CaseJobs::mayLeave(const std::function<void()>& again)
+{
+  m_look.stop();
+  m_again = {};
+  const QStringList jobs = running();
+  if (jobs.isEmpty())
+    return true;
+  if (m_isAsking)
+    return false;
+  const QScopedValueRollback<bool> asking(m_isAsking, true);
+  QMessageBox box(QMessageBox::Question, tr("Still running"),
+                  tr("Still running: %1").arg(jobs.join(", ")), QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askJobs");
+  box.setInformativeText(tr("What is stopped now is lost, and the case stays as it was before."));
+  QPushButton* wait = again ? box.addButton(tr("&Wait for it"), QMessageBox::AcceptRole) : nullptr;
+  if (wait)
+    wait->setToolTip(tr("Goes on with this as soon as it is done; you can work meanwhile"));
+  QPushButton* stop = box.addButton(tr("&Stop it"), QMessageBox::DestructiveRole);
+  stop->setToolTip(tr("Without its result"));
+  QPushButton* stay = box.addButton(tr("&Go on working"), QMessageBox::RejectRole);
+  stay->setToolTip(tr("It goes on running, and the case stays open"));
+  box.setDefaultButton(wait ? wait : stay);
+  box.setEscapeButton(stay);
+  box.exec();
+  const QAbstractButton* chosen = box.clickedButton();
+  if (chosen == stop)
+  {
+    for (const Job& job : m_jobs)
+      if (!job.running().isEmpty())
+        job.stop();
+    return true;
+  }
+  if (!wait || chosen != wait)
+    return false;
+  if (running().isEmpty()) // it ended meanwhile
+    return true;
+  m_again = again;
+  m_look.start();
+  return false;
+}
+
+void CaseJobs::lookAgain()
+{
+  if (QApplication::activeModalWidget() || QApplication::activePopupWidget() ||
+      !running().isEmpty())
+    return;
+  m_look.stop();
+  if (const auto again = std::exchange(m_again, {}))
+    again();
+}
+
+} // namespace petrous::workstation

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <map>
 #include <set>
 #include <thread>
@@ -121,6 +122,31 @@ TEST_F(Maintenance, ARenamedCaseIsSavedUnderItsNewName)
   m_library.remove("c");
   EXPECT_EQ(refusal([&] { m_library.save(value); }).first, LibraryError::Reason::Conflict);
   EXPECT_EQ(m_library.deletedName(id), "c");
+}
+
+// Of hundreds of cases whose manifests are known, none is read to find one by its ID.
+TEST_F(Maintenance, CasesAreFoundByTheirIdInTheCatalogue)
+{
+  const std::string id = make("a").id;
+  const std::string other = make("b").id;
+  m_library.remove("a");
+  ASSERT_EQ(m_library.deletedName(id), "a");
+  const fs::path path = manifest("b");
+  std::string text;
+  {
+    std::ifstream file(path, std::ios::binary);
+    text.assign(std::istreambuf_iterator<char>(file), {});
+  }
+  const std::size_t at = text.find(other);
+  ASSERT_NE(at, std::string::npos);
+  ASSERT_EQ(id.size(), other.size());
+  text.replace(at, other.size(), id);
+  const auto written = fs::last_write_time(path);
+  std::ofstream(path, std::ios::binary) << text;
+  fs::last_write_time(path, written);
+  EXPECT_EQ(m_library.deletedName(id), "a") << "the catalogue knows the manifest";
+  fs::last_write_time(path, written + std::chrono::seconds(1));
+  EXPECT_EQ(m_library.deletedName(id), "") << "it changed since, and was read";
 }
 
 TEST_F(Maintenance, ACaseThatWasRenamedAndChangedIsNotOverwritten)

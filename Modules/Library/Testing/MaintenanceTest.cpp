@@ -889,6 +889,46 @@ TEST_F(Maintenance, WhatIsDeletedMeanwhileIsNotDamage)
   EXPECT_TRUE(found.damaged.empty()) << found.damaged[0].text;
 }
 
+// A manifest that was copied by hand: what may be in its name is no text for a terminal.
+TEST_F(Maintenance, AFileWhoseNameNoCaseCanHaveIsTold)
+{
+  make("a");
+  fs::copy(manifest("a"), manifest("b\nc"));
+  const Inspection found = m_library.verify();
+  ASSERT_EQ(found.damaged.size(), 1U);
+  EXPECT_NE(found.damaged[0].text.find("b?c.json: "), std::string::npos) << found.damaged[0].text;
+  EXPECT_EQ(found.damaged[0].text.find('\n'), std::string::npos);
+  const Repaired repaired = m_library.repair();
+  EXPECT_TRUE(repaired.lost.empty());
+  ASSERT_EQ(repaired.done.size(), 2U);
+  EXPECT_EQ(repaired.done[0], found.damaged[0].text);
+  EXPECT_EQ(repaired.done[1], "the index holds 1 of 2 cases");
+}
+
+TEST_F(Maintenance, AManifestThatIsNoneCannotBeRepaired)
+{
+  make("a");
+  make("b");
+  std::ofstream(manifest("b")).close(); // empty
+  const Repaired repaired = m_library.repair();
+  ASSERT_EQ(repaired.lost.size(), 1U);
+  EXPECT_NE(repaired.lost[0].find("b.json"), std::string::npos) << repaired.lost[0];
+  EXPECT_EQ(repaired.done, std::vector<std::string>{"the index holds 1 of 2 cases"});
+}
+
+// Without permission to look, nothing is known to be lost.
+TEST_F(Maintenance, WhereTheObjectsCannotBeReadNothingIsCalledLost)
+{
+  make("a");
+  const fs::path objects = m_folder.path() / "objects";
+  fs::rename(objects, m_folder.path() / "kept");
+  std::ofstream(objects) << "no folder";
+  const auto [reason, text] = refusal([this] { m_library.repair(); });
+  EXPECT_EQ(reason, LibraryError::Reason::Damaged);
+  EXPECT_NE(text.find("cannot be read"), std::string::npos) << text;
+  EXPECT_EQ(text.find("missing"), std::string::npos) << text;
+}
+
 TEST_F(Maintenance, ALostImageIsSaidAndComesBackWithTheSameImport)
 {
   const scene::Case value = make("a");

@@ -722,11 +722,12 @@ std::string patientNote(const Library& library, const scene::ImagePart* plan,
     }
   if (other.empty())
     return {};
-  const std::string sameVoxels = "case '" + other + "', whose image has the very same voxels";
-  return plan ? "the plan is of another patient than that of " + sameVoxels +
-                    ", by what their files state; it fits, but make sure whose images these are"
-              : "whether the plan is of the patient of " + sameVoxels +
-                    ", cannot be told, as it comes from another library; make sure that it is";
+  return plan ? "the plan is of another patient than that of case '" + other +
+                    "', whose image has the very same voxels, by what their files state; it fits, "
+                    "but make sure whose images these are"
+              : "whether the plan is of the patient of case '" + other +
+                    "', whose image has the very same voxels, cannot be told, as it comes from "
+                    "another library; make sure that it is";
 }
 
 } // namespace

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include <QApplication>
-#include <QCheckBox>
 #include <QDir>
 #include <QFileDialog>
 #include <QMessageBox>

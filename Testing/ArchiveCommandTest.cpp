@@ -109,6 +109,9 @@ TEST_F(ArchiveCommand, WarnsOfWhatMayIdentifyBeforeItWrites)
     const auto outcome = run(line);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("whole head"), std::string::npos) << line << outcome.err;
+    EXPECT_NE(outcome.err.find("its face was left"), std::string::npos) << line << outcome.err;
+    EXPECT_NE(outcome.err.find("--mask-face"), std::string::npos) << line << outcome.err;
+    EXPECT_NE(outcome.err.find("--roi"), std::string::npos) << line << outcome.err;
   }
 }
 

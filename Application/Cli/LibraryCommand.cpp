@@ -4,6 +4,7 @@
 #include "Commands.h"
 #include "Numbers.h"
 #include "Program.h"
+#include "petrous/Core/InputFile.h"
 #include "petrous/Library/DefaultFolder.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/NewerVersion.h"
@@ -66,7 +67,7 @@ void printCases(const Context& context, const library::Library& library,
         cases.back().update({{"damaged", false}, {"newer", true}});
     }
     const std::string line = descriptionLine(summary.description);
-    context.print(summary.name + "  " + summary.modified + "  " +
+    context.print(core::printable(summary.name) + "  " + summary.modified + "  " +
                   (summary.damaged && library::isOfNewerVersion(library.folder(), summary.name)
                        ? "written by a newer version of Petrous"
                    : summary.damaged ? "damaged: its manifest cannot be read"
@@ -285,9 +286,11 @@ void run(const Context& context, const Options& options)
     for (const auto& one : library.deleted())
     {
       cases.push_back({{"name", one.name}, {"deleted", one.deleted}});
-      context.print(one.name + "  deleted " + one.deleted);
+      context.print(core::printable(one.name) + "  deleted " + one.deleted);
     }
-    if (cases.empty())
+    if (const std::string why = missingFolder(library); !why.empty())
+      context.print("no deleted case in " + why);
+    else if (cases.empty())
       context.print("no deleted case in " + library.folder().string() + " can be brought back");
     context.printJson({{"library", library.folder().string()}, {"cases", std::move(cases)}});
   }

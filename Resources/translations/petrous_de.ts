@@ -844,6 +844,22 @@
         <source>There is no such folder.</source>
         <translation>Diesen Ordner gibt es nicht.</translation>
     </message>
+    <message>
+        <source>Put air in place of the &amp;face</source>
+        <translation type="unfinished">Das &amp;Gesicht durch Luft ersetzen</translation>
+    </message>
+    <message>
+        <source>Put air in place of the &amp;face, and leave out %1</source>
+        <translation type="unfinished">Das &amp;Gesicht durch Luft ersetzen; nicht mit ins Archiv: %1</translation>
+    </message>
+    <message>
+        <source>In front of a plane about 50 mm behind the tip of the nose. What is segmented or drilled and the temporal bones stay; the case here does not change</source>
+        <translation type="unfinished">Vor einer Ebene etwa 50 mm hinter der Nasenspitze. Was segmentiert oder gebohrt ist und die Felsenbeine bleiben; der Fall hier ändert sich nicht</translation>
+    </message>
+    <message>
+        <source>&amp;Archive with the face</source>
+        <translation>Mit dem Gesicht &amp;archivieren</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::AttachmentsController</name>
@@ -1616,22 +1632,6 @@ Koordinaten: %1</translation>
         <translation>Auf dem &amp;Gitter des %1 exportieren</translation>
     </message>
     <message>
-        <source>Archive “%1”</source>
-        <translation>„%1“ archivieren</translation>
-    </message>
-    <message>
-        <source>Put air in place of the &amp;face</source>
-        <translation>Das &amp;Gesicht durch Luft ersetzen</translation>
-    </message>
-    <message>
-        <source>In front of a plane about 50 mm behind the tip of the nose. What is segmented or drilled and the temporal bones stay; the case here does not change</source>
-        <translation>Vor einer Ebene etwa 50 mm hinter der Nasenspitze. Was segmentiert oder gebohrt ist und die Felsenbeine bleiben; der Fall hier ändert sich nicht</translation>
-    </message>
-    <message>
-        <source>&amp;Archive</source>
-        <translation>&amp;Archivieren</translation>
-    </message>
-    <message>
         <source>The case is not saved yet, so it was not archived</source>
         <translation>Der Fall ist noch nicht gespeichert, daher wurde er nicht archiviert</translation>
     </message>
@@ -1866,10 +1866,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation> Ein MR wird über dem %1 gezeigt, sobald es registriert ist.</translation>
     </message>
     <message>
-        <source>Put air in place of the &amp;face, and leave out %1</source>
-        <translation>Das &amp;Gesicht durch Luft ersetzen; nicht mit ins Archiv: %1</translation>
-    </message>
-    <message>
         <source>Bring back</source>
         <translation>Zurückholen</translation>
     </message>
@@ -1884,10 +1880,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>Bringing back %1</source>
         <translation>%1 wird zurückgeholt</translation>
-    </message>
-    <message>
-        <source>If the case is archived, all faces go along unmasked: %1.</source>
-        <translation>Wird der Fall archiviert, gehen alle Gesichter unmaskiert mit: %1.</translation>
     </message>
 </context>
 <context>

@@ -924,8 +924,8 @@
         <translation>Bleibt hier</translation>
     </message>
     <message>
-        <source>the image holds a whole head: a face can be rendered from it. It can be masked; a case of the region of the ear alone (File &gt; Open a region) has none</source>
-        <translation>das Bild enthält einen ganzen Kopf: Ein Gesicht lässt sich daraus darstellen. Es lässt sich maskieren; ein Fall allein mit der Region des Ohrs (Datei &gt; Ausschnitt öffnen) hat keines</translation>
+        <source>the image holds a whole head, and its face was left: who sees it can recognise the patient. Mask it (--mask-face; in the window: put air in place of the face), or hand on the region of the ear alone (--roi; in the window: File &gt; Open a region)</source>
+        <translation>das Bild enthält einen ganzen Kopf, und sein Gesicht blieb: Wer es sieht, kann den Patienten erkennen. Maskieren Sie es (--mask-face; im Fenster: Luft an die Stelle des Gesichts setzen), oder geben Sie allein die Region des Ohrs weiter (--roi; im Fenster: Datei &gt; Ausschnitt öffnen)</translation>
     </message>
     <message>
         <source>%~1: %#2 of %#3 may be a patient's name, number or date; change what is one before you send</source>
@@ -942,6 +942,14 @@
     <message>
         <source>the pixels of %~1 may have text in them, which may name the patient: look at them</source>
         <translation>die Pixel von %~1 können Text enthalten, der den Patienten nennt: sehen Sie nach</translation>
+    </message>
+    <message>
+        <source>the face was left in %~1: who sees it can recognise the patient. Mask it (--mask-face; in the window: put air in place of the face), or hand on the region of the ear alone (--roi; in the window: File &gt; Open a region)</source>
+        <translation>das Gesicht blieb in %~1: Wer es sieht, kann den Patienten erkennen. Maskieren Sie es (--mask-face; im Fenster: Luft an die Stelle des Gesichts setzen), oder geben Sie allein die Region des Ohrs weiter (--roi; im Fenster: Datei &gt; Ausschnitt öffnen)</translation>
+    </message>
+    <message>
+        <source>the face was left in %~1: who sees it can recognise the patient, and it cannot be masked</source>
+        <translation>das Gesicht blieb in %~1: Wer es sieht, kann den Patienten erkennen, und es lässt sich nicht maskieren</translation>
     </message>
     <message>
         <source>%#1 x %#2 x %#3 voxels</source>
@@ -1110,10 +1118,6 @@
     <message>
         <source>the face, which is masked in %~1</source>
         <translation>das Gesicht, das maskiert ist in %~1</translation>
-    </message>
-    <message>
-        <source>a face can be recognised in %~1; it can be masked</source>
-        <translation>ein Gesicht ist erkennbar in %~1; es lässt sich maskieren</translation>
     </message>
     <message>
         <source>the face, which is masked where one is found</source>
@@ -6533,6 +6537,10 @@
         <translation>eine Struktur ist größer als ihre Labelkarte</translation>
     </message>
     <message>
+        <source>a stroke removed more than its voxels hold</source>
+        <translation>ein Zug trug mehr ab, als seine Voxel enthalten</translation>
+    </message>
+    <message>
         <source>a label map cannot be read</source>
         <translation>eine Labelkarte ist nicht lesbar</translation>
     </message>
@@ -6557,6 +6565,14 @@
         <translation>eine Anlage ist nicht von der genannten Art oder Größe</translation>
     </message>
     <message>
+        <source>the archive states another number of voxels, or another volume, of %~1 than the label map has; they were computed from its voxels</source>
+        <translation>das Archiv nennt von %~1 eine andere Zahl von Voxeln oder ein anderes Volumen, als die Labelkarte hat; sie wurden aus deren Voxeln berechnet</translation>
+    </message>
+    <message>
+        <source>the archive states another number of triangles of %~1 than the mesh has; they were counted</source>
+        <translation>das Archiv nennt von %~1 eine andere Zahl von Dreiecken, als das Netz hat; sie wurden gezählt</translation>
+    </message>
+    <message>
         <source>its thumbnail is not one</source>
         <translation>sein Vorschaubild ist keines</translation>
     </message>
@@ -6575,6 +6591,14 @@
     <message>
         <source>mesh '%1'</source>
         <translation>Netz „%1“</translation>
+    </message>
+    <message>
+        <source>the plan is of another patient than that of case '%1', whose image has the very same voxels, by what their files state; it fits, but make sure whose images these are</source>
+        <translation>der Plan ist nach den Angaben der Dateien von einem anderen Patienten als dem des Falls '%1', dessen Bild genau dieselben Voxel hat; er passt, aber stellen Sie sicher, wessen Bilder es sind</translation>
+    </message>
+    <message>
+        <source>whether the plan is of the patient of case '%1', whose image has the very same voxels, cannot be told, as it comes from another library; make sure that it is</source>
+        <translation>ob der Plan vom Patienten des Falls '%1' ist, dessen Bild genau dieselben Voxel hat, lässt sich nicht sagen, da er aus einer anderen Bibliothek kommt; stellen Sie sicher, dass er es ist</translation>
     </message>
     <message>
         <source>%1: was written by a newer version of this program; update it</source>
@@ -7039,6 +7063,10 @@
     <message>
         <source>the salt with which its marks of patient and frame of reference were made is lost; restore it from a copy, or import the images again: until then nothing tells whether a new image is of the same patient, and names that may be the patient's are withheld where the case leaves</source>
         <translation>das Salt, mit dem seine Kennzeichen von Patient und Bezugssystem gebildet wurden, ist verloren; stellen Sie es aus einer Kopie wieder her oder importieren Sie die Bilder neu: Bis dahin sagt nichts, ob ein neues Bild vom selben Patienten ist, und Namen, die die des Patienten sein können, werden zurückgehalten, wo der Fall das Haus verlässt</translation>
+    </message>
+    <message>
+        <source>%1: cannot be opened under the name of this file, and no case can have it; rename the file (%~2)</source>
+        <translation>%1: lässt sich unter dem Namen dieser Datei nicht öffnen, den kein Fall haben kann; benennen Sie die Datei um (%~2)</translation>
     </message>
     <message>
         <source>%~1; deleted case '%2' cannot be brought back</source>

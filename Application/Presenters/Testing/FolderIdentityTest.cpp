@@ -381,6 +381,34 @@ TEST(IdentityOfACase, AWholeHeadIsWarnedOfUnlessItIsMaskedOrCutAway)
   EXPECT_FALSE(mentions(identityReport(value, plan).warnings, "head"));
 }
 
+// Nothing says of one image both that it can be masked and that it cannot.
+TEST(IdentityOfACase, AFaceThatIsLeftIsToldOfWithWhatToDo)
+{
+  const scene::Case value = describedCase();
+  const std::vector<scene::ImageWithFace> faces = {
+      {"the CT", "", ""}, {"MR 'T2'", "T2", "MR 'T2': the chin is cut off; leave the image out"}};
+  const library::ArchiveOptions options;
+  const auto warnings = identityReport(value, options, {}, nullptr, &faces).warnings;
+  EXPECT_TRUE(mentions(warnings, "the face was left in the CT: who sees it"));
+  EXPECT_TRUE(mentions(warnings, "--mask-face"));
+  EXPECT_TRUE(mentions(warnings, "--roi"));
+  EXPECT_TRUE(mentions(warnings, "was left in MR 'T2': who sees it can recognise the patient, and "
+                                 "it cannot be masked"));
+  EXPECT_TRUE(mentions(warnings, "the chin is cut off"));
+  EXPECT_FALSE(mentions(faceWarnings({faces[1]}), "--mask-face"));
+  EXPECT_TRUE(faceWarnings({}).empty());
+
+  scene::ImageMask mask;
+  mask.face = true;
+  const std::vector<scene::ImageWithFace> masked = {faces[0]};
+  const IdentityReport report = identityReport(value, options, mask, nullptr, &masked);
+  EXPECT_FALSE(mentions(report.warnings, "face"));
+  EXPECT_TRUE(mentions(report.stays, "the face, which is masked in the CT"));
+  library::ArchiveOptions plan;
+  plan.planOnly = true;
+  EXPECT_FALSE(mentions(identityReport(value, plan, {}, nullptr, &faces).warnings, "face"));
+}
+
 TEST(IdentityOfACase, AFileForOtherProgramsIsLookedAtToo)
 {
   scene::Case value = describedCase();

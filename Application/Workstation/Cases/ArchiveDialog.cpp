@@ -1,11 +1,15 @@
 #include "ArchiveDialog.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <QCheckBox>
 #include <QDialogButtonBox>
 #include <QDir>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QLabel>
+#include <QMessageBox>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QVBoxLayout>
@@ -17,14 +21,16 @@
 #include "petrous/Library/Attachments.h"
 #include "petrous/Presenters/CaseTransfer.h"
 #include "petrous/Presenters/IdentityText.h"
+#include "petrous/Presenters/LeavingImages.h"
 
 namespace petrous::workstation
 {
 
 ArchiveDialog::ArchiveDialog(const scene::Case& value, const library::Library& library,
-                             QWidget* parent)
+                             FaceCheck faces, QWidget* parent)
   : QDialog(parent)
   , m_value(value)
+  , m_faces(std::move(faces))
   , m_library(library)
   , m_file(new PathRow("archiveFile", PathRow::Kind::NewFile, tr("File of the archive")))
   , m_plan(new QCheckBox(tr("&Plan only, without images and structures")))
@@ -32,6 +38,7 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, const library::Library& l
   , m_videos(new QCheckBox(tr("with its &videos, which may show or name the patient")))
   , m_documents(new QCheckBox(tr("with its PD&Fs, which may name the patient")))
   , m_date(new QCheckBox(tr("with &dates and times, and who signed registrations")))
+  , m_maskFace(new QCheckBox)
   , m_report(new QPlainTextEdit)
   , m_advice(new QLabel)
 {
@@ -53,6 +60,16 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, const library::Library& l
   m_date->setObjectName("archiveDate");
   m_date->setToolTip(tr("The dates of the planned operation and of attachments, the times of "
                         "strokes, names and times of sign-offs"));
+  findWhatCannotBeMasked();
+  m_maskFace->setText(m_notMaskable.empty() || !m_canMask
+                          ? tr("Put air in place of the &face")
+                          : tr("Put air in place of the &face, and leave out %1")
+                                .arg(m_notMaskableTexts.join(", ").replace('&', "&&")));
+  m_maskFace->setObjectName("archiveMaskFace");
+  m_maskFace->setToolTip(tr("In front of a plane about 50 mm behind the tip of the nose. What is "
+                            "segmented or drilled and the temporal bones stay; the case here does "
+                            "not change"));
+  m_maskFace->setChecked(m_faces.mayHave() && m_canMask);
   m_report->setObjectName("archiveReport");
   m_report->setAccessibleName(tr("What the archive tells of the patient"));
   m_report->setReadOnly(true);
@@ -67,6 +84,7 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, const library::Library& l
   form->addRow({}, m_videos);
   form->addRow({}, m_documents);
   form->addRow({}, m_date);
+  form->addRow({}, m_maskFace);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   m_accept = buttons->addButton(tr("&Archive"), QDialogButtonBox::AcceptRole);
   m_accept->setObjectName("primary");
@@ -82,7 +100,7 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, const library::Library& l
             if (!m_noteIsChosen)
               m_note->setChecked(m_noteIsPlain && !plan);
           });
-  for (QCheckBox* box : {m_plan, m_note, m_videos, m_documents, m_date})
+  for (QCheckBox* box : {m_plan, m_note, m_videos, m_documents, m_date, m_maskFace})
     connect(box, &QCheckBox::toggled, this, &ArchiveDialog::update);
   auto* layout = new QVBoxLayout(this);
   layout->addLayout(form);
@@ -112,8 +130,57 @@ library::ArchiveOptions ArchiveDialog::options() const
   return options;
 }
 
+void ArchiveDialog::findWhatCannotBeMasked()
+{
+  scene::Case rest = m_value;
+  for (const scene::ImageWithFace& image : m_faces.images)
+  {
+    if (image.fault.empty())
+      continue;
+    m_canMask = m_canMask && !image.mr.empty();
+    if (image.mr.empty())
+      continue;
+    try
+    {
+      presenters::leaveOutMrs(rest, {image.mr});
+      m_notMaskable.push_back(image.mr);
+      m_notMaskableTexts += textOf(image);
+    }
+    catch (const core::Error&) // structures were drawn on it
+    {
+      m_canMask = false;
+    }
+  }
+}
+
+bool ArchiveDialog::masks() const
+{
+  return m_maskFace->isEnabled() && m_maskFace->isChecked();
+}
+
+scene::ImageMask ArchiveDialog::mask() const
+{
+  scene::ImageMask mask;
+  mask.face = masks();
+  mask.found = m_faces.found;
+  return mask;
+}
+
+std::vector<std::string> ArchiveDialog::withoutMrs() const
+{
+  return masks() ? m_notMaskable : std::vector<std::string>();
+}
+
+QStringList ArchiveDialog::facesLeft() const
+{
+  if (masks() || m_plan->isChecked() || !m_faces.mayHave())
+    return {};
+  return m_faces.isKnown ? warningsOf(m_faces.images) : QStringList{textOf(m_faces)};
+}
+
 void ArchiveDialog::update()
 {
+  m_maskFace->setEnabled(m_faces.mayHave() && m_canMask && !m_plan->isChecked());
   const QFileInfo target(m_file->text());
   QString advice;
   if (m_file->text().isEmpty() || target.isDir())
@@ -122,13 +189,43 @@ void ArchiveDialog::update()
     advice = tr("There is no such folder.");
   m_advice->setText(advice);
   m_accept->setEnabled(advice.isEmpty());
-  m_report->setPlainText(
-      phrase(presenters::identityReport(m_value, options(), {}, &m_library).text()));
+  scene::Case leaving = m_value;
+  presenters::leaveOutMrs(leaving, withoutMrs());
+  std::vector<scene::ImageWithFace> faces = m_faces.images;
+  if (masks())
+    faces.erase(std::remove_if(faces.begin(), faces.end(),
+                               [](const scene::ImageWithFace& image)
+                               { return !image.fault.empty(); }),
+                faces.end());
+  QString text = phrase(presenters::identityReport(leaving, options(), mask(), &m_library,
+                                                   m_faces.isKnown ? &faces : nullptr)
+                            .text());
+  if (masks())
+    for (const scene::ImageWithFace& image : m_faces.images)
+      if (!image.fault.empty())
+        text += '\n' + sentence(capitalized(phrase(image.fault)));
+  if (!m_faces.isKnown)
+    text += '\n' + textOf(m_faces);
+  m_report->setPlainText(text);
+}
+
+bool ArchiveDialog::mayLeaveFaces()
+{
+  const QStringList left = facesLeft();
+  if (left.isEmpty())
+    return true;
+  QMessageBox ask(QMessageBox::Warning, windowTitle(), left.join('\n'), QMessageBox::Cancel, this);
+  ask.setObjectName("archiveFace");
+  ask.setTextFormat(Qt::PlainText);
+  auto* go = ask.addButton(tr("&Archive with the face"), QMessageBox::AcceptRole);
+  ask.setDefaultButton(QMessageBox::Cancel);
+  ask.exec();
+  return ask.clickedButton() == go;
 }
 
 void ArchiveDialog::accept()
 {
-  if (mayReplace(*this, {file()}))
+  if (mayLeaveFaces() && mayReplace(*this, {file()}))
     QDialog::accept();
 }
 

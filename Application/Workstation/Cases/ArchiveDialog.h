@@ -3,7 +3,9 @@
 #include <filesystem>
 
 #include <QDialog>
+#include <QStringList>
 
+#include "FaceCheck.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Scene/Case.h"
 
@@ -24,18 +26,30 @@ class ArchiveDialog : public QDialog
   Q_OBJECT
 public:
   /// The case must outlive the dialog.
-  ArchiveDialog(const scene::Case& value, const library::Library& library,
+  ArchiveDialog(const scene::Case& value, const library::Library& library, FaceCheck faces,
                 QWidget* parent = nullptr);
 
   std::filesystem::path file() const; ///< with its ending
   library::ArchiveOptions options() const;
+  scene::ImageMask mask() const;
+  /// MRs whose face cannot be masked, where faces are; they are left out.
+  std::vector<std::string> withoutMrs() const;
+  /// That faces go along unmasked, a sentence each; empty: none does, as far as is known.
+  QStringList facesLeft() const;
 
   void accept() override;
 
 private:
+  void findWhatCannotBeMasked();
   void update();
+  bool masks() const;
+  bool mayLeaveFaces();
 
   const scene::Case& m_value;
+  FaceCheck m_faces;
+  std::vector<std::string> m_notMaskable; ///< MRs
+  QStringList m_notMaskableTexts;
+  bool m_canMask = true; ///< what cannot be masked can be left out
   library::Library m_library;
   PathRow* m_file;
   QCheckBox* m_plan;
@@ -43,6 +57,7 @@ private:
   QCheckBox* m_videos;
   QCheckBox* m_documents;
   QCheckBox* m_date;
+  QCheckBox* m_maskFace;
   QPlainTextEdit* m_report;
   QLabel* m_advice;
   QPushButton* m_accept;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include <QApplication>
-#include <QCheckBox>
 #include <QDir>
 #include <QFileDialog>
 #include <QMessageBox>
@@ -1899,85 +1898,6 @@ void CaseDocumentController::offerCtGrid(const presenters::ExportOptions& option
   box->open();
 }
 
-// Whether a face in the case's images goes along. False: the archive is not to be written.
-bool CaseDocumentController::askOfFace(const std::string& name, scene::ImageMask& mask,
-                                       std::vector<std::string>& withoutMrs)
-{
-  const bool isOpen = m_model.hasCase() && m_model.value().name == name;
-  scene::Case stored;
-  try
-  {
-    if (!isOpen)
-      stored = m_model.library().open(name);
-  }
-  catch (const core::Error&)
-  {
-    return true; // archiving says what is wrong with the case
-  }
-  const scene::Case value = isOpen ? m_model.value() : std::move(stored); // may be closed meanwhile
-  const FaceCheck faces = lookForFaces(value, m_window);
-  if (faces.isCancelled || (isOpen && !m_model.hasCase()))
-    return false;
-  if (!faces.mayHave())
-    return true;
-  // Before the long work: what cannot be masked is left out, if it can be.
-  scene::Case rest = value;
-  std::vector<std::string> out;
-  QStringList outNames, faults;
-  bool canMask = true;
-  for (const scene::ImageWithFace& image : faces.images)
-    if (!image.fault.empty())
-      try
-      {
-        faults += sentence(capitalized(phrase(image.fault)));
-        canMask = canMask && !image.mr.empty();
-        if (image.mr.empty())
-          continue;
-        presenters::leaveOutMrs(rest, {image.mr});
-        out.push_back(image.mr);
-        outNames += textOf(image);
-      }
-      catch (const core::Error& error) // structures were drawn on it
-      {
-        faults += sentence(capitalized(toString(error)));
-        canMask = false;
-      }
-  QMessageBox ask(QMessageBox::Warning, tr("Archive “%1”").arg(words(name)), textOf(faces),
-                  QMessageBox::Cancel, &m_window);
-  ask.setObjectName("archiveFace");
-  ask.setTextFormat(Qt::PlainText);
-  if (!canMask)
-  {
-    QStringList all;
-    for (const scene::ImageWithFace& image : faces.images)
-      all += textOf(image);
-    faults += tr("If the case is archived, all faces go along unmasked: %1.").arg(all.join(", "));
-  }
-  ask.setInformativeText(faults.join('\n'));
-  auto* box =
-      new QCheckBox(out.empty() || !canMask ? tr("Put air in place of the &face")
-                                            : tr("Put air in place of the &face, and leave out %1")
-                                                  .arg(outNames.join(", ").replace('&', "&&")));
-  box->setObjectName("archiveMaskFace");
-  box->setToolTip(
-      tr("In front of a plane about 50 mm behind the tip of the nose. What is segmented "
-         "or drilled and the temporal bones stay; the case here does not change"));
-  box->setChecked(canMask);
-  box->setEnabled(canMask);
-  ask.setCheckBox(box);
-  auto* go = ask.addButton(tr("&Archive"), QMessageBox::AcceptRole);
-  if (canMask)
-    ask.setDefaultButton(go);
-  else
-    ask.setDefaultButton(QMessageBox::Cancel);
-  ask.exec();
-  mask.face = box->isChecked();
-  mask.found = faces.found;
-  if (mask.face)
-    withoutMrs = std::move(out);
-  return ask.clickedButton() == go;
-}
-
 // An archive contains what is saved, so the case is saved first.
 void CaseDocumentController::archive()
 {
@@ -1994,6 +1914,7 @@ void CaseDocumentController::archive(const std::string& which)
   library::ArchiveOptions options;
   scene::ImageMask mask;
   std::vector<std::string> withoutMrs;
+  QStringList facesLeft;
   std::string name = which;
   {
     const QScopedValueRollback<bool> asking(m_asking, true);
@@ -2003,18 +1924,22 @@ void CaseDocumentController::archive(const std::string& which)
     {
       // A copy: the case may be closed meanwhile.
       const scene::Case value = isOpen ? m_model.value() : m_model.library().open(name);
-      ArchiveDialog dialog(value, m_model.library(), &m_window);
+      const FaceCheck faces = lookForFaces(value, m_window);
+      if (faces.isCancelled || (isOpen && !m_model.hasCase()))
+        return;
+      ArchiveDialog dialog(value, m_model.library(), faces, &m_window);
       if (dialog.exec() != QDialog::Accepted || (isOpen && !m_model.hasCase()))
         return;
       file = dialog.file();
       options = dialog.options();
+      mask = dialog.mask();
+      withoutMrs = dialog.withoutMrs();
+      facesLeft = dialog.facesLeft();
     }
     catch (const std::exception& fault)
     {
       return refuse(toString(fault));
     }
-    if (!options.planOnly && !askOfFace(name, mask, withoutMrs))
-      return;
     if (isOpen)
     {
       if (!saved())
@@ -2023,7 +1948,7 @@ void CaseDocumentController::archive(const std::string& which)
     }
   }
   work(tr("Archiving %1").arg(words(name)),
-       [this, library = m_model.library(), name, file, mask, withoutMrs,
+       [this, library = m_model.library(), name, file, mask, withoutMrs, facesLeft,
         options](const core::Progress& progress) mutable -> BackgroundWork::Reply
        {
          options.prepare = presenters::maskForArchive(library, mask, withoutMrs);
@@ -2032,7 +1957,7 @@ void CaseDocumentController::archive(const std::string& which)
          scene::Case kept = library.open(name);
          presenters::leaveOutMrs(kept, withoutMrs);
          const QString contents = contentsOf(kept, done.planOnly);
-         return [this, done, file, contents]
+         return [this, done, file, contents, facesLeft]
          {
            QString text =
                (done.planOnly ? tr("The plan of “%1” is archived.") : tr("“%1” is archived."))
@@ -2042,6 +1967,8 @@ void CaseDocumentController::archive(const std::string& which)
                    .arg(QFile::decodeName(file.c_str()), megabytes(done.archiveBytes), contents);
            for (const std::string& note : done.notes)
              text += "\n" + phrase(note);
+           for (const QString& left : facesLeft)
+             text += "\n" + left;
            if (!done.durable)
              text += tr("\nThe disk reported an error; check the disk.");
            inform(text);

@@ -17,7 +17,6 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/SourceContent.h"
 #include "petrous/Presenters/WorkstationModel.h"
-#include "petrous/Scene/ImageMask.h"
 
 class QProgressDialog;
 class QWidget;
@@ -118,8 +117,6 @@ signals:
   void working(const QString& title);      ///< on something with progress; empty: it has ended
 
 private:
-  bool askOfFace(const std::string& name, scene::ImageMask& mask,
-                 std::vector<std::string>& withoutMrs);
   using Sources = std::vector<presenters::SourceContent>;
   /// How files were chosen.
   struct Purpose

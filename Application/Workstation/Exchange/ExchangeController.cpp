@@ -185,18 +185,18 @@ void ExchangeController::offer(scene::Case value, const std::vector<network::Nod
   const std::string name = value.name;
   m_keeper.run(
       tr("Sending %1").arg(words(name)),
-      [this, library = m_model.library(), name, node = dialog.node(),
-       parts = dialog.parts()](const core::Progress& progress) -> BackgroundWork::Reply
+      [this, library = m_model.library(), name, node = dialog.node(), parts = dialog.parts(),
+       facesLeft = dialog.facesLeft()](const core::Progress& progress) -> BackgroundWork::Reply
       {
         const auto done = presenters::sendCase(library, name, node, parts, progress);
-        return [this, done, name, place = words(node.name)]
+        return [this, done, name, facesLeft, place = words(node.name)]
         {
           QString head =
               tr("“%1” is at “%2”: %3.").arg(words(name), place, transferText(done.transfer));
           head += ' ' + listedText(done.transfer.listed);
           head += ' ' + foundText(name, done.patient, done.studyUid);
-          showReport(&m_window, tr("Send"), head, lines(done.notes), "petrous-send.txt",
-                     m_model.library().folder());
+          showReport(&m_window, tr("Send"), head, lines(done.notes) + facesLeft.join('\n'),
+                     "petrous-send.txt", m_model.library().folder());
         };
       });
 }

@@ -94,6 +94,14 @@ QString textOf(const scene::ImageWithFace& image)
   return image.mr.empty() ? phrase(image.text) : QObject::tr("MR “%1”").arg(words(image.mr));
 }
 
+QStringList warningsOf(const std::vector<scene::ImageWithFace>& left)
+{
+  QStringList warnings;
+  for (const std::string& warning : presenters::faceWarnings(left))
+    warnings += sentence(capitalized(phrase(warning)));
+  return warnings;
+}
+
 QString textOf(const FaceCheck& faces)
 {
   if (!faces.isKnown)

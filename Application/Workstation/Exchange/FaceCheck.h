@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <QString>
+#include <QStringList>
 
 #include "petrous/Scene/ImageMask.h"
 
@@ -30,6 +31,8 @@ FaceCheck lookForFaces(const scene::Case& value, QWidget& parent);
 
 /// What is to be asked about, a sentence; empty: nothing.
 QString textOf(const FaceCheck& faces);
+/// That the face was left in these images, and what to do about it: a sentence each.
+QStringList warningsOf(const std::vector<scene::ImageWithFace>& left);
 /// "the CT", "MR “T2”".
 QString textOf(const scene::ImageWithFace& image);
 

@@ -108,6 +108,16 @@ presenters::SendParts SendDialog::parts() const
   return parts;
 }
 
+QStringList SendDialog::facesLeft() const
+{
+  const presenters::SendParts what = parts();
+  std::vector<scene::ImageWithFace> left;
+  for (const scene::ImageWithFace& image : m_faces.images)
+    if (!what.mask.face && presenters::isSent(m_value, what, image.mr))
+      left.push_back(image);
+  return warningsOf(left);
+}
+
 network::Node SendDialog::node() const
 {
   return m_nodes.at(static_cast<std::size_t>(m_node->currentIndex()));
@@ -124,13 +134,13 @@ void SendDialog::update()
   m_send->setEnabled(any);
   if (!any)
     return m_report->setPlainText(tr("Nothing is chosen."));
-  std::vector<std::string> images;
+  std::vector<scene::ImageWithFace> images;
   QStringList faults;
   for (const scene::ImageWithFace& image : m_faces.images)
   {
     if (!presenters::isSent(m_value, what, image.mr))
       continue;
-    images.push_back(image.text);
+    images.push_back(image);
     if (what.mask.face && !image.fault.empty())
       faults += phrase(image.fault);
   }

@@ -25,6 +25,8 @@ public:
 
   presenters::SendParts parts() const;
   network::Node node() const;
+  /// That faces go along unmasked, a sentence each; empty: none does, as far as is known.
+  QStringList facesLeft() const;
 
 private:
   void update();

@@ -1,3 +1,4 @@
+#include "ArchiveDialog.h"
 #include "GuiTest.h"
 
 #include <fstream>
@@ -549,6 +550,9 @@ TEST_F(Exchange, FaultsAreToldOfImagesThatAreSentAlone)
   tick("sendScene", true); // which has all images
   EXPECT_TRUE(report().contains("looks away")) << report().toStdString();
   EXPECT_FALSE(presenters::isSent(value, {}, ""));
+  EXPECT_TRUE(dialog.facesLeft().isEmpty()) << "masked";
+  tick("sendMaskFace", false);
+  EXPECT_TRUE(dialog.facesLeft().join(' ').contains("face was left in the CT:"));
 }
 
 // The dialog has a case of its own.
@@ -636,7 +640,7 @@ TEST_F(Exchange, AnArchiveWithFacesThatCannotBeMaskedIsNoDefault)
   library().save(value);
   openWindow("head");
   const QString file = QString::fromStdString((folder() / "head.petrous").string());
-  QString told;
+  QString told, report;
   bool goesByDefault = true;
   onDialog(
       [&](QDialog& dialog)
@@ -644,22 +648,81 @@ TEST_F(Exchange, AnArchiveWithFacesThatCannotBeMaskedIsNoDefault)
         if (auto* box = qobject_cast<QMessageBox*>(&dialog))
         {
           EXPECT_EQ(box->objectName(), "archiveFace");
-          told = box->text() + '\n' + box->informativeText();
+          told = box->text();
           goesByDefault = box->defaultButton() != box->button(QMessageBox::Cancel);
-          EXPECT_FALSE(box->checkBox()->isEnabled());
           box->reject();
-          return true;
+          return false; // the dialog is still there
         }
         if (dialog.objectName() != "archiveCase")
           return false;
+        if (!told.isEmpty())
+        {
+          dialog.reject();
+          return true;
+        }
+        if (!report.isEmpty())
+          return false; // the face is about to be asked about
+        const auto* mask = dialog.findChild<QCheckBox*>("archiveMaskFace");
+        EXPECT_FALSE(mask->isEnabled());
+        EXPECT_FALSE(mask->isChecked());
+        report = dialog.findChild<QPlainTextEdit*>("archiveReport")->toPlainText();
         type(dialog, "archiveFile", file);
-        button(dialog, "primary").click();
-        return false; // the face is asked about
+        QTimer::singleShot(0, &button(dialog, "primary"), &QPushButton::click);
+        return false;
       });
   action(QString::fromUtf8("Archive…"))->trigger();
   EXPECT_FALSE(goesByDefault);
-  EXPECT_TRUE(told.contains("all faces go along unmasked: the CT, MR “T2”.")) << told.toStdString();
+  // The dialog and the question say the same of each image.
+  for (const QString& text : {report, told})
+  {
+    EXPECT_TRUE(text.contains("the face was left in the CT", Qt::CaseInsensitive))
+        << text.toStdString();
+    EXPECT_TRUE(text.contains("it cannot be masked")) << text.toStdString();
+    EXPECT_TRUE(text.contains("soft tissue")) << "why: " << text.toStdString();
+    EXPECT_FALSE(text.contains("It can be masked", Qt::CaseInsensitive)) << text.toStdString();
+  }
   EXPECT_FALSE(fs::exists(folder() / "head.petrous"));
+}
+
+// The control that masks is where its lack is told of; of an MR that cannot be masked as well.
+TEST_F(Exchange, TheArchiveDialogMasksWhatItTellsOf)
+{
+  scene::Case value = ballCase("ball");
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  value.mr.push_back(mr);
+  FaceCheck faces;
+  faces.images = {{"the CT", "", ""}, {"MR 'T2'", "T2", "MR 'T2': it looks away"}};
+  ArchiveDialog dialog(value, library(), faces);
+  const auto report = [&dialog]
+  { return dialog.findChild<QPlainTextEdit*>("archiveReport")->toPlainText(); };
+  auto* mask = dialog.findChild<QCheckBox*>("archiveMaskFace");
+  ASSERT_TRUE(mask);
+  EXPECT_TRUE(mask->isEnabled() && mask->isChecked());
+  EXPECT_TRUE(mask->text().contains("leave out MR “T2”")) << mask->text().toStdString();
+  EXPECT_TRUE(report().contains("masked in the CT")) << report().toStdString();
+  EXPECT_TRUE(report().contains("looks away")) << report().toStdString();
+  EXPECT_FALSE(report().contains(QRegularExpression("MR 'T2': [0-9]"))) << "it stays";
+  EXPECT_TRUE(dialog.mask().face);
+  EXPECT_EQ(dialog.withoutMrs(), std::vector<std::string>{"T2"});
+  EXPECT_TRUE(dialog.facesLeft().isEmpty());
+
+  mask->setChecked(false);
+  EXPECT_FALSE(dialog.mask().face);
+  EXPECT_TRUE(dialog.withoutMrs().empty());
+  ASSERT_EQ(dialog.facesLeft().size(), 3);
+  for (const QString& text : {report(), dialog.facesLeft().join('\n')})
+  {
+    EXPECT_TRUE(text.contains("face was left in the CT:")) << text.toStdString();
+    EXPECT_TRUE(text.contains("--roi")) << "what to do: " << text.toStdString();
+    EXPECT_TRUE(text.contains("face was left in MR 'T2'")) << text.toStdString();
+    EXPECT_TRUE(text.contains("looks away")) << text.toStdString();
+  }
+
+  dialog.findChild<QCheckBox*>("archivePlan")->setChecked(true); // without images
+  EXPECT_FALSE(mask->isEnabled());
+  EXPECT_TRUE(dialog.facesLeft().isEmpty());
+  EXPECT_FALSE(report().contains("face was left")) << report().toStdString();
 }
 
 // A node that does not answer is named, and nothing is lost.

@@ -2,6 +2,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -159,6 +160,25 @@ protected:
   {
     return *std::find_if(zip.entries.begin(), zip.entries.end(),
                          [&](const auto& entry) { return entry.name == name; });
+  }
+
+  /// Changes the manifest in the file, which stays whole to its hashes. False: no python3.
+  bool rewriteManifest(const std::function<void(nlohmann::json&)>& change) const
+  {
+    TestZip zip = unpacked();
+    if (zip.entries.empty())
+      return false;
+    std::string& text = find(zip, "case.json").bytes;
+    nlohmann::json manifest = nlohmann::json::parse(text);
+    change(manifest);
+    text = manifest.dump();
+    std::string& index = find(zip, "petrous.json").bytes;
+    nlohmann::json all = nlohmann::json::parse(index);
+    all["manifest_sha256"] =
+        sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+    index = all.dump();
+    write(zip.bytes());
+    return true;
   }
 
   /// Restoring the file is refused, and changes nothing.
@@ -1141,6 +1161,136 @@ TEST_F(Archives, ThatContradictThemselvesAreRefused)
   restoreCase(mended, m_file);
   EXPECT_FALSE(mended.open("ear").view.slices->overlay);
   EXPECT_EQ(mended.open("ear").mr[0].registration->through, "");
+}
+
+// Six voxels of 0.4 mm, and the four faces of a tetrahedron.
+TEST_F(Archives, HaveTheSizesOfTheirVoxelsAndMeshes)
+{
+  using Json = nlohmann::json;
+  archiveCase(m_library, "ear", m_file);
+  const std::string whole = bytesOf(m_file);
+  const std::pair<std::function<void(Json&)>, const char*> lies[] = {
+      {[](Json& j) { j["labels"][0]["structures"][0]["volume_mm3"] = 55.5; }, "'nerve'"},
+      {[](Json& j) { j["labels"][0]["structures"][0]["volume_mm3"] = 0.0; }, "'nerve'"},
+      {[](Json& j) { j["labels"][0]["structures"][0]["voxels"] = 7; }, "'nerve'"},
+      {[](Json& j) { j["meshes"][0]["triangles"] = 1000; }, "'incus'"}};
+  int n = 0;
+  for (const auto& [lie, name] : lies)
+  {
+    write(whole);
+    if (!rewriteManifest(lie))
+      GTEST_SKIP() << "no python3 to unpack the archive with";
+    Library other(m_folder.path() / ("other" + std::to_string(n++)));
+    const std::vector<std::string> notes = restoreCase(other, m_file).notes;
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes[0].find(name), std::string::npos) << notes[0];
+    const scene::Case value = other.open("ear");
+    EXPECT_EQ(value.labels[0].structures[0].voxels, 6U);
+    EXPECT_NEAR(value.labels[0].structures[0].volume, 6 * 0.4 * 0.4 * 0.4, 1e-9);
+    EXPECT_EQ(value.meshes[0].triangles, 4U);
+  }
+  write(whole);
+  Library sound(m_folder.path() / "sound");
+  EXPECT_TRUE(restoreCase(sound, m_file).notes.empty()) << "nothing is said of what is right";
+}
+
+// A ball of 1 mm moved by 0.5 mm has removed less than 6 mm^3.
+TEST_F(Archives, WhoseStrokesRemovedWhatTheirVoxelsCannotHoldAreRefused)
+{
+  using Json = nlohmann::json;
+  archiveCase(m_library, "ear", m_file);
+  const std::string whole = bytesOf(m_file);
+  const std::function<void(Json&)> lies[] = {
+      [](Json& j) { j["dissection"]["strokes"][0]["removed_mm3"] = 500.0; },
+      [](Json& j) { j["dissection"]["strokes"][1]["removed_mm3"] = -4.0; },
+      [](Json& j) {
+        j["dissection"]["strokes"][0]["structures"] = {{{"name", "nerve"}, {"removed_mm3", 1e6}}};
+      }};
+  for (const auto& lie : lies)
+  {
+    write(whole);
+    if (!rewriteManifest(lie))
+      GTEST_SKIP() << "no python3 to unpack the archive with";
+    const std::string text = refused();
+    EXPECT_NE(text.find("removed more than its voxels hold"), text.npos) << text;
+  }
+}
+
+// The error of a registration is measured, so what is stated is kept; but it is a distance.
+TEST_F(Archives, WhoseRegistrationHasNoErrorThatCanBeAreRefused)
+{
+  scene::Case value = m_library.open("ear");
+  scene::ImagePart mr = test::smallCase("mr", 20).ct;
+  mr.name = "T2";
+  mr.registered = true;
+  mr.registration.emplace();
+  mr.registration->error = scene::RegistrationError{};
+  mr.registration->error->median = 0.75;
+  value.mr.push_back(mr);
+  m_library.save(value);
+  archiveCase(m_library, "ear", m_file);
+  const std::string whole = bytesOf(m_file);
+  for (const char* field : {"median_mm", "p95_mm", "max_mm"})
+    for (const nlohmann::json& number : {nlohmann::json(-0.5), nlohmann::json()})
+    {
+      write(whole);
+      if (!rewriteManifest([&](nlohmann::json& j)
+                           { j["mr"][0]["registration"]["error"][field] = number; }))
+        GTEST_SKIP() << "no python3 to unpack the archive with";
+      const std::string text = refused();
+      EXPECT_NE(text.find("not a sound archive"), text.npos) << field << ": " << text;
+    }
+  write(whole);
+  Library other(m_folder.path() / "other");
+  restoreCase(other, m_file);
+  EXPECT_EQ(other.open("ear").mr.at(0).registration->error->median, 0.75);
+}
+
+// The voxels prove that a plan fits; whose they are said to be is told.
+TEST_F(Archives, OfAPlanTellOfAnotherPatient)
+{
+  const auto withPatient = [](Library& library, const char* name, char id)
+  {
+    scene::Case value = test::smallCase(name);
+    value.ct.patient.id = std::string(64, id);
+    value.ct.patient.name = std::string(64, 'f');
+    library.save(value);
+  };
+  const auto restored = [this](Library& library, const char* as, const char* ct) {
+    return restoreCase(library, m_file, {as, ct}).notes;
+  };
+  withPatient(m_library, "planned", 'a');
+  withPatient(m_library, "other", 'b');
+  archiveCase(m_library, "planned", m_file, {true});
+  EXPECT_TRUE(restored(m_library, "one", "").empty()) << "the planned case's CT is there";
+  EXPECT_TRUE(restored(m_library, "two", "planned").empty());
+  const auto notes = restored(m_library, "three", "other");
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("of another patient than that of case 'other'"), std::string::npos)
+      << notes[0];
+  EXPECT_TRUE(m_library.contains("three")) << "it opens";
+
+  // Hashes of two libraries have two salts: nothing follows from their difference.
+  Library elsewhere(m_folder.path() / "elsewhere");
+  withPatient(elsewhere, "same", 'a');
+  const auto unknown = restored(elsewhere, "four", "");
+  ASSERT_EQ(unknown.size(), 1U);
+  EXPECT_NE(unknown[0].find("case 'same'"), std::string::npos) << unknown[0];
+  EXPECT_NE(unknown[0].find("cannot be told"), std::string::npos) << unknown[0];
+}
+
+// A case whose files state no patient has but the pseudonym of the case that it was exported from.
+TEST_F(Archives, OfAPlanTellOfAnotherPseudonym)
+{
+  for (const auto& [name, pseudonym] : {std::pair("planned", 'a'), std::pair("other", 'b')})
+  {
+    scene::Case value = test::smallCase(name);
+    value.ct.patient.nameParts = {std::string(64, pseudonym)};
+    m_library.save(value);
+  }
+  archiveCase(m_library, "planned", m_file, {true});
+  EXPECT_TRUE(restoreCase(m_library, m_file, {"one", "planned"}).notes.empty());
+  EXPECT_EQ(restoreCase(m_library, m_file, {"two", "other"}).notes.size(), 1U);
 }
 
 TEST_F(Archives, AreRestoredInAnEmptyFolder)

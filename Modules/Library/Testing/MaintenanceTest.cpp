@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <map>
 #include <set>
 #include <thread>
@@ -121,6 +122,31 @@ TEST_F(Maintenance, ARenamedCaseIsSavedUnderItsNewName)
   m_library.remove("c");
   EXPECT_EQ(refusal([&] { m_library.save(value); }).first, LibraryError::Reason::Conflict);
   EXPECT_EQ(m_library.deletedName(id), "c");
+}
+
+// Of hundreds of cases whose manifests are known, none is read to find one by its ID.
+TEST_F(Maintenance, CasesAreFoundByTheirIdInTheCatalogue)
+{
+  const std::string id = make("a").id;
+  const std::string other = make("b").id;
+  m_library.remove("a");
+  ASSERT_EQ(m_library.deletedName(id), "a");
+  const fs::path path = manifest("b");
+  std::string text;
+  {
+    std::ifstream file(path, std::ios::binary);
+    text.assign(std::istreambuf_iterator<char>(file), {});
+  }
+  const std::size_t at = text.find(other);
+  ASSERT_NE(at, std::string::npos);
+  ASSERT_EQ(id.size(), other.size());
+  text.replace(at, other.size(), id);
+  const auto written = fs::last_write_time(path);
+  std::ofstream(path, std::ios::binary) << text;
+  fs::last_write_time(path, written);
+  EXPECT_EQ(m_library.deletedName(id), "a") << "the catalogue knows the manifest";
+  fs::last_write_time(path, written + std::chrono::seconds(1));
+  EXPECT_EQ(m_library.deletedName(id), "") << "it changed since, and was read";
 }
 
 TEST_F(Maintenance, ACaseThatWasRenamedAndChangedIsNotOverwritten)
@@ -861,6 +887,46 @@ TEST_F(Maintenance, WhatIsDeletedMeanwhileIsNotDamage)
   const Inspection found = m_library.verify(progress);
   EXPECT_TRUE(done);
   EXPECT_TRUE(found.damaged.empty()) << found.damaged[0].text;
+}
+
+// A manifest that was copied by hand: what may be in its name is no text for a terminal.
+TEST_F(Maintenance, AFileWhoseNameNoCaseCanHaveIsTold)
+{
+  make("a");
+  fs::copy(manifest("a"), manifest("b\nc"));
+  const Inspection found = m_library.verify();
+  ASSERT_EQ(found.damaged.size(), 1U);
+  EXPECT_NE(found.damaged[0].text.find("b?c.json: "), std::string::npos) << found.damaged[0].text;
+  EXPECT_EQ(found.damaged[0].text.find('\n'), std::string::npos);
+  const Repaired repaired = m_library.repair();
+  EXPECT_TRUE(repaired.lost.empty());
+  ASSERT_EQ(repaired.done.size(), 2U);
+  EXPECT_EQ(repaired.done[0], found.damaged[0].text);
+  EXPECT_EQ(repaired.done[1], "the index holds 1 of 2 cases");
+}
+
+TEST_F(Maintenance, AManifestThatIsNoneCannotBeRepaired)
+{
+  make("a");
+  make("b");
+  std::ofstream(manifest("b")).close(); // empty
+  const Repaired repaired = m_library.repair();
+  ASSERT_EQ(repaired.lost.size(), 1U);
+  EXPECT_NE(repaired.lost[0].find("b.json"), std::string::npos) << repaired.lost[0];
+  EXPECT_EQ(repaired.done, std::vector<std::string>{"the index holds 1 of 2 cases"});
+}
+
+// Without permission to look, nothing is known to be lost.
+TEST_F(Maintenance, WhereTheObjectsCannotBeReadNothingIsCalledLost)
+{
+  make("a");
+  const fs::path objects = m_folder.path() / "objects";
+  fs::rename(objects, m_folder.path() / "kept");
+  std::ofstream(objects) << "no folder";
+  const auto [reason, text] = refusal([this] { m_library.repair(); });
+  EXPECT_EQ(reason, LibraryError::Reason::Damaged);
+  EXPECT_NE(text.find("cannot be read"), std::string::npos) << text;
+  EXPECT_EQ(text.find("missing"), std::string::npos) << text;
 }
 
 TEST_F(Maintenance, ALostImageIsSaidAndComesBackWithTheSameImport)

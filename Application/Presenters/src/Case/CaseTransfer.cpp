@@ -695,8 +695,9 @@ bool showsHead(const core::GridGeometry& grid, const scene::ImageMask& mask)
 }
 
 constexpr const char* kHeadText =
-    "the image holds a whole head: a face can be rendered from it. It can be masked; a case of the "
-    "region of the ear alone (File > Open a region) has none";
+    "the image holds a whole head, and its face was left: who sees it can recognise the patient. "
+    "Mask it (--mask-face; in the window: put air in place of the face), or hand on the region of "
+    "the ear alone (--roi; in the window: File > Open a region)";
 
 bool anyShowsHead(const std::vector<scene::ImagePart>& images, const scene::ImageMask& mask)
 {
@@ -727,6 +728,14 @@ void warnOfIdentities(const IdentityText& identity, const std::string& what,
   if (count > kMostShown)
     names += ", ...";
   counted->push_back(what + ", which may be a patient's: " + names);
+}
+
+std::vector<std::string> textsOf(const std::vector<scene::ImageWithFace>& images)
+{
+  std::vector<std::string> texts;
+  for (const scene::ImageWithFace& image : images)
+    texts.push_back(image.text);
+  return texts;
 }
 
 /// Text in the pixels of images that leave: the primary one, the MRs.
@@ -791,6 +800,26 @@ facesToMask(const scene::Case& value, const core::Progress& progress, scene::Fac
                  : std::vector<scene::ImageWithFace>();
 }
 
+std::vector<std::string> faceWarnings(const std::vector<scene::ImageWithFace>& left)
+{
+  std::vector<scene::ImageWithFace> maskable, others;
+  std::partition_copy(left.begin(), left.end(), std::back_inserter(maskable),
+                      std::back_inserter(others),
+                      [](const scene::ImageWithFace& image) { return image.fault.empty(); });
+  std::vector<std::string> warnings;
+  if (!maskable.empty())
+    warnings.push_back("the face was left in " + joined(textsOf(maskable)) +
+                       ": who sees it can recognise the patient. Mask it (--mask-face; in the "
+                       "window: put air in place of the face), or hand on the region of the ear "
+                       "alone (--roi; in the window: File > Open a region)");
+  if (!others.empty())
+    warnings.push_back("the face was left in " + joined(textsOf(others)) +
+                       ": who sees it can recognise the patient, and it cannot be masked");
+  for (const scene::ImageWithFace& image : others)
+    warnings.push_back(image.fault);
+  return warnings;
+}
+
 namespace
 {
 
@@ -802,7 +831,8 @@ IdentityText identityOf(const scene::Case& value, const library::Library* librar
 // `options`: of the archive, if `parts.scene`.
 IdentityReport reportOf(scene::Case value, const SendParts& parts,
                         const library::ArchiveOptions& options,
-                        const std::vector<std::string>* faces, const IdentityText& identity)
+                        const std::vector<scene::ImageWithFace>* faces,
+                        const IdentityText& identity)
 {
   IdentityReport report;
   const std::size_t noted = notesOf(value).size();
@@ -978,11 +1008,11 @@ IdentityReport reportOf(scene::Case value, const SendParts& parts,
   warnOfText(value, images, parts.mr || whole, report.warnings);
   if (faces)
   {
-    if (!faces->empty() && (images || parts.mr))
-      (parts.mask.face ? report.stays : report.warnings)
-          .push_back(parts.mask.face
-                         ? "the face, which is masked in " + joined(*faces)
-                         : "a face can be recognised in " + joined(*faces) + "; it can be masked");
+    if (!faces->empty() && parts.mask.face && (images || parts.mr))
+      report.stays.push_back("the face, which is masked in " + joined(textsOf(*faces)));
+    else if (images || parts.mr)
+      for (std::string& warning : faceWarnings(*faces))
+        report.warnings.push_back(std::move(warning));
   }
   else if ((images && showsHead(value.ct.geometry, parts.mask)) ||
            ((parts.mr || whole) && anyShowsHead(value.mr, parts.mask)))
@@ -997,7 +1027,7 @@ IdentityReport reportOf(scene::Case value, const SendParts& parts,
 } // namespace
 
 IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
-                              const std::vector<std::string>* faces,
+                              const std::vector<scene::ImageWithFace>* faces,
                               const library::Library* library)
 {
   IdentityReport report =
@@ -1024,13 +1054,14 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
 }
 
 IdentityReport identityReport(const scene::Case& value, const library::ArchiveOptions& options,
-                              const scene::ImageMask& mask, const library::Library* library)
+                              const scene::ImageMask& mask, const library::Library* library,
+                              const std::vector<scene::ImageWithFace>* faces)
 {
   SendParts parts;
   parts.scene = true;
   parts.note = !options.withoutNotes;
   parts.mask = mask;
-  IdentityReport report = reportOf(value, parts, options, nullptr, identityOf(value, library));
+  IdentityReport report = reportOf(value, parts, options, faces, identityOf(value, library));
   report.stays.push_back("name, birth date, numbers and other data of the patient, hospital and "
                          "physicians, dates and times of the scan: the case has none of them");
   report.stays.push_back("UIDs of the scanner's files: the case has none of them");

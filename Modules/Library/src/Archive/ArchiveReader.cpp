@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 #include <sodium.h>
@@ -23,12 +24,14 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/NrrdFile.h"
+#include "petrous/Imaging/PatientKey.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/GoneNames.h"
 #include "petrous/Scene/Manifest.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::library
 {
@@ -490,30 +493,65 @@ void checkImages(const scene::Case& value, const ObjectStore& store, const fs::p
   std::for_each(value.mr.begin(), value.mr.end(), checkRange);
 }
 
-void checkLabels(const scene::LabelPart& part, const fs::path& object, const fs::path& file,
-                 const core::Progress& progress)
+/// The sizes that are stated of structures are replaced by those of their voxels where they differ;
+/// `corrected` then gets their names.
+void checkLabels(scene::LabelPart& part, const fs::path& object, const fs::path& file,
+                 std::vector<std::string>& corrected, const core::Progress& progress)
 {
   const volume::LabelMap map = imaging::readLabelFile(object, progress);
   const auto voxels = static_cast<std::uint64_t>(map.voxels->size());
-  constexpr double kRounding = 1.0 + 1e-6;
+  constexpr double kRounding = 1e-6;
   const double largest =
-      map.voxels->geometry().spacing().prod() * static_cast<double>(voxels) * kRounding;
-  for (const scene::StructurePart& structure : part.structures)
+      map.voxels->geometry().voxelVolume() * static_cast<double>(voxels) * (1.0 + kRounding);
+  for (scene::StructurePart& structure : part.structures)
   {
-    const auto isIt = [&structure](const volume::Segment& segment)
-    { return segment.index == structure.index; };
-    if (std::none_of(map.segments.begin(), map.segments.end(), isIt))
+    const auto segment = std::find_if(map.segments.begin(), map.segments.end(),
+                                      [&structure](const volume::Segment& one)
+                                      { return one.index == structure.index; });
+    if (segment == map.segments.end())
       throwUnsound(file, "a structure is not in its label map");
     if (structure.voxels > voxels || !(structure.volume >= 0.0 && structure.volume <= largest))
       throwUnsound(file, "a structure is larger than its label map");
+    const double volume = map.volume(*segment);
+    if (structure.voxels == segment->voxels &&
+        std::abs(structure.volume - volume) <= kRounding * volume)
+      continue;
+    structure.voxels = segment->voxels;
+    structure.volume = volume;
+    corrected.push_back(structure.name);
   }
 }
 
-/// Each object is what the manifest says that it is, not only to its hash: what made the archive
-/// may have been another program.
-void checkContents(const scene::Case& value, const ObjectStore& store, const fs::path& file,
-                   const core::Progress& progress)
+/// The volumes that are stated of a stroke were measured at the threshold of bone of then, and are
+/// kept. None can be larger than the cells around the voxels that it removed from.
+void checkRemoved(const dissection::StrokeInfo& info, dissection::BrickDraft& alone,
+                  const fs::path& file)
 {
+  std::size_t voxels = 0;
+  for (const dissection::BrickDelta& delta : alone.take())
+    if (delta.after)
+      voxels += static_cast<std::size_t>(
+          std::count_if(delta.after->begin(), delta.after->end(),
+                        [](std::uint16_t left) { return left != volume::CutMask::kUntouched; }));
+  constexpr double kCells = 8.0; // around a voxel
+  constexpr double kRounding = 1e-6;
+  const double largest =
+      kCells * alone.mask().geometry().voxelVolume() * static_cast<double>(voxels) + kRounding;
+  const auto isPossible = [largest](double volume)
+  { return volume >= -kRounding && volume <= largest; };
+  if (!isPossible(info.removed) ||
+      !std::all_of(info.structures.begin(), info.structures.end(),
+                   [&](const dissection::TouchedStructure& one) { return isPossible(one.volume); }))
+    throwUnsound(file, "a stroke removed more than its voxels hold");
+}
+
+/// Each object is what the manifest says that it is, not only to its hash: what made the archive
+/// may have been another program. Counts and volumes that are not those of the voxels and meshes
+/// are replaced by these; returns a note for the user of each kind.
+std::vector<std::string> checkContents(scene::Case& value, const ObjectStore& store,
+                                       const fs::path& file, const core::Progress& progress)
+{
+  std::vector<std::string> structures, meshes; // by their names, whose numbers were replaced
   const auto check = [&](const std::string& what, const auto& read)
   {
     progress.check("restoring");
@@ -534,11 +572,18 @@ void checkContents(const scene::Case& value, const ObjectStore& store, const fs:
       throwUnsound(file, what);
     }
   };
-  for (const scene::LabelPart& part : value.labels)
+  for (scene::LabelPart& part : value.labels)
     check("a label map cannot be read",
-          [&] { checkLabels(part, store.path(part.object), file, progress); });
-  for (const scene::MeshPart& mesh : value.meshes)
-    check("a mesh cannot be read", [&] { imaging::readMesh(store.path(mesh.object)); });
+          [&] { checkLabels(part, store.path(part.object), file, structures, progress); });
+  for (scene::MeshPart& mesh : value.meshes)
+    check("a mesh cannot be read",
+          [&]
+          {
+            const std::size_t triangles =
+                imaging::readMesh(store.path(mesh.object)).triangles.size();
+            if (std::exchange(mesh.triangles, triangles) != triangles)
+              meshes.push_back(mesh.name);
+          });
   if (value.view.instrument)
     check("an instrument cannot be read",
           [&] { imaging::readMesh(store.path(value.view.instrument->object)); });
@@ -555,6 +600,7 @@ void checkContents(const scene::Case& value, const ObjectStore& store, const fs:
             dissection::BrickDraft alone(untouched);
             dissection::applyDeltas(store.readChecked(strokes[n]->object, {"a stroke"}),
                                     dissection::Step::Redo, alone);
+            checkRemoved(strokes[n]->info, alone, file);
           });
   for (const std::size_t n : line)
     check("a stroke removes what was removed before",
@@ -569,6 +615,15 @@ void checkContents(const scene::Case& value, const ObjectStore& store, const fs:
     if (!isOfKind(object, one.kind) || fs::file_size(object) != one.bytes)
       throwUnsound(file, "an attachment is not of the kind or size that is stated");
   }
+  std::vector<std::string> notes;
+  if (!structures.empty())
+    notes.push_back("the archive states another number of voxels, or another volume, of " +
+                    scene::listed(structures) +
+                    " than the label map has; they were computed from its voxels");
+  if (!meshes.empty())
+    notes.push_back("the archive states another number of triangles of " + scene::listed(meshes) +
+                    " than the mesh has; they were counted");
+  return notes;
 }
 
 std::vector<std::uint8_t> thumbnailFrom(const std::string& base64, const fs::path& file)
@@ -626,6 +681,53 @@ std::vector<std::string> leaveOutMissing(scene::Case& value, const ObjectStore& 
   for (const std::string& name : lost)
     scene::removePart(value, name);
   return notes;
+}
+
+bool statesPatient(const scene::ImagePart& image)
+{
+  return !image.patient.empty() || !image.patient.nameParts.empty();
+}
+
+/// Of images whose hashes have one salt. Two spellings of a name, of one ID, are one patient's.
+bool isOfOtherPatient(const scene::PatientHash& a, const scene::PatientHash& b)
+{
+  if (a.empty() && b.empty()) // pseudonyms of cases (imaging/CasePatient.h), or nothing
+    return !a.nameParts.empty() && !b.nameParts.empty() && a.nameParts != b.nameParts;
+  const imaging::PatientDifferences differing = imaging::differencesOf(a, b);
+  return differing.id || (differing.any() && (a.id.empty() || b.id.empty() || a.id != b.id));
+}
+
+/// A plan fits every CT of these voxels, whosever it is said to be. `plan`: its image, with the
+/// library's hashes; nullptr: those of another library, which cannot be compared. `only`: the case
+/// whose CT the user named; empty: all of the library.
+std::string patientNote(const Library& library, const scene::ImagePart* plan,
+                        const std::string& object, const std::string& only)
+{
+  const scene::IdentitySalt salt = frameSalter(library);
+  const fs::path cases = library.folder() / "cases";
+  std::string other;
+  for (const std::string& name : only.empty() ? namesIn(cases) : std::vector<std::string>{only})
+    try
+    {
+      scene::ImagePart ct = manifestIn(cases / (name + ".json"), name).ct;
+      if (ct.object != object || !statesPatient(ct) || !scene::isComparable(ct, salt))
+        continue;
+      scene::saltIdentity(ct, salt);
+      if (plan && !isOfOtherPatient(plan->patient, ct.patient))
+        return {};
+      other = name;
+    }
+    catch (const core::Error&) // told where it is opened
+    {
+    }
+  if (other.empty())
+    return {};
+  return plan ? "the plan is of another patient than that of case '" + other +
+                    "', whose image has the very same voxels, by what their files state; it fits, "
+                    "but make sure whose images these are"
+              : "whether the plan is of the patient of case '" + other +
+                    "', whose image has the very same voxels, cannot be told, as it comes from "
+                    "another library; make sure that it is";
 }
 
 } // namespace
@@ -724,12 +826,24 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
       value,
       [&](scene::Case& next, ObjectStore& store)
       {
+        const bool isOfSomebody = statesPatient(next.ct);
         if (isSealed)
           sealIdentity(library, next);
         else if (!isFrameKnown)
           summary.notes = forgetForeignIdentity(next);
         if (archive.index.planOnly)
         {
+          // Plain hashes, of older programs, are those of any library.
+          scene::ImagePart plan = next.ct;
+          const scene::IdentitySalt salt = frameSalter(library);
+          const bool isKnown = statesPatient(plan) && scene::isComparable(plan, salt);
+          if (isKnown)
+            scene::saltIdentity(plan, salt);
+          if (isOfSomebody)
+            if (std::string note =
+                    patientNote(library, isKnown ? &plan : nullptr, plan.object, options.ct);
+                !note.empty())
+              summary.notes.push_back(std::move(note));
           const std::string image = next.ct.modality == scene::Modality::Mr ? "the MR" : "the CT";
           checkObject(store.path(next.ct.object, image), image, progress.part(0.0, 0.5));
           const auto notes = leaveOutMissing(next, store);
@@ -738,7 +852,8 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
         }
         summary.newParts = addObjects(archive, store, progress);
         checkImages(next, store, file, progress);
-        checkContents(next, store, file, progress);
+        for (std::string& note : checkContents(next, store, file, progress))
+          summary.notes.push_back(std::move(note));
       },
       progress);
   summary.name = value.name;

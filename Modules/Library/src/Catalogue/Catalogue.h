@@ -23,6 +23,11 @@ public:
   {
     std::uintmax_t size = 0;
     std::int64_t changed = 0; ///< file time, ticks
+
+    bool operator==(const Stamp& other) const noexcept
+    {
+      return size == other.size && changed == other.changed;
+    }
   };
 
   explicit Catalogue(std::filesystem::path file);

@@ -226,8 +226,7 @@ std::vector<Catalogue::Entry> entriesIn(const fs::path& folder, const core::Prog
     if (!state)
       continue; // removed in the meantime
     const auto entry = known.find(name);
-    if (entry != known.end() && entry->second.stamp.size == state->stamp.size &&
-        entry->second.stamp.changed == state->stamp.changed)
+    if (entry != known.end() && entry->second.stamp == state->stamp)
     {
       cases.push_back(std::move(entry->second));
       continue;

@@ -333,6 +333,7 @@ void Library::remove(const std::string& name)
 std::vector<DeletedCase> Library::deleted() const
 {
   std::vector<DeletedCase> cases;
+  namesIn(m_folder / "cases"); // throws where the folder cannot be read
   for (const DeletedFile& file : deletedIn(m_folder / "cases"))
     if (const auto state = stateOf(file.manifest))
       cases.push_back({file.name, state->renamed});
@@ -555,6 +556,26 @@ constexpr const char* kLostSaltText =
 
 } // namespace
 
+namespace
+{
+
+// Of a manifest that was given by hand a name that no case can have; empty: of any other.
+std::string misnamedText(const fs::path& manifest, const std::string& name)
+{
+  try
+  {
+    scene::checkCaseName(name);
+    return {};
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    return core::printable(manifest) + ": cannot be opened under the name of this file, and no " +
+           "case can have it; rename the file (" + error.what() + ")";
+  }
+}
+
+} // namespace
+
 Inspection Library::verify(const core::Progress& progress) const
 {
   Inspection result;
@@ -629,7 +650,10 @@ Inspection Library::verify(const core::Progress& progress) const
   for (const std::string& name : namesIn(m_folder / "cases"))
   {
     ++result.cases;
-    read(manifestPath(name), name, false);
+    const fs::path path = manifestPath(name);
+    if (const std::string words = misnamedText(path, name); !words.empty())
+      damaged(path.lexically_relative(m_folder).string(), {Use::By{path, name, false, {}}}, words);
+    read(path, name, false);
   }
   for (const DeletedFile& file : deletedIn(m_folder / "cases"))
     read(file.manifest, file.name, true);
@@ -804,9 +828,15 @@ Repaired Library::repair(const core::Progress& progress, bool acceptChanged)
   std::vector<Catalogue::Entry> entries; // made before the library is locked: others may save
   const scene::IdentitySalt salt = frameSalter(*this);
   std::size_t read = 0;
+  ObjectStore(objectFolder()).list(); // throws where nothing is lost, but cannot be read
   for (const std::string& name : names)
     try
     {
+      if (std::string words = misnamedText(manifestPath(name), name); !words.empty())
+      {
+        done.push_back(std::move(words));
+        continue;
+      }
       progress.report(static_cast<double>(read++) / static_cast<double>(names.size()), "repairing");
       bool isUnchanged = true;
       scene::Case value = quiet.open(name);
@@ -826,6 +856,11 @@ Repaired Library::repair(const core::Progress& progress, bool acceptChanged)
     catch (const core::CancelledError&)
     {
       throw;
+    }
+    catch (const scene::ManifestError& error)
+    {
+      (error.reason == scene::ManifestError::Reason::Damaged ? result.lost : done)
+          .emplace_back(error.what());
     }
     catch (const core::Error& error)
     {

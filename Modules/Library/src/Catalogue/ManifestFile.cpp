@@ -253,9 +253,16 @@ std::vector<std::string> namesOf(const fs::path& folder, const std::string& id)
   std::vector<std::string> names;
   if (id.empty())
     return names;
+  const auto known = Catalogue(folder.parent_path() / "library.sqlite").entries();
   for (const std::string& name : namesIn(folder))
-    if (idIn(folder / (name + ".json"), name) == id)
+  {
+    const fs::path path = folder / (name + ".json");
+    const auto entry = known.find(name);
+    const auto state = stateOf(path);
+    const bool isCurrent = entry != known.end() && state && entry->second.stamp == state->stamp;
+    if ((isCurrent ? entry->second.summary.id : idIn(path, name)) == id)
       names.push_back(name);
+  }
   return names;
 }
 

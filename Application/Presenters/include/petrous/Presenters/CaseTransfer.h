@@ -48,17 +48,22 @@ struct IdentityReport
   std::string text() const;
 };
 
-/// `faces`: images in which a face can be recognised (facesToMask); nullptr: not looked for, and
-/// then images that hold a whole head are warned of. Reads no voxels. `library`: of the case, by
-/// whose salt texts are compared with the patient's name (IdentityText); nullptr: they are not.
+/// `faces`: images that leave in which a face can be recognised (facesToMask); nullptr: not looked
+/// for, and then images that hold a whole head are warned of. Reads no voxels. `library`: of the
+/// case, by whose salt texts are compared with the patient's name (IdentityText); nullptr: they are
+/// not.
 IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
-                              const std::vector<std::string>* faces = nullptr,
+                              const std::vector<scene::ImageWithFace>* faces = nullptr,
                               const library::Library* library = nullptr);
 /// The same of an archive with these options (library::archiveCase), of which `mask` is what
 /// `prepare` does to the images.
 IdentityReport identityReport(const scene::Case& value, const library::ArchiveOptions& options,
                               const scene::ImageMask& mask = {},
-                              const library::Library* library = nullptr);
+                              const library::Library* library = nullptr,
+                              const std::vector<scene::ImageWithFace>* faces = nullptr);
+/// That a face can be recognised in images which leave as they are, and what to do about it, in
+/// sentences for the user; none: in none of them.
+std::vector<std::string> faceWarnings(const std::vector<scene::ImageWithFace>& left);
 /// What may identify the patient in a file that exportCase writes.
 std::vector<std::string> identityWarnings(const scene::Case& value, const ExportOptions& options,
                                           const library::Library* library = nullptr);

@@ -85,7 +85,8 @@ struct DeletedCase
 struct Repaired
 {
   std::vector<std::string> done;
-  std::vector<std::string> lost; ///< what cases need and cannot be brought back: Library::lost
+  std::vector<std::string>
+      lost; ///< what cases need and cannot be brought back: Library::lost, manifests
 };
 
 /// What Library::collectGarbage removed.

@@ -846,15 +846,15 @@
     </message>
     <message>
         <source>Put air in place of the &amp;face</source>
-        <translation type="unfinished">Das &amp;Gesicht durch Luft ersetzen</translation>
+        <translation>Das &amp;Gesicht durch Luft ersetzen</translation>
     </message>
     <message>
         <source>Put air in place of the &amp;face, and leave out %1</source>
-        <translation type="unfinished">Das &amp;Gesicht durch Luft ersetzen; nicht mit ins Archiv: %1</translation>
+        <translation>Das &amp;Gesicht durch Luft ersetzen; nicht mit ins Archiv: %1</translation>
     </message>
     <message>
         <source>In front of a plane about 50 mm behind the tip of the nose. What is segmented or drilled and the temporal bones stay; the case here does not change</source>
-        <translation type="unfinished">Vor einer Ebene etwa 50 mm hinter der Nasenspitze. Was segmentiert oder gebohrt ist und die Felsenbeine bleiben; der Fall hier ändert sich nicht</translation>
+        <translation>Vor einer Ebene etwa 50 mm hinter der Nasenspitze. Was segmentiert oder gebohrt ist und die Felsenbeine bleiben; der Fall hier ändert sich nicht</translation>
     </message>
     <message>
         <source>&amp;Archive with the face</source>

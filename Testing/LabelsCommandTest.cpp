@@ -85,6 +85,9 @@ TEST_F(LabelsCommand, NamesTheIndicesByATableAndTellsWhatBecameOfEach)
   EXPECT_EQ(statusOf(added, "cochlea"), "empty 0");
   ASSERT_EQ(added["labels"].size(), 2U);
   EXPECT_EQ(added["labels"][0]["name"], "facial nerve");
+  const Outcome again = run("add ear --labels " + quoted(labels) + " --label-names " +
+                            quoted(m_folder / "names.csv") + " --rename-taken");
+  EXPECT_NE(again.out.find("2 structures read, 1 empty\n"), std::string::npos) << again.out;
 
   std::ofstream(m_folder / "bad.csv") << "index,name\n4,a\n4,b\n";
   expectRefused("add ear --labels x=" + quoted(labels) + " --label-names " +

@@ -23,6 +23,7 @@
 #include "petrous/Core/Fingerprint.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Core/WriteAll.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImageFile.h"
@@ -144,15 +145,8 @@ private:
   void append(const std::string& line)
   {
     const std::string text = line + "\n";
-    for (std::size_t done = 0; done < text.size();)
-    {
-      const ::ssize_t count = ::write(m_descriptor, text.data() + done, text.size() - done);
-      if (count < 0 && errno == EINTR)
-        continue;
-      if (count < 0)
-        core::throwOutputError(errno, m_file);
-      done += static_cast<std::size_t>(count);
-    }
+    if (const int error = core::writeAll(m_descriptor, text.data(), text.size()))
+      core::throwOutputError(error, m_file);
     if (::fdatasync(m_descriptor) != 0)
       core::throwOutputError(errno, m_file);
   }

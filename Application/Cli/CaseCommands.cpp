@@ -326,6 +326,8 @@ void printStructures(const Context& context, const std::vector<presenters::Struc
       context.print("  '" + one.name + "': " + fixed(*one.fileVolume, 1) + " mm3 in the file, " +
                     fixed(one.volume, 1) + " mm3 of voxels");
   }
+  if (!all.empty())
+    context.print("  " + presenters::summaryOf(all).text);
   info["structures"] = std::move(list);
 }
 

@@ -1889,6 +1889,29 @@ TEST_F(CaseBuilder, KeepsTheSideInTheNamesOfAFolderAndSaysWhatItLeavesOut)
   EXPECT_EQ(notes.find("Doe"), std::string::npos) << notes;
 }
 
+TEST_F(CaseBuilder, LosesNothingOfTheNamesInAFolderThatChangesTheirMeaning)
+{
+  const auto labels = imaging::readLabelFile(m_folder / "facial_nerve.nii.gz");
+  const auto namesIn = [&](const std::string& folder, const std::vector<std::string>& files)
+  {
+    std::filesystem::create_directory(m_folder / folder);
+    for (const std::string& file : files)
+      imaging::writeLabelFile(m_folder / folder / (file + ".nii.gz"), labels);
+    m_sources.parts.labels = {{"", m_folder / folder}};
+    const auto value = presenters::buildCase("ear", m_sources, {});
+    return namesAndNotes(value).first;
+  };
+  using Names = std::set<std::string>;
+  // What is to be read is what stands there: a letter is no side for sure.
+  EXPECT_EQ(namesIn("two", {"cochlea_d", "cochlea_s"}), (Names{"cochlea_d", "cochlea_s"}));
+  EXPECT_EQ(namesIn("one-side", {"Doe_cochlea_G", "Doe_stapes_G", "Doe_incus_G"}),
+            (Names{"cochlea_G", "stapes_G", "incus_G"}));
+  EXPECT_EQ(namesIn("not", {"Doe_tumour_not_resected", "Doe_tumour_resected"}),
+            (Names{"tumour_not_resected", "tumour_resected"}));
+  EXPECT_EQ(namesIn("joined", {"DoeCochlea_l", "vertebra_C7"}),
+            (Names{"cochlea_l", "vertebra_C7"}));
+}
+
 TEST_F(CaseBuilder, NamesTheMasksOfAFolderThatItLeavesOut)
 {
   const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
@@ -2283,6 +2306,42 @@ TEST_F(CaseBuilder, MakesAPartOfEachObjectOfAMeshFile)
   again.meshes[0].path = m_folder / "incus.obj";
   presenters::addParts(value, again, {});
   EXPECT_EQ(namesOf(value).back(), "incus");
+}
+
+TEST_F(CaseBuilder, NumbersTheObjectsOfAMeshFileThatHaveNoName)
+{
+  constexpr int kObjects = 40;
+  auto value = presenters::buildCase("ear", m_sources, {});
+  scene::MeshPart there; // between the numbers
+  there.name = "Structure_7";
+  there.mesh = std::make_shared<const core::TriangleMesh>();
+  value.meshes.push_back(std::move(there));
+  const Vector3d p = value.ct.geometry.patientBounds().center();
+  std::ofstream file(m_folder / "nameless.stl");
+  file.imbue(std::locale::classic());
+  for (int n = 0; n < kObjects; ++n)
+  {
+    file << "solid\nfacet normal 0 0 1\nouter loop\n";
+    for (const Vector3d& corner : {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)})
+      file << "vertex " << p[0] + corner[0] << " " << p[1] + corner[1] << " " << p[2] + 0.01 * n
+           << "\n";
+    file << "endloop\nendfacet\nendsolid\n";
+  }
+  file.close();
+  presenters::PartSources parts;
+  parts.meshes = {{"", m_folder / "nameless.stl"}};
+  parts.meshes[0].isRas = false;
+  parts.meshes[0].unit = 1.0;
+  parts.meshes[0].isPerObject = true;
+  presenters::addParts(value, parts, {});
+  std::vector<std::string> expected{"Structure_7", "structure"};
+  for (int n = 2; expected.size() < kObjects + 1; ++n)
+    if (n != 7) // reads as the one that is there
+      expected.push_back("structure " + std::to_string(n));
+  std::vector<std::string> names;
+  for (const scene::MeshPart& mesh : value.meshes)
+    names.push_back(mesh.name);
+  EXPECT_EQ(names, expected);
 }
 
 TEST_F(CaseBuilder, RefusesAMeshWithAFarVertex)

@@ -285,7 +285,7 @@ TEST(IdentityOfACase, ThePatientsSurnameAloneIsFound)
   const IdentityText identity(value, salted);
   for (const char* text :
        {"M\u00fcller links", "mueller1", "ear of jane", "station MUELLER", "janes cyst",
-        "m\u00fcllers cyst", "M\u00fcllertumor", "facialm\u00fcller"})
+        "m\u00fcllers cyst", "M\u00fcllertumor", "facialm\u00fcller", "M\u00fcllerCochlea"})
   {
     EXPECT_TRUE(identity.mayIdentify(text)) << text;
     EXPECT_FALSE(IdentityText(value).mayIdentify(text)) << "without the salt";

@@ -305,19 +305,15 @@ void LibraryController::makePicture(const std::string& name)
                 name](const core::Progress& progress) mutable -> BackgroundWork::Reply
                {
                  scene::Case value = library.open(name);
-                 library.loadDissection(value);
-                 const auto png = presenters::thumbnailOf(value, progress);
-                 library.checkVoxels(value, progress);
-                 if (!png.empty())
-                   library.setThumbnail(name, png);
-                 return [this, name, made = !png.empty()]
+                 const bool isMade = presenters::storeThumbnail(library, value, progress);
+                 return [this, name, isMade]
                  {
                    m_panel->forgetPictures();
                    refresh();
                    emit statusMessage(
-                       made ? tr("The picture of %1 is made").arg(words(name))
-                            : tr("No picture was made: it would show neither bone nor a "
-                                 "structure"));
+                       isMade ? tr("The picture of %1 is made").arg(words(name))
+                              : tr("No picture was made: it would show neither bone nor a "
+                                   "structure"));
                  };
                });
 }

@@ -115,11 +115,7 @@ void ThumbnailDrawer::draw()
        name = m_current](const core::Progress& progress) mutable -> BackgroundWork::Reply
       {
         scene::Case value = library.open(name);
-        library.loadDissection(value);
-        const auto png = presenters::thumbnailOf(value, progress);
-        library.checkVoxels(value, progress);
-        if (!png.empty())
-          library.setThumbnail(name, png);
+        presenters::storeThumbnail(library, value, progress);
         return [this, id = value.id]
         {
           m_current.clear();

@@ -309,10 +309,10 @@ TEST(StructurePresets, KeepsTheSideInEveryLanguage)
 {
   const auto presets = StructurePresets::builtIn();
   for (const char* side :
-       {"l",       "r",        "lt",     "rt",   "li",   "re",       "sin",    "dx",
-        "dex",     "sn",       "os",     "od",   "sx",   "gauche",   "droite", "links",
-        "rechts",  "izq",      "der",    "esq",  "dir",  "sinister", "dexter", "izquierda",
-        "derecha", "sinistra", "destra", "left", "right"})
+       {"l",        "r",      "d",         "g",       "s",        "lt",     "rt",   "li",
+        "re",       "sin",    "dx",        "dex",     "sn",       "os",     "od",   "sx",
+        "gauche",   "droite", "links",     "rechts",  "izq",      "der",    "esq",  "dir",
+        "sinister", "dexter", "izquierda", "derecha", "sinistra", "destra", "left", "right"})
   {
     const std::string name = std::string("facial nerve ") + side;
     EXPECT_EQ(presets.knownWords("Doe_facial_nerve_" + std::string(side)), name);
@@ -498,6 +498,10 @@ TEST(StructurePresets, KnowsWhichWordsOfANameAreThoseOfStructures)
       {"M\xc3\xbcller-cochlea-19630412", "cochlea"},
       {"Cerebellum", "cerebellum"},
       {"semicircular_canals_superior", "semicircular canals superior"},
+      {"tumour_not_resected", "tumour not resected"},
+      {"Mueller-Tumor-nicht-reseziert", "tumor nicht reseziert"},
+      {"Dexter_facial_nerve_s", "dexter facial nerve s"}, // S may be anything
+      {"not_resected", ""},
       {"Bonetti_left", ""},
       {"left", ""},
       {"labels", ""},
@@ -505,4 +509,14 @@ TEST(StructurePresets, KnowsWhichWordsOfANameAreThoseOfStructures)
       {"", ""}};
   for (const auto& [name, words] : names)
     EXPECT_EQ(presets.knownWords(name), words) << name;
+  EXPECT_EQ(presets.knownWordsOfPart("Left"), "left");
+  EXPECT_EQ(presets.knownWordsOfPart("MuellerCochlea"), "cochlea");
+  EXPECT_EQ(presets.knownWordsOfPart("Mueller"), "");
+}
+
+TEST(StructurePresets, AWordThatNegatesANameChangesNoLook)
+{
+  const StructurePresets presets = StructurePresets::builtIn();
+  for (const std::string name : {"tumour", "cochlea", "facial nerve"})
+    EXPECT_EQ(presets.lookFor(name + " not resected").preset, presets.lookFor(name).preset);
 }

@@ -90,6 +90,12 @@ std::vector<std::string> foldedWords(const std::string& name)
 // A given name too: the side where a name states no other.
 constexpr const char* kSideOrName = "dexter";
 
+// Letters that are a side in some languages, and may be anything in others.
+bool isDoubtfulSide(const std::string& word)
+{
+  return word == "d" || word == "g" || word == "s";
+}
+
 // Whether a word is a stem of the catalogue with an ending of English, Latin or German, if any:
 // "dural" of "dura", and not "durable".
 bool isFormOf(const std::string& word, const std::string& stem)
@@ -158,6 +164,7 @@ StructurePresets::StructurePresets(std::string_view text)
     const auto catalogue = json::parse(text);
     m_neutral = catalogue.value("neutral", std::vector<std::string>());
     m_sides = catalogue.value("sides", std::vector<std::string>());
+    m_qualifiers = catalogue.value("qualifiers", std::vector<std::string>());
     const auto phrases = [](const json& entry)
     {
       Phrases result;
@@ -323,6 +330,17 @@ StructurePresets::lookForCodes(const volume::SegmentCodes& codes) const
 
 std::string StructurePresets::knownWords(const std::string& name) const
 {
+  const KnownWords known = knownIn(name);
+  return known.hasStructure ? known.text : std::string();
+}
+
+std::string StructurePresets::knownWordsOfPart(const std::string& part) const
+{
+  return knownIn(part).text;
+}
+
+StructurePresets::KnownWords StructurePresets::knownIn(const std::string& name) const
+{
   // A catalogue word may be a stem ("cerebell" of "cerebellum"), followed by one of these endings
   // only, so that surnames do not match.
   const auto is = [](const std::string& word, const std::string& known)
@@ -339,24 +357,28 @@ std::string StructurePresets::knownWords(const std::string& name) const
   };
   const std::vector<std::string> words = wordsOf(name);
   const auto isOtherSide = [this](const std::string& word)
-  { return folded(word) != kSideOrName && isSide(folded(word)); };
+  {
+    const std::string plain = folded(word);
+    return plain != kSideOrName && isSide(plain) && !isDoubtfulSide(plain);
+  };
   const bool hasSide = std::any_of(words.begin(), words.end(), isOtherSide);
-  std::string result;
-  bool isStructure = false;
+  KnownWords result;
   for (const std::string& word : words)
   {
     const std::string plain = folded(word);
-    const bool isBeside = isNeutral(plain) && !(plain == kSideOrName && hasSide);
+    const bool isBeside =
+        (isNeutral(plain) && !(plain == kSideOrName && hasSide)) ||
+        std::find(m_qualifiers.begin(), m_qualifiers.end(), plain) != m_qualifiers.end();
     bool isOfStructure = false;
     for (const Words& entry : m_words)
       for (const Phrase& phrase : entry.phrases)
         for (const std::string& known : phrase.words)
           isOfStructure = isOfStructure || (known.size() > 1 && is(plain, known)); // no initial
-    isStructure = isStructure || (isOfStructure && !isBeside);
+    result.hasStructure = result.hasStructure || (isOfStructure && !isBeside);
     if (isBeside || isOfStructure)
-      result += (result.empty() ? "" : " ") + word;
+      result.text += (result.text.empty() ? "" : " ") + word;
   }
-  return isStructure ? result : std::string();
+  return result;
 }
 
 StructureAppearance StructurePresets::preset(const std::string& name) const
@@ -377,6 +399,12 @@ std::vector<StructureAppearance> StructurePresets::all() const
   std::vector<StructureAppearance> presets = m_presets;
   presets.push_back(m_other);
   return presets;
+}
+
+std::size_t letterBytes(const std::string& text)
+{
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](unsigned char c) { return c >= 0x80 || std::isalnum(c) != 0; }));
 }
 
 StructureAppearance boneLook()

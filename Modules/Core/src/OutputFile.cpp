@@ -1,6 +1,5 @@
 #include "petrous/Core/OutputFile.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <random>
@@ -13,6 +12,7 @@
 
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OpenedLock.h"
+#include "petrous/Core/WriteAll.h"
 
 namespace petrous::core
 {
@@ -193,17 +193,8 @@ OutputFile::~OutputFile()
 
 void OutputFile::write(const void* bytes, std::size_t count)
 {
-  const auto* next = static_cast<const char*>(bytes);
-  while (count > 0)
-  {
-    const ssize_t written = ::write(m_descriptor, next, std::min(count, std::size_t{1} << 30));
-    if (written < 0 && errno == EINTR)
-      continue;
-    if (written <= 0)
-      throwOutputError(written < 0 ? errno : ENOSPC, m_path);
-    next += written;
-    count -= static_cast<std::size_t>(written);
-  }
+  if (const int error = writeAll(m_descriptor, bytes, count))
+    throwOutputError(error, m_path);
 }
 
 void OutputFile::startSync() noexcept

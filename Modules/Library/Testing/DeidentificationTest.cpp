@@ -605,6 +605,15 @@ TEST(Vocabulary, KeepsNoNumbersThatStandTogether)
   EXPECT_EQ(reducedToVocabulary("AXIAL 3 MM", people), "AXIAL 3 MM");
 }
 
+TEST(Vocabulary, KeepsWhatNegatesTheRest)
+{
+  IdentityWords people;
+  people.addName("Doe^Jane");
+  for (const char* text : {"TUMOR NOT RESECTED", "NO TUMOR", "TUMOR NICHT LINKS"})
+    EXPECT_EQ(reducedToVocabulary(text, people), text);
+  EXPECT_EQ(reducedToVocabulary("Doe TUMOR not resected", people), "TUMOR not resected");
+}
+
 // Structures as TotalSegmentator, 3D Slicer and SNOMED CT name them.
 TEST(Vocabulary, KnowsTheAnatomyOfTheTemporalBone)
 {

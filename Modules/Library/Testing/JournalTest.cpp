@@ -77,15 +77,21 @@ struct Killed
   }
 };
 
+/// A case with a stroke that is in its journal and not saved.
+struct JournalOfAStroke : ::testing::Test
+{
+  TemporaryFolder folder;
+  Library library{folder.path()};
+  scene::Case value = savedCase(library);
+  Journal journal{library, value};
+
+  JournalOfAStroke() { drillLine(value, journal, 0, 4); }
+};
+
 } // namespace
 
-TEST(Journal, BringsBackStrokesThatWereNotSaved)
+TEST_F(JournalOfAStroke, BringsBackStrokesThatWereNotSaved)
 {
-  const TemporaryFolder folder;
-  Library library(folder.path());
-  scene::Case value = savedCase(library);
-  Journal journal(library, value);
-  drillLine(value, journal, 0, 4);
   drillLine(value, journal, 3, 4);
   value.dissection.undo();
   journal.follow(value.dissection);
@@ -201,13 +207,8 @@ TEST(Journal, IsThereOnlyWhileSomethingIsNotSaved)
 }
 
 // Another thread continues drilling while the case is being saved.
-TEST(Journal, KeepsWhatWasDrilledSinceTheSavedState)
+TEST_F(JournalOfAStroke, KeepsWhatWasDrilledSinceTheSavedState)
 {
-  const TemporaryFolder folder;
-  Library library(folder.path());
-  scene::Case value = savedCase(library);
-  Journal journal(library, value);
-  drillLine(value, journal, 0, 4);
   scene::Case snapshot = value;
   snapshot.dissection.unload();
   drillLine(value, journal, 3, 4);
@@ -233,13 +234,8 @@ TEST(Journal, KeepsWhatWasDrilledSinceTheSavedState)
       EXPECT_EQ(name.find("journal"), std::string::npos) << name;
 }
 
-TEST(Journal, IsLeftAloneWhileItsProgramRuns)
+TEST_F(JournalOfAStroke, IsLeftAloneWhileItsProgramRuns)
 {
-  const TemporaryFolder folder;
-  Library library(folder.path());
-  scene::Case value = savedCase(library);
-  Journal journal(library, value);
-  drillLine(value, journal, 0, 4);
   const auto before = contentOf(folder.path());
   scene::Case other = library.open("ear");
   EXPECT_EQ(other.dissection.strokes().size(), 0u);
@@ -256,13 +252,8 @@ TEST(Journal, IsLeftAloneWhileItsProgramRuns)
   }
 }
 
-TEST(Journal, OfAnotherStateOfTheCaseIsSetAsideAndNamed)
+TEST_F(JournalOfAStroke, OfAnotherStateOfTheCaseIsSetAsideAndNamed)
 {
-  const TemporaryFolder folder;
-  Library library(folder.path());
-  scene::Case value = savedCase(library);
-  Journal journal(library, value);
-  drillLine(value, journal, 0, 4);
   Killed killed(library);
   {
     // Another program, unaware of journals, puts another case there.
@@ -317,13 +308,8 @@ TEST(Journal, IsMadeUnderTheNameThatItsCaseHasByNow)
   EXPECT_EQ(back.dissection.strokes().size(), 2u);
 }
 
-TEST(Journal, StaysWithTheOriginalOfAManifestThatWasCopiedByHand)
+TEST_F(JournalOfAStroke, StaysWithTheOriginalOfAManifestThatWasCopiedByHand)
 {
-  const TemporaryFolder folder;
-  Library library(folder.path());
-  scene::Case value = savedCase(library);
-  Journal journal(library, value);
-  drillLine(value, journal, 0, 4);
   Killed killed(library);
   const fs::path cases = killed.folder.path() / "cases";
   fs::copy_file(cases / "ear.json", cases / "ear backup.json");
@@ -335,13 +321,8 @@ TEST(Journal, StaysWithTheOriginalOfAManifestThatWasCopiedByHand)
 }
 
 // As if the case was renamed just when the journal was made, or moved there by hand.
-TEST(Journal, IsFoundByTheIdOfItsCase)
+TEST_F(JournalOfAStroke, IsFoundByTheIdOfItsCase)
 {
-  const TemporaryFolder folder;
-  Library library(folder.path());
-  scene::Case value = savedCase(library);
-  Journal journal(library, value);
-  drillLine(value, journal, 0, 4);
   const fs::path misplaced = "cases/old name.journal";
   const auto killedAt = [&](const std::string& name)
   {
@@ -429,13 +410,8 @@ TEST(Journal, OfADeletedCaseIsNotThatOfTheNextOneOfItsName)
 }
 
 // What cannot be saved where it lies is told, and stays for the time when it can.
-TEST(Journal, UnderAnotherNameStaysInALibraryThatCannotBeWritten)
+TEST_F(JournalOfAStroke, UnderAnotherNameStaysInALibraryThatCannotBeWritten)
 {
-  const TemporaryFolder folder;
-  Library library(folder.path());
-  scene::Case value = savedCase(library);
-  Journal journal(library, value);
-  drillLine(value, journal, 0, 4);
   Killed killed(library);
   const fs::path misplaced = killed.folder.path() / "cases/old name.journal";
   fs::rename(killed.journal(), misplaced);
@@ -449,13 +425,8 @@ TEST(Journal, UnderAnotherNameStaysInALibraryThatCannotBeWritten)
   EXPECT_EQ(voxelsOf(killed.open()), voxelsOf(value));
 }
 
-TEST(Journal, ADamagedEndCostsOnlyTheEnd)
+TEST_F(JournalOfAStroke, ADamagedEndCostsOnlyTheEnd)
 {
-  const TemporaryFolder folder;
-  Library library(folder.path());
-  scene::Case value = savedCase(library);
-  Journal journal(library, value);
-  drillLine(value, journal, 0, 4);
   const auto first = voxelsOf(value);
   const std::size_t good = journal.bytes();
   drillLine(value, journal, 3, 4);
@@ -470,13 +441,8 @@ TEST(Journal, ADamagedEndCostsOnlyTheEnd)
   }
 }
 
-TEST(Journal, OneThatFitsNothingIsSetAside)
+TEST_F(JournalOfAStroke, OneThatFitsNothingIsSetAside)
 {
-  const TemporaryFolder folder;
-  Library library(folder.path());
-  scene::Case value = savedCase(library);
-  Journal journal(library, value);
-  drillLine(value, journal, 0, 4);
   const std::string bytes = contentOf(folder.path()).at("cases/ear.journal");
   const auto content = journalFrom(bytes);
   const auto expectAside = [&](const std::string& journalBytes)
@@ -507,13 +473,8 @@ TEST(Journal, OneThatFitsNothingIsSetAside)
   expectAside(head + encoded(content.frames[0]) + encoded(history));
 }
 
-TEST(Journal, SurvivesTenThousandDamagedFiles)
+TEST_F(JournalOfAStroke, SurvivesTenThousandDamagedFiles)
 {
-  const TemporaryFolder folder;
-  Library library(folder.path());
-  scene::Case value = savedCase(library);
-  Journal journal(library, value);
-  drillLine(value, journal, 0, 4);
   drillLine(value, journal, 3, 12);
   const std::string bytes = contentOf(folder.path()).at("cases/ear.journal");
   const std::size_t frames = journalFrom(bytes).frames.size();
@@ -537,13 +498,8 @@ TEST(Journal, SurvivesTenThousandDamagedFiles)
 }
 
 // A file size limit simulates a full disk.
-TEST(Journal, AFullDiskIsToldAndARetryWorks)
+TEST_F(JournalOfAStroke, AFullDiskIsToldAndARetryWorks)
 {
-  const TemporaryFolder folder;
-  Library library(folder.path());
-  scene::Case value = savedCase(library);
-  Journal journal(library, value);
-  drillLine(value, journal, 0, 4);
   const std::string before = contentOf(folder.path()).at("cases/ear.journal");
   rlimit unlimited{};
   ::getrlimit(RLIMIT_FSIZE, &unlimited);
@@ -572,13 +528,8 @@ TEST(Journal, AFullDiskIsToldAndARetryWorks)
   EXPECT_EQ(voxelsOf(killed.open()), voxelsOf(value));
 }
 
-TEST(Journal, WhatCannotBeBroughtBackNowStays)
+TEST_F(JournalOfAStroke, WhatCannotBeBroughtBackNowStays)
 {
-  const TemporaryFolder folder;
-  Library library(folder.path());
-  scene::Case value = savedCase(library);
-  Journal journal(library, value);
-  drillLine(value, journal, 0, 4);
   Killed killed(library);
   fs::rename(killed.folder.path() / "objects", killed.folder.path() / "gone");
   std::ofstream(killed.folder.path() / "objects") << "a file stands here";

@@ -53,7 +53,42 @@ namespace
 
 constexpr std::array<float, 3> kMrColor{0.80F, 0.80F, 0.80F}; // of its surface, which is not bone
 
-/// A part's name derived from its file name if none was given; what is left out of it is noted.
+/// The catalogue, which is long: names are looked up in it one by one.
+const appearance::StructurePresets& builtInPresets()
+{
+  static const auto kPresets = appearance::StructurePresets::builtIn();
+  return kPresets;
+}
+
+// Tells of a name whether a part of the case reads as it does.
+auto isInCase(const scene::Case& value)
+{
+  return [&value](const std::string& name) { return !scene::partReadAs(value, name).empty(); };
+}
+
+// Names, by what is read of them (scene::asRead).
+class ReadNames
+{
+public:
+  void add(const std::string& name) { m_read.insert(scene::asRead(name)); }
+  bool has(const std::string& name) const { return m_read.count(scene::asRead(name)) > 0; }
+
+  // scene::freeName, for many of one name: none is let go of, so the numbers before the last are
+  // taken.
+  std::string freeName(const std::string& wanted)
+  {
+    std::string name = wanted;
+    for (int& last = m_last[wanted]; has(name);)
+      name = wanted + " " + std::to_string(last = std::max(last + 1, 2));
+    return name;
+  }
+
+private:
+  std::set<std::string> m_read;
+  std::map<std::string, int> m_last; // the last number given to a name
+};
+
+// A part's name derived from its file name if none was given; what is left out of it is noted.
 template <class IsTaken>
 std::string nameFromFile(const fs::path& path, const std::string& otherwise, const IsTaken& isTaken,
                          std::vector<std::string>& notes)
@@ -692,17 +727,17 @@ void checkNewName(const scene::Case& value, const fs::path& path, const std::str
 }
 
 // What is called `name` where the user did not say otherwise.
-std::string askedName(const scene::Case& value, const PartSource& source, const std::string& name,
+template <class IsInCase>
+std::string askedName(const PartSource& source, const std::string& name, const IsInCase& isThere,
                       const std::vector<scene::StructurePart>& others,
                       std::vector<std::string>& notes)
 {
   if (const auto asked = source.newNames.find(name); asked != source.newNames.end())
     return asked->second;
-  if (!source.numbersTaken || scene::partReadAs(value, name).empty())
+  if (!source.numbersTaken || !isThere(name))
     return name;
-  const std::string numbered =
-      scene::freeName(name, [&](const std::string& one)
-                      { return !scene::partReadAs(value, one).empty() || isAmong(others, one); });
+  const std::string numbered = scene::freeName(name, [&](const std::string& one)
+                                               { return isThere(one) || isAmong(others, one); });
   notes.push_back("'" + name + "' is called '" + numbered +
                   "' here, as the case has a part of this name already");
   return numbered;
@@ -757,11 +792,9 @@ void addMr(scene::Case& value, const PartSource& source, const scene::IdentitySa
            const core::Progress& progress)
 {
   const std::string wanted =
-      !source.name.empty() ? source.name
-                           : scene::freeName("mr", [&value](const std::string& taken)
-                                             { return !scene::partReadAs(value, taken).empty(); });
+      !source.name.empty() ? source.name : scene::freeName("mr", isInCase(value));
   std::vector<std::string> notes;
-  const std::string name = askedName(value, source, wanted, {}, notes);
+  const std::string name = askedName(source, wanted, isInCase(value), {}, notes);
   checkNewName(value, source.path, name, wanted);
   requireSide(source.path, source.assumeRas, "--mr-frame");
   requireUnit(source.path, source.unit, "--mr-unit");
@@ -1055,12 +1088,12 @@ struct FolderNames
   std::set<std::string> leftOut;            ///< words
 };
 
-// A word of no structure and no side may be the patient's name, and is left out of the structures'
-// names, if most of the files of a folder, or objects of a file, share it or the name of its file
-// may identify the patient.
+// A word of no structure and no side, and without which the name means the same, may be the
+// patient's name, and is left out of the structures' names, if most of the files of a folder, or
+// objects of a file, share it or the name of its file may identify the patient.
 FolderNames namesWithoutPatient(const std::vector<std::string>& names, const IdentityText& identity)
 {
-  const auto presets = appearance::StructurePresets::builtIn();
+  const auto& presets = builtInPresets();
   const auto isWordChar = [](unsigned char c) { return c >= 0x80 || std::isalnum(c) != 0; };
   const auto wordsOf = [&](const std::string& text)
   {
@@ -1093,12 +1126,14 @@ FolderNames namesWithoutPatient(const std::vector<std::string>& names, const Ide
         identity.mayIdentify(identity.knowsName() ? scene::lowerCase(name) : name);
     for (const std::string& word : wordsOf(name))
     {
-      // "left" alone names nothing, so it is asked beside a word that does.
-      const bool isKnown = !presets.knownWords(word + " nerve").empty() &&
-                           presets.knownWords(word + " nerve") != "nerve";
-      if (isKnown || (files >= kTelling && 2 * counts[word] <= files && !mayIdentify))
-        kept += (kept.empty() ? "" : "_") + word;
-      else
+      const std::string known = presets.knownWordsOfPart(word);
+      const std::size_t unknown = appearance::letterBytes(word) - appearance::letterBytes(known);
+      const bool isKnown = !known.empty() && unknown <= 1; // "C7"
+      const bool isKept =
+          isKnown || (files >= kTelling && 2 * counts[word] <= files && !mayIdentify);
+      if (isKept || !known.empty())
+        kept += (kept.empty() ? "" : "_") + (isKept ? word : known);
+      if (!isKept)
       {
         isWhole = false;
         result.leftOut.insert(word);
@@ -1191,7 +1226,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
                const core::Progress& progress, std::vector<StructureReport>* report)
 {
   const auto& salted = parts.salted;
-  const auto presets = appearance::StructurePresets::builtIn();
+  const auto& presets = builtInPresets();
   imaging::LoadedLabels loaded;
   scene::LabelProvenance provenance;
   if (imaging::isStructureSet(source.path))
@@ -1279,7 +1314,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
                          { return isAmong(other.structures, name); });
     };
     const auto isTaken = [&](const std::string& name)
-    { return !scene::partReadAs(value, name).empty() || isAmong(part.structures, name); };
+    { return isInCase(value)(name) || isAmong(part.structures, name); };
     for (volume::Segment& segment : map.segments)
     {
       progress.check("reading labels");
@@ -1308,10 +1343,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
           numbered.push_back(structure.name);
       }
       else if (source.name.empty() && loaded.isNamedAfterFile)
-        structure.name = nameFromFile(
-            source.path, "structure",
-            [&value](const std::string& name) { return !scene::partReadAs(value, name).empty(); },
-            notes);
+        structure.name = nameFromFile(source.path, "structure", isInCase(value), notes);
       else if (source.name.empty())
         structure.name = validName(structure.name, isOfSource, notes);
       else if (stated > 1 && isOfSource(structure.name))
@@ -1320,7 +1352,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
         numbered.push_back(structure.name);
       }
       const std::string wanted = structure.name;
-      structure.name = askedName(value, source, wanted, part.structures, notes);
+      structure.name = askedName(source, wanted, isInCase(value), part.structures, notes);
       structure.index = segment.index;
       structure.voxels = segment.voxels;
       structure.volume = map.volume(segment);
@@ -1337,7 +1369,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
           structure.look = presets.lookFor(meaning->second);
       // Of several all that are taken are told at once.
       if (structures > 1 &&
-          (!scene::partReadAs(value, structure.name).empty() ||
+          (isInCase(value)(structure.name) ||
            (structure.name != wanted && isAmong(part.structures, structure.name))))
       {
         taken.push_back(wanted);
@@ -1422,8 +1454,7 @@ void requireNear(const fs::path& path, const core::TriangleMesh& mesh,
 std::string meshName(const scene::Case& value, const PartSource& source,
                      std::vector<std::string>& notes)
 {
-  const auto isTaken = [&value](const std::string& name)
-  { return !scene::partReadAs(value, name).empty(); };
+  const auto isTaken = isInCase(value);
   std::string wanted =
       source.name.empty() ? nameFromFile(source.path, "mesh", isTaken, notes) : source.name;
   if (source.name.empty() && isTaken(wanted))
@@ -1431,7 +1462,7 @@ std::string meshName(const scene::Case& value, const PartSource& source,
     wanted = scene::freeName(wanted, isTaken);
     notes.push_back("named so as another part has the name of its file");
   }
-  const std::string name = askedName(value, source, wanted, {}, notes);
+  const std::string name = askedName(source, wanted, isTaken, {}, notes);
   checkNewName(value, source.path, name, wanted);
   return name;
 }
@@ -1453,7 +1484,7 @@ void addMeshPart(scene::Case& value, scene::MeshPart part, core::TriangleMesh me
     part.notes.push_back(std::move(note));
   part.triangles = mesh.triangles.size();
   part.mesh = std::make_shared<const core::TriangleMesh>(std::move(mesh));
-  part.look = appearance::StructurePresets::builtIn().lookFor(part.name);
+  part.look = builtInPresets().lookFor(part.name);
   if (isUnknown(part.look))
     part.look.color = colors.next();
   else
@@ -1480,15 +1511,13 @@ void addObjects(scene::Case& value, const PartSource& source, const scene::MeshP
     notes.push_back(leftOutNote(safe, false));
   std::vector<core::TriangleMesh> meshes = imaging::splitByObject(loaded);
   loaded = {};
-  std::vector<std::string> names; // that the objects would have
-  const auto isOfSource = [&names](const std::string& name)
-  {
-    return std::any_of(names.begin(), names.end(),
-                       [read = scene::asRead(name)](const auto& other)
-                       { return scene::asRead(other) == read; });
-  };
-  const auto isTaken = [&](const std::string& name)
-  { return !scene::partReadAs(value, name).empty() || isOfSource(name); };
+  ReadNames ofSource; // that the objects would have
+  ReadNames inCase;
+  for (const std::string& name : scene::partNames(value))
+    inCase.add(name);
+  ReadNames all = inCase;
+  const auto isOfSource = [&ofSource](const std::string& name) { return ofSource.has(name); };
+  const auto isThere = [&inCase](const std::string& name) { return inCase.has(name); };
   std::vector<std::string> numbered;
   std::vector<std::string> taken;
   const std::size_t before = value.meshes.size();
@@ -1500,19 +1529,24 @@ void addObjects(scene::Case& value, const PartSource& source, const scene::MeshP
     std::string wanted = source.name.empty() ? own : source.name + (own.empty() ? "" : " " + own);
     const bool isTwice = isOfSource(wanted);
     if (own.empty() || isTwice)
-      wanted = scene::freeName(wanted.empty() ? "structure" : wanted, isTaken);
+      wanted = all.freeName(wanted.empty() ? "structure" : wanted);
     if (isTwice && !own.empty())
       numbered.push_back(wanted);
     wanted = validName(wanted, isOfSource, notes);
-    names.push_back(wanted);
+    ofSource.add(wanted);
+    all.add(wanted);
     scene::MeshPart part = shared;
     part.notes.clear();
-    part.name = askedName(value, source, wanted, {}, notes);
+    part.name = askedName(source, wanted, isThere, {}, notes);
     checkName(source.path, part.name);
-    if (!scene::partReadAs(value, part.name).empty()) // all that are taken are told at once
+    if (isThere(part.name)) // all that are taken are told at once
+    {
       taken.push_back(wanted);
-    else
-      addMeshPart(value, std::move(part), std::move(meshes[n]), image, colors);
+      continue;
+    }
+    inCase.add(part.name);
+    all.add(part.name);
+    addMeshPart(value, std::move(part), std::move(meshes[n]), image, colors);
   }
   if (!taken.empty() && (!source.skipsTaken || taken.size() == count))
     throw NamesTaken(source.path, taken, count - taken.size());
@@ -1756,13 +1790,9 @@ PartSource PartSource::parseDrawn(const std::string& text)
 FileName fileName(const fs::path& path)
 {
   const std::string stem = imaging::baseName(path); // "facial_nerve.nii.gz" -> "facial_nerve"
-  const std::string known = appearance::StructurePresets::builtIn().knownWords(stem);
-  const auto letters = [](const std::string& text)
-  {
-    return std::count_if(text.begin(), text.end(),
-                         [](unsigned char c) { return c >= 0x80 || std::isalnum(c) != 0; });
-  };
-  return letters(known) == letters(stem) ? FileName{stem, true} : FileName{known, false};
+  const std::string known = builtInPresets().knownWords(stem);
+  return appearance::letterBytes(known) == appearance::letterBytes(stem) ? FileName{stem, true}
+                                                                         : FileName{known, false};
 }
 
 std::vector<std::string> maskNames(const imaging::LoadedLabels& folder)

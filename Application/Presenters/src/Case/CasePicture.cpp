@@ -178,4 +178,14 @@ std::vector<std::uint8_t> thumbnailOf(const scene::Case& value, const core::Prog
   return rendering::pngOf(view.render(picture));
 }
 
+bool storeThumbnail(library::Library& library, scene::Case& value, const core::Progress& progress)
+{
+  library.loadDissection(value);
+  const auto png = thumbnailOf(value, progress);
+  library.checkVoxels(value, progress);
+  if (!png.empty())
+    library.setThumbnail(value.name, png);
+  return !png.empty();
+}
+
 } // namespace petrous::presenters

@@ -238,9 +238,8 @@ bool IdentityText::isOfField(const std::string& text) const
 
 bool IdentityText::isKnownWord(const std::string& word) const
 {
-  const std::string known = "nerve"; // beside which words of sides and parts count too
   return library::isDescriptorWord(word) || isClinical(word) ||
-         m_presets.knownWords(known + " " + word) != known;
+         appearance::letterBytes(m_presets.knownWordsOfPart(word)) == appearance::letterBytes(word);
 }
 
 bool IdentityText::hasName(const std::string& text) const

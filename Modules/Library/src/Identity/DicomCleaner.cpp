@@ -27,6 +27,7 @@
 #include "Vocabulary.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Core/WriteAll.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/SeriesGeometry.h"
 
@@ -1681,11 +1682,8 @@ private:
 
   void put(const char* bytes, std::size_t count)
   {
-    for (std::size_t done = 0; done < count && m_error == 0;)
-      if (const ssize_t written = ::write(m_descriptor, bytes + done, count - done); written >= 0)
-        done += static_cast<std::size_t>(written);
-      else if (errno != EINTR)
-        m_error = errno;
+    if (m_error == 0)
+      m_error = core::writeAll(m_descriptor, bytes, count);
   }
 
   int m_descriptor;

@@ -13,6 +13,7 @@
 
 #include "LibraryFolder.h"
 #include "petrous/Core/OpenedLock.h"
+#include "petrous/Core/WriteAll.h"
 #include "petrous/Library/LibraryError.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/HistoryText.h"
@@ -374,15 +375,8 @@ void JournalFile::append(std::string_view frames)
 
 void JournalFile::write(std::string_view bytes)
 {
-  while (!bytes.empty())
-  {
-    const ssize_t written = ::write(m_descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR)
-      continue;
-    if (written < 0)
-      throwForErrno(errno, m_path);
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
+  if (const int error = core::writeAll(m_descriptor, bytes.data(), bytes.size()))
+    throwForErrno(error, m_path);
   if (::fdatasync(m_descriptor) != 0)
     throwForErrno(errno, m_path);
 }

@@ -34,6 +34,7 @@
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Core/WriteAll.h"
 #include "petrous/Imaging/DicomReader.h"
 
 namespace petrous::network
@@ -964,17 +965,9 @@ public:
   offile_off_t avail() const override { return std::numeric_limits<offile_off_t>::max(); }
   offile_off_t write(const void* bytes, offile_off_t count) override
   {
-    offile_off_t done = 0;
-    while (done < count && m_error == 0)
-    {
-      const ssize_t written = ::write(m_descriptor, static_cast<const char*>(bytes) + done,
-                                      static_cast<std::size_t>(count - done));
-      if (written >= 0)
-        done += written;
-      else if (errno != EINTR)
-        m_error = errno;
-    }
-    return done;
+    if (m_error == 0)
+      m_error = core::writeAll(m_descriptor, bytes, static_cast<std::size_t>(count));
+    return good() ? count : 0;
   }
   void flush() override {}
 

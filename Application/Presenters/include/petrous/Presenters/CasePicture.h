@@ -10,6 +10,11 @@
 #include "petrous/Rendering/StandardViews.h"
 #include "petrous/Scene/Case.h"
 
+namespace petrous::library
+{
+class Library;
+}
+
 namespace petrous::presenters
 {
 
@@ -52,5 +57,10 @@ scene::Case thumbnailCase(scene::Case value);
 /// like SceneAssembly::contents, and RenderingError.
 std::vector<std::uint8_t> thumbnailOf(const scene::Case& value,
                                       const core::Progress& progress = {});
+
+/// Draws the thumbnail of a case as it was opened from the library, drilled as it is stored, and
+/// keeps it there once all that was read of the case is checked. False if it would show nothing;
+/// what the library has of it stays then. Throws like thumbnailOf, and LibraryError.
+bool storeThumbnail(library::Library& library, scene::Case& value, const core::Progress& progress);
 
 } // namespace petrous::presenters

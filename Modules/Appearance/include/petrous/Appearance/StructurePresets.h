@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,9 +41,13 @@ public:
   std::optional<StructureAppearance> lookForCodes(const volume::SegmentCodes& codes) const;
 
   /// The words of a name that denote structures, sides (also abbreviated, in several languages) and
-  /// parts, and short numbers, in order and in lower case: "Doe_John-FacialNerve_left" -> "facial
-  /// nerve left". Empty if none of them denotes a structure.
+  /// parts, those that change its meaning ("not", "resected"), and short numbers, in order and in
+  /// lower case: "Doe_John-FacialNerve_left" -> "facial nerve left". Empty if none of them denotes
+  /// a structure.
   std::string knownWords(const std::string& name) const;
+
+  /// The same of a part of a name, which need not denote a structure by itself: "Left" -> "left".
+  std::string knownWordsOfPart(const std::string& part) const;
 
   /// The preset of this name, or the one that a structure of this name would get, e.g. "vessel" ->
   /// artery. Throws InvalidParameter listing the presets.
@@ -75,6 +80,12 @@ private:
     std::string preset;
     StructureCode code;
   };
+  struct KnownWords
+  {
+    std::string text;
+    bool hasStructure = false; ///< not only what stands beside one
+  };
+  KnownWords knownIn(const std::string& name) const;
   const StructureAppearance* find(const std::string& name) const; ///< nullptr: no such preset
   const StructureAppearance* lookByWord(const std::string& structureName) const;
   bool hasPhrase(const std::vector<std::string>& name, const Phrases& phrases) const;
@@ -84,11 +95,16 @@ private:
 
   std::vector<StructureAppearance> m_presets;
   std::vector<Words> m_words;
-  std::vector<std::string> m_sides;   ///< words and abbreviations of left and right
-  std::vector<std::string> m_neutral; ///< words accepted besides those of structures
+  std::vector<std::string> m_sides;      ///< words and abbreviations of left and right
+  std::vector<std::string> m_neutral;    ///< words accepted besides those of structures
+  std::vector<std::string> m_qualifiers; ///< without which a name would mean something else
   std::vector<Code> m_codes;
   StructureAppearance m_other;
 };
+
+/// Bytes of letters and digits. Of a name from which knownWords leaves nothing out, its result has
+/// as many.
+std::size_t letterBytes(const std::string& text);
 
 /// The default appearance of bone: the preset "bone".
 StructureAppearance boneLook();

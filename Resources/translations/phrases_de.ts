@@ -296,10 +296,6 @@
         <translation>das des %1 nicht bekannt ist</translation>
     </message>
     <message>
-        <source>nerve</source>
-        <translation>Nerv</translation>
-    </message>
-    <message>
         <source>%#1 word of the files' names, which may be a patient's, was left out of the structures' names</source>
         <translation>%#1 Wort der Dateinamen, das zum Namen eines Patienten gehören kann, wurde aus den Namen der Strukturen weggelassen</translation>
     </message>
@@ -1950,6 +1946,10 @@
     <message>
         <source>measuring the structures</source>
         <translation>die Strukturen werden gemessen</translation>
+    </message>
+    <message>
+        <source>nerve</source>
+        <translation>Nerv</translation>
     </message>
     <message>
         <source>show what was shown before</source>

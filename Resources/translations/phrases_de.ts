@@ -3091,6 +3091,18 @@
         <source>%1, but all of the image lies %2.</source>
         <translation>%1, das ganze Bild liegt aber %2.</translation>
     </message>
+    <message>
+        <source>about %#1 s left</source>
+        <translation>noch etwa %#1 s</translation>
+    </message>
+    <message>
+        <source>about %#1 min left</source>
+        <translation>noch etwa %#1 min</translation>
+    </message>
+    <message>
+        <source>about %#1 h %#2 min left</source>
+        <translation>noch etwa %#1 h %#2 min</translation>
+    </message>
 </context>
 <context>
     <name>Appearance</name>

@@ -1560,8 +1560,28 @@
         <translation>keine</translation>
     </message>
     <message>
+        <source>background</source>
+        <translation>Hintergrund</translation>
+    </message>
+    <message>
         <source>light falloff</source>
         <translation>Lichtabfall</translation>
+    </message>
+    <message>
+        <source>wetness</source>
+        <translation>Nässe</translation>
+    </message>
+    <message>
+        <source>exposure</source>
+        <translation>Belichtung</translation>
+    </message>
+    <message>
+        <source>edges</source>
+        <translation>Kanten</translation>
+    </message>
+    <message>
+        <source>shadows</source>
+        <translation>Schatten</translation>
     </message>
     <message>
         <source>soft highlights</source>

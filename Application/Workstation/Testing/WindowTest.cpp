@@ -134,7 +134,7 @@ TEST_F(Window, ATaskSaysHowMuchTimeIsLeft)
   EXPECT_TRUE(waitFor([&] { return isSaid(0.2); }));
   EXPECT_TRUE(!said.empty() && said.back().left == "about 40 s left");
   now = 20.0; // as long as the pause before; the end that was foreseen stays
-  EXPECT_TRUE(waitFor([&] { return said.back().left == "about 30 s left"; }));
+  EXPECT_TRUE(waitFor([&] { return !said.empty() && said.back().left == "about 30 s left"; }));
   EXPECT_EQ(said.back().step, "saving");
   EXPECT_EQ(said.back().fraction, 0.2);
   isReleased = true;

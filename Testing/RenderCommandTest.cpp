@@ -222,6 +222,24 @@ TEST_F(RenderCommand, SaysInThePictureThatItIsCut)
   EXPECT_EQ(drawn("--clip 0,-1000,0,0,1,0 --plain"), said);
 }
 
+TEST_F(RenderCommand, TheBackgroundIsANameOrAColour)
+{
+  const auto drawn = [this](const std::string& options)
+  {
+    json(render("--camera " + quoted(fromTheRight()) + " " + options));
+    return textOf(m_folder / "p.png");
+  };
+  const std::string plain = drawn("");
+  EXPECT_EQ(drawn("--background dark-grey"), plain);
+  const std::string white = drawn("--background white");
+  EXPECT_NE(white, plain);
+  EXPECT_EQ(drawn("--background '#ffffff'"), white);
+  EXPECT_NE(drawn("--background black"), plain);
+  EXPECT_EQ(json(render("--background '#123456'")).at("background"), "#123456");
+  for (const char* other : {"grey", "'#fff'", "'#12345g'"})
+    expectRefused(render(std::string("--background ") + other), 2, "#rrggbb");
+}
+
 TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
 {
   const auto drawn = [this](const std::string& options)

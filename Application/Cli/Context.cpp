@@ -15,6 +15,7 @@
 #include "petrous/Core/Log.h"
 #include "petrous/Library/DefaultFolder.h"
 #include "petrous/Library/LibraryFiles.h"
+#include "petrous/Presenters/TimeLeft.h"
 
 namespace petrous::cli
 {
@@ -270,7 +271,9 @@ core::Progress Context::progress() const
   struct Bar
   {
     std::mutex mutex;
+    presenters::TimeLeft time;
     int shown = -1;
+    std::string left;
     ~Bar()
     {
       if (shown >= 0)
@@ -282,10 +285,17 @@ core::Progress Context::progress() const
       {
         const std::lock_guard<std::mutex> lock(bar->mutex);
         const int percent = static_cast<int>(100.0 * fraction);
-        if (percent == bar->shown)
+        const double now = presenters::steadySeconds();
+        bar->time.report(fraction, now);
+        std::string left = presenters::timeLeftText(bar->time.shown(now));
+        if (percent == bar->shown && left == bar->left)
           return;
         bar->shown = percent;
-        std::cerr << '\r' << percent << " % " << text << "\033[K" << std::flush;
+        bar->left = std::move(left);
+        std::cerr << '\r' << percent << " % " << text;
+        if (!bar->left.empty())
+          std::cerr << ", " << bar->left;
+        std::cerr << "\033[K" << std::flush;
       },
       interruptToken());
 }

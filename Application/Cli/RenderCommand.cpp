@@ -21,6 +21,7 @@
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Presenters/AppearanceEditor.h"
+#include "petrous/Presenters/Background.h"
 #include "petrous/Presenters/BoneThickness.h"
 #include "petrous/Presenters/CameraPaths.h"
 #include "petrous/Presenters/CasePicture.h"
@@ -58,6 +59,7 @@ struct RenderOptions
   std::optional<double> eyeSeparation, convergence;
   LightOptions light;
   scene::ViewState::Light savedLight;
+  rendering::BackgroundColor background = rendering::kDefaultBackground;
   std::string softTissue; ///< a preset, "true" or "false"; empty: as saved
   std::optional<double> widthMillimetres, dotsPerInch;
   std::string along;
@@ -188,6 +190,7 @@ rendering::SceneContents renderContents(const RenderOptions& options, const scen
   rendering::SceneContents contents = assembly.contents(value);
   presenters::illuminate(contents, options.light.over(options.savedLight));
   presenters::clip(contents, value.view.clipping, value.ct.geometry);
+  contents.background = options.background;
   return contents;
 }
 
@@ -255,6 +258,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
       ->check(within({rendering::StereoRig::kNearestConvergence,
                       rendering::StereoRig::kFarthestConvergence, "mm"}));
   addLightOptions(command, options.light, " (as saved)");
+  addBackgroundOption(command, options.background);
   command.add_flag("--soft-tissue,!--no-soft-tissue", options.softTissue,
                    "Draw what is neither bone nor a structure (as saved); --soft-tissue=PRESET: by "
                    "this preset (soft-tissue, skin; others are made for structures)");
@@ -460,10 +464,12 @@ Result drawForPrint(const Context& context, const RenderOptions& options, const 
   const double elapsed =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   const double magnified = std::max(shot.height / 600.0, 1.0);
-  presenters::addLines(result.picture, presenters::pictureLines(value), magnified);
-  presenters::addEdgeLetters(result.picture, shot.camera, magnified);
+  const presenters::Backdrop backdrop = presenters::backdropOf(options.background);
+  presenters::addLines(result.picture, presenters::pictureLines(value), magnified, backdrop);
+  presenters::addEdgeLetters(result.picture, shot.camera, magnified, backdrop);
   presenters::addScaleBar(result.picture, rendering::millimetresPerPixel(shot.camera, shot.height),
-                          shot.camera.parallelScale ? "" : "in the focal plane", magnified);
+                          shot.camera.parallelScale ? "" : "in the focal plane", magnified,
+                          backdrop);
   const rendering::RenderStatistics statistics = picture.statistics();
   result.resources = picture.resources();
   result.report = {{"milliseconds", elapsed},      {"first_frame_milliseconds", elapsed},
@@ -617,7 +623,8 @@ void render(const Context& context, RenderOptions options)
     rendering::drawThicknessLegend(result.picture, options.thickness,
                                    presenters::kFarthestThickness);
   if (!options.isPrint()) // that has them beneath the side
-    presenters::addLines(result.picture, presenters::pictureNotes(value));
+    presenters::addLines(result.picture, presenters::pictureNotes(value), 1.0,
+                         presenters::backdropOf(options.background));
   warnInterpolated(context, value);
   context.refuseDamaged();
   if (options.isPrint())
@@ -639,6 +646,7 @@ void render(const Context& context, RenderOptions options)
                         {"samples", shot.samples},
                         {"camera", cameraJson(shot.camera)},
                         {"stereo", std::move(stereo)},
+                        {"background", presenters::backgroundText(options.background)},
                         {"thickness", thicknessJson(options)},
                         {"out", options.out},
                         {"left_out", leftOutJson(value, leftOut)},

@@ -5,6 +5,7 @@
 #include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "ViewOptions.h"
 #ifdef PETROUS_PDF
 #include "PdfReport.h"
 #endif
@@ -23,6 +24,7 @@ namespace
 struct Options
 {
   std::string caseName, out, approach, language = "en";
+  rendering::BackgroundColor background = rendering::kDefaultBackground;
   bool keepIdentity = false, withoutDate = false, withoutDamaged = false;
 };
 
@@ -100,6 +102,7 @@ void report(Context& context, const Options& options)
   wanted.language = options.language == "de" ? presenters::ReportLanguage::German
                                              : presenters::ReportLanguage::English;
   wanted.keepIdentity = options.keepIdentity;
+  wanted.background = options.background;
   wanted.withDate = !options.withoutDate;
   wanted.made = core::today();
   wanted.version = PETROUS_VERSION;
@@ -147,6 +150,7 @@ void addReportCommand(CLI::App& app, Context& context)
                    "--list', from 1 (the present one)")
       ->type_name("N");
   command->add_option("--language", options->language, "de or en (en)")->check(oneOf({"de", "en"}));
+  addBackgroundOption(*command, options->background);
   command->add_flag("--keep-identity", options->keepIdentity,
                     "With names and the note as they were typed, and who signed registrations: not "
                     "to be handed on");

@@ -7,6 +7,7 @@
 #include "Context.h"
 #include "Numbers.h"
 #include "petrous/Core/InputFile.h"
+#include "petrous/Presenters/Background.h"
 
 namespace petrous::cli
 {
@@ -209,6 +210,25 @@ void addLightOptions(CLI::App& command, LightOptions& options, const std::string
                   "More opacity of translucent surfaces that are seen from the side, 0 to 1" +
                       defaultText)
       ->check(within({0.0, 1.0}));
+}
+
+void addBackgroundOption(CLI::App& command, rendering::BackgroundColor& color)
+{
+  command
+      .add_option_function<std::string>(
+          "--background",
+          [&color](const std::string& text) { color = *presenters::parseBackground(text); },
+          "Background of the 3D picture: black, dark-grey, light-grey, white or #rrggbb "
+          "(dark-grey)")
+      ->type_name("COLOR")
+      ->check(CLI::Validator(
+          [](std::string& text)
+          {
+            return presenters::parseBackground(text)
+                       ? std::string()
+                       : "black, dark-grey, light-grey, white or #rrggbb, not '" + text + "'";
+          },
+          ""));
 }
 
 } // namespace petrous::cli

@@ -7,6 +7,7 @@
 #include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
 
+#include "petrous/Rendering/SceneContents.h"
 #include "petrous/Scene/Case.h"
 
 namespace petrous::cli
@@ -42,5 +43,8 @@ struct LightOptions
 
 /// `defaultText` ends the help of each, e.g. " (as saved)". The options must outlive the command.
 void addLightOptions(CLI::App& command, LightOptions& options, const std::string& defaultText = {});
+
+/// --background NAME|#rrggbb of pictures; `color` stays as it is where it is not given.
+void addBackgroundOption(CLI::App& command, rendering::BackgroundColor& color);
 
 } // namespace petrous::cli

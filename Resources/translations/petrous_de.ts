@@ -5152,6 +5152,38 @@ Verletzt: %1, %2</translation>
         <source>Translucent surfaces are more opaque where they are seen from the side, as a shell is, so that they keep their shape</source>
         <translation>Durchscheinende Oberflächen sind dort, wo man sie von der Seite sieht, deckender, wie eine Schale, sodass sie ihre Form behalten</translation>
     </message>
+    <message>
+        <source>Of the 3D view: what is beside the patient. The slices stay black, and bone and structures as bright as they are</source>
+        <translation>Der 3D-Ansicht: was neben dem Patienten zu sehen ist. Die Schnitte bleiben schwarz, Knochen und Strukturen so hell, wie sie sind</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>Schwarz</translation>
+    </message>
+    <message>
+        <source>Dark grey</source>
+        <translation>Dunkelgrau</translation>
+    </message>
+    <message>
+        <source>Light grey</source>
+        <translation>Hellgrau</translation>
+    </message>
+    <message>
+        <source>White</source>
+        <translation>Weiß</translation>
+    </message>
+    <message>
+        <source>Other colour…</source>
+        <translation>Andere Farbe…</translation>
+    </message>
+    <message>
+        <source>Background of the 3D view</source>
+        <translation>Hintergrund der 3D-Ansicht</translation>
+    </message>
+    <message>
+        <source>Bac&amp;kground</source>
+        <translation>Hinte&amp;rgrund</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::PreviewBar</name>
@@ -5225,6 +5257,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>%1 x %2 pixels, of the 3D view with scale bar, side and the patient&apos;s directions. Measurements, bone thickness and tool are left out.</source>
         <translation>%1 x %2 Pixel, die 3D-Ansicht mit Maßstab, Seite und den Richtungen des Patienten. Messungen, Knochendicke und Werkzeug fehlen darin.</translation>
+    </message>
+    <message>
+        <source>&amp;Background:</source>
+        <translation>&amp;Hintergrund:</translation>
     </message>
 </context>
 <context>
@@ -6385,6 +6421,10 @@ Verletzt: %1, %2</translation>
         <source>Without:</source>
         <translation>Ohne:</translation>
     </message>
+    <message>
+        <source>&amp;Background:</source>
+        <translation>&amp;Hintergrund:</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::SceneDisplay</name>
@@ -7368,6 +7408,18 @@ Verletzt: %1, %2</translation>
     <message>
         <source>There is no such folder.</source>
         <translation>Diesen Ordner gibt es nicht.</translation>
+    </message>
+    <message>
+        <source>As in the 3D view</source>
+        <translation>Wie in der 3D-Ansicht</translation>
+    </message>
+    <message>
+        <source>White</source>
+        <translation>Weiß</translation>
+    </message>
+    <message>
+        <source>White saves ink, and goes with the paper</source>
+        <translation>Weiß spart Tinte und passt zum Papier</translation>
     </message>
 </context>
 <context>

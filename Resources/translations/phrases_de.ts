@@ -1560,8 +1560,28 @@
         <translation>keine</translation>
     </message>
     <message>
+        <source>background</source>
+        <translation>Hintergrund</translation>
+    </message>
+    <message>
         <source>light falloff</source>
         <translation>Lichtabfall</translation>
+    </message>
+    <message>
+        <source>wetness</source>
+        <translation>Nässe</translation>
+    </message>
+    <message>
+        <source>exposure</source>
+        <translation>Belichtung</translation>
+    </message>
+    <message>
+        <source>edges</source>
+        <translation>Kanten</translation>
+    </message>
+    <message>
+        <source>shadows</source>
+        <translation>Schatten</translation>
     </message>
     <message>
         <source>soft highlights</source>
@@ -3094,6 +3114,18 @@
     <message>
         <source>%1, but all of the image lies %2.</source>
         <translation>%1, das ganze Bild liegt aber %2.</translation>
+    </message>
+    <message>
+        <source>about %#1 s left</source>
+        <translation>noch etwa %#1 s</translation>
+    </message>
+    <message>
+        <source>about %#1 min left</source>
+        <translation>noch etwa %#1 min</translation>
+    </message>
+    <message>
+        <source>about %#1 h %#2 min left</source>
+        <translation>noch etwa %#1 h %#2 min</translation>
     </message>
 </context>
 <context>

@@ -50,6 +50,28 @@ TEST(ViewSettings, ExposureAndToneCurveComeBackFromASavedView)
   EXPECT_EQ(copy.light().edges, 0.0);
 }
 
+// It is the user's: a case that is shown neither has nor changes it.
+TEST(ViewSettings, TheBackgroundIsNotOfASavedView)
+{
+  using petrous::rendering::BackgroundColor;
+  ViewSettings settings;
+  int backgrounds = 0;
+  settings.events.backgroundChanged = [&backgrounds] { ++backgrounds; };
+  EXPECT_EQ(settings.background(), petrous::rendering::kDefaultBackground);
+  settings.setBackground({1.0, 1.0, 1.0});
+  settings.setBackground({1.0, 1.0, 1.0});
+  EXPECT_EQ(backgrounds, 1);
+  petrous::scene::ViewState view;
+  view.light.emplace();
+  settings.take(view, false);
+  EXPECT_EQ(settings.background(), (BackgroundColor{1.0, 1.0, 1.0}));
+  ViewSettings copy;
+  copy.take(settings);
+  EXPECT_EQ(copy.background(), (BackgroundColor{1.0, 1.0, 1.0}));
+  settings.setBackground({-1.0, 0.5, 7.0});
+  EXPECT_EQ(settings.background(), (BackgroundColor{0.0, 0.5, 1.0}));
+}
+
 TEST(ViewSettings, HoldsValuesWithinTheirLimits)
 {
   ViewSettings settings;

@@ -15,6 +15,7 @@
 #include "ThreeDView.h"
 #include "WindowTexts.h"
 #include "petrous/Library/Attachments.h"
+#include "petrous/Presenters/Background.h"
 #include "petrous/Presenters/IdentityText.h"
 
 namespace petrous::workstation
@@ -155,7 +156,8 @@ void AttachmentsController::attachScreenshot()
       {
         QImage picture = m_view.grabFramebuffer().convertToFormat(QImage::Format_RGB32);
         drawStamp(picture, stampText(presenters::leavingStampOf(m_model.value())),
-                  m_view.display().stereo() == rendering::StereoMode::SideBySide);
+                  m_view.display().stereo() == rendering::StereoMode::SideBySide,
+                  presenters::backdropOf(m_view.display().background()));
         picture.convertToFormat(QImage::Format_RGB888).save(&buffer, "PNG");
         add(library::screenshotOf({png.begin(), png.end()}, {}));
       },

@@ -304,11 +304,12 @@ void CaseDocumentController::connectBanners()
   m_loading.addButton("loadStructures", tr("Prepare them"), [this] { prepare(); });
   m_loading.addButton("cancelLoading", tr("Cancel"), [this] { m_preparation.cancel(); });
   connect(&m_preparation, &BackgroundWork::progressed, this,
-          [this](double fraction, const QString& text)
+          [this](double fraction, const QString& text, const QString& left)
           {
-            m_loading.setText(tr("The structures are being prepared: %1, %2 %")
-                                  .arg(text)
-                                  .arg(numberText(100.0 * fraction, 0)));
+            m_loading.setText(withTimeLeft(tr("The structures are being prepared: %1, %2 %")
+                                               .arg(text)
+                                               .arg(numberText(100.0 * fraction, 0)),
+                                           left));
           });
   const auto without = [this](const QString& why)
   {
@@ -461,10 +462,11 @@ void CaseDocumentController::work(const QString& title, BackgroundWork::Work wor
               m_progress->setLabelText(tr("Stopping…"));
           });
   connect(&m_work, &BackgroundWork::progressed, m_progress.get(),
-          [this](double fraction, const QString& text)
+          [this, title](double fraction, const QString& text, const QString& left)
           {
-            if (!text.isEmpty())
-              m_progress->setLabelText(capitalized(text) + "…");
+            if (!text.isEmpty() || !left.isEmpty())
+              m_progress->setLabelText(
+                  withTimeLeft((text.isEmpty() ? title : capitalized(text)) + "…", left));
             // Processes events, so the task may end here.
             m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
           });

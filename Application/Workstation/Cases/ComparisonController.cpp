@@ -26,10 +26,10 @@ ComparisonController::ComparisonController(presenters::WorkstationModel& model, 
   m_again.setInterval(kAgainAfter);
   connect(&m_again, &QTimer::timeout, this, &ComparisonController::start);
   connect(&m_work, &BackgroundWork::progressed, this,
-          [this](double fraction)
+          [this](double fraction, const QString&, const QString& left)
           {
             if (m_window)
-              m_window->setProgress(fraction);
+              m_window->setProgress(fraction, left);
           });
   connect(&m_work, &BackgroundWork::cancelled, this,
           [this]
@@ -95,7 +95,7 @@ void ComparisonController::start()
   for (const auto& branch : history.branches())
     names.push_back(branch.name);
   m_window->setApproaches(names, {m_first, m_second});
-  m_window->setProgress(0.0);
+  m_window->setProgress(0.0, {});
   m_work.replace(
       [this, value = scene::Case(m_model.value()), first = m_first,
        second = m_second](const core::Progress& progress) -> BackgroundWork::Reply

@@ -213,8 +213,9 @@ void ComparisonWindow::setCamera(const core::CameraPose& camera)
   m_views[0]->setCamera(camera);
 }
 
-void ComparisonWindow::setProgress(double fraction)
+void ComparisonWindow::setProgress(double fraction, const QString& left)
 {
+  m_progress->setFormat(withTimeLeft(tr("Comparing, %p %"), left));
   m_progress->setValue(percent(fraction));
   showWork(true, {});
 }

@@ -34,7 +34,7 @@ public:
                      const std::array<std::string, 2>& chosen);
   void setStamp(const QString& text);
   void setCamera(const core::CameraPose& camera);
-  void setProgress(double fraction); ///< of comparing
+  void setProgress(double fraction, const QString& left); ///< of comparing
   void fail(const QString& why);
   void stop(); ///< comparing was cancelled
   /// `contents`: the scene of the case; its mask is not used.

@@ -4,6 +4,8 @@
 
 #include <QLabel>
 
+#include "WindowTexts.h"
+
 namespace petrous::workstation
 {
 
@@ -14,8 +16,11 @@ PreviewBar::PreviewBar(QLabel& fault, QWidget* parent)
   setObjectName("previewProgress");
   setRange(0, 1000);
   connect(m_work.get(), &BackgroundWork::progressed, this,
-          [this](double fraction, const QString&)
-          { setValue(static_cast<int>(std::lround(1000.0 * fraction))); });
+          [this](double fraction, const QString&, const QString& left)
+          {
+            setFormat(withTimeLeft("%p%", left));
+            setValue(static_cast<int>(std::lround(1000.0 * fraction)));
+          });
   connect(m_work.get(), &BackgroundWork::failed, this,
           [this, &fault](const QString& why)
           {

@@ -96,8 +96,9 @@ DeviceTestDialog::DeviceTestDialog(presenters::DeviceSources sources, presenters
   connect(m_start, &QPushButton::clicked, this, &DeviceTestDialog::startOrStop);
   connect(m_keep, &QPushButton::clicked, this, &DeviceTestDialog::keep);
   connect(&m_work, &BackgroundWork::progressed, this,
-          [this](double fraction, const QString& text)
+          [this](double fraction, const QString& text, const QString& left)
           {
+            m_progress->setFormat(withTimeLeft("%p%", left));
             m_progress->setValue(static_cast<int>(kSteps * fraction));
             m_advice->setText(sentence(text));
           });

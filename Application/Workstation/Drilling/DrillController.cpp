@@ -100,9 +100,10 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
                           .arg(file));
           });
   connect(&m_reading, &BackgroundWork::progressed, this,
-          [this](double fraction) {
-            emit statusMessage(
-                tr("Reading the instrument… %1 %").arg(numberText(100.0 * fraction, 0)));
+          [this](double fraction, const QString&, const QString& left)
+          {
+            emit statusMessage(withTimeLeft(
+                tr("Reading the instrument… %1 %").arg(numberText(100.0 * fraction, 0)), left));
           });
   m_frames.setInterval(kFrame);
   connect(&m_frames, &QTimer::timeout, this, &DrillController::frame);

@@ -35,7 +35,7 @@ void setLook(vtkTextActor& actor)
   look->SetFontSize(kReadingSize);
   look->SetColor(0.93, 0.95, 0.98);
   look->SetBackgroundColor(0.06, 0.07, 0.09);
-  look->SetBackgroundOpacity(0.55);
+  look->SetBackgroundOpacity(0.75); // legible on a white background, too
   look->SetLineSpacing(1.2);
 }
 
@@ -71,7 +71,6 @@ TouchOverlay::TouchOverlay(vtkRenderer& renderer, const rendering::ToolPose& for
   setLook(*m_warning);
   vtkTextProperty* warning = m_warning->GetTextProperty();
   warning->SetColor(1.0, 0.78, 0.35);
-  warning->SetBackgroundOpacity(0.75);
   warning->BoldOn();
   warning->SetJustificationToCentered();
   warning->SetVerticalJustificationToTop();

@@ -140,8 +140,11 @@ MeasureController::MeasureController(presenters::WorkstationModel& model, SliceC
   m_editor.inLanguage = [](const std::string& name) { return bytes(phrase(name)); };
   m_editor.inBackground = [this](MeasurementEditor::Work work) { compute(std::move(work)); };
   connect(m_computing.get(), &BackgroundWork::progressed, this,
-          [this](double fraction)
-          { emit statusMessage(tr("Measuring: %1 %").arg(static_cast<int>(100.0 * fraction))); });
+          [this](double fraction, const QString&, const QString& left)
+          {
+            emit statusMessage(
+                withTimeLeft(tr("Measuring: %1 %").arg(static_cast<int>(100.0 * fraction)), left));
+          });
   connect(m_computing.get(), &BackgroundWork::failed, this,
           [this](const QString& why)
           {

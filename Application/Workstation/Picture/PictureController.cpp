@@ -50,6 +50,8 @@ PictureController::PictureController(presenters::WorkstationModel& model, ThreeD
   kept.restore(m_settings, quadBuffer);
   m_view.display().setLight(m_settings.light());
   m_lightBefore = m_settings.lightState();
+  m_backgroundBefore = m_settings.background();
+  m_view.display().setBackground(m_backgroundBefore);
   applyStereo();
   m_panel->settingsChanged();
   const auto changed = [this](auto what)
@@ -63,6 +65,7 @@ PictureController::PictureController(presenters::WorkstationModel& model, ThreeD
     };
   };
   m_settings.events.lightChanged = changed([this] { lightChanged(); });
+  m_settings.events.backgroundChanged = changed([this] { backgroundChanged(); });
   m_settings.events.stereoChanged = changed([this] { applyStereo(); });
   connect(m_actions.stereo, &QActionGroup::triggered, this,
           [this](QAction* action)
@@ -128,23 +131,45 @@ void PictureController::showView(const scene::ViewState& view)
 }
 
 // A step of undo, unless a case is being shown. Stereo is none: it is of the screen.
+void PictureController::noteStep(const std::string& what, const std::string& merged,
+                                 const std::function<void()>& undo,
+                                 const std::function<void()>& redo)
+{
+  if (m_isShowing || m_isStepping || !m_model.hasCase())
+    return;
+  const auto step = [this](const std::function<void()>& set)
+  {
+    return [this, set]
+    {
+      const QScopedValueRollback<bool> stepping(m_isStepping, true);
+      set();
+    };
+  };
+  m_model.edits().did({what, merged, step(undo), step(redo)});
+  if (m_model.events.stateChanged)
+    m_model.events.stateChanged();
+}
+
+void PictureController::backgroundChanged()
+{
+  const rendering::BackgroundColor after = m_settings.background();
+  const rendering::BackgroundColor before = std::exchange(m_backgroundBefore, after);
+  m_view.display().setBackground(after);
+  noteStep(
+      presenters::backgroundEdit(), {}, [this, before] { m_settings.setBackground(before); },
+      [this, after] { m_settings.setBackground(after); });
+}
+
 void PictureController::lightChanged()
 {
   m_view.display().setLight(m_settings.light());
   const scene::ViewState::Light after = m_settings.lightState();
   const scene::ViewState::Light before = std::exchange(m_lightBefore, after);
-  if (m_isShowing || m_isStepping || !m_model.hasCase())
-    return;
-  const auto set = [this](const scene::ViewState::Light& light)
-  {
-    const QScopedValueRollback<bool> stepping(m_isStepping, true);
-    m_settings.setLight(light);
-  };
   const presenters::LightEdit edit = presenters::lightEdit(before, after);
-  m_model.edits().did({edit.what, edit.isContinuous ? "light\n" + edit.what : std::string(),
-                       [set, before] { set(before); }, [set, after] { set(after); }});
-  if (m_model.events.stateChanged)
-    m_model.events.stateChanged();
+  noteStep(
+      edit.what, edit.isContinuous ? "light\n" + edit.what : std::string(),
+      [this, before] { m_settings.setLight(before); },
+      [this, after] { m_settings.setLight(after); });
 }
 
 void PictureController::showScene()

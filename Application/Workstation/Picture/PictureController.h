@@ -22,13 +22,14 @@ class ThreeDView;
 class WindowActions;
 class WindowSettings;
 
-/// Lamp, stereo and the surgeon's window; frame rate, and handling of rendering failures.
+/// Lamp, background, stereo and the surgeon's window; frame rate, and handling of rendering
+/// failures.
 class PictureController : public QObject
 {
   Q_OBJECT
 public:
-  /// Connects the stereo and surgeon's window actions of `actions`. Lamp and stereo are restored
-  /// from and stored in `kept`.
+  /// Connects the stereo and surgeon's window actions of `actions`. Lamp, background and stereo are
+  /// restored from and stored in `kept`.
   PictureController(presenters::WorkstationModel& model, ThreeDView& view, WindowActions& actions,
                     WindowSettings& kept, QWidget& window, bool quadBuffer);
   ~PictureController() override;
@@ -62,6 +63,9 @@ protected:
 private:
   void showScene();
   void lightChanged();
+  void backgroundChanged();
+  void noteStep(const std::string& what, const std::string& merged,
+                const std::function<void()>& undo, const std::function<void()>& redo);
   void openSurgeonWindow();
   void applyStereo();
   void showSpeed(double milliseconds, double scale, bool moving);
@@ -76,9 +80,10 @@ private:
   bool m_isShowing = false;   ///< a case's settings, which are not the user's
   bool m_isAnnounced = false; ///< a picture whose scene is not there yet
   bool m_isFirst = false;     ///< the picture that is drawn next, after it was announced
-  bool m_isStepping = false;  ///< undo or redo of a change of the light
+  bool m_isStepping = false;  ///< undo or redo of a change of light or background
   presenters::ViewSettings m_settings;
   scene::ViewState::Light m_lightBefore; ///< as it was shown last
+  rendering::BackgroundColor m_backgroundBefore;
   PicturePanel* m_panel;
   QLabel* m_speed;
   QPointer<SurgeonWindow> m_surgeon;

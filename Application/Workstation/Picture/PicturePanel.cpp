@@ -1,6 +1,9 @@
 #include "PicturePanel.h"
 
+#include <algorithm>
+
 #include <QCheckBox>
+#include <QColorDialog>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
@@ -9,6 +12,7 @@
 #include <QSlider>
 
 #include "WindowTexts.h"
+#include "petrous/Presenters/Background.h"
 #include "petrous/Presenters/BoneOpacity.h"
 #include "petrous/Presenters/SceneAssembly.h"
 
@@ -111,6 +115,7 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
         m_bound.refresh(); // not while drilling
       });
   form->addRow(QString(), m_softTissue);
+  addBackground(form);
   addStereo(form, quadBuffer);
   showSoftTissue();
   settingsChanged();
@@ -125,6 +130,37 @@ void PicturePanel::addCheck(QFormLayout* form, const QString& name, const char* 
   box->setToolTip(tip);
   m_bound.add(box, get, set);
   form->addRow(QString(), box);
+}
+
+void PicturePanel::addBackground(QFormLayout* form)
+{
+  auto* box = choiceBox("background", tr("Of the 3D view: what is beside the patient. The slices "
+                                         "stay black, and bone and structures as bright as they "
+                                         "are"));
+  for (const QString& name : {tr("Black"), tr("Dark grey"), tr("Light grey"), tr("White")})
+    box->addItem(name);
+  box->addItem(tr("Other colour…"));
+  const auto row = [this]
+  {
+    const auto found =
+        std::find_if(presenters::kBackgrounds.begin(), presenters::kBackgrounds.end(),
+                     [this](const presenters::NamedBackground& one)
+                     { return one.color == m_settings.background(); });
+    return static_cast<int>(found - presenters::kBackgrounds.begin());
+  };
+  const auto set = [this](int chosen)
+  {
+    if (const auto index = static_cast<std::size_t>(chosen);
+        index < presenters::kBackgrounds.size())
+      return m_settings.setBackground(presenters::kBackgrounds[index].color);
+    const rendering::BackgroundColor& now = m_settings.background();
+    const QColor color =
+        QColorDialog::getColor(QColor::fromRgbF(now[0], now[1], now[2]), this,
+                               tr("Background of the 3D view"), QColorDialog::DontUseNativeDialog);
+    if (color.isValid())
+      m_settings.setBackground({color.redF(), color.greenF(), color.blueF()});
+  };
+  form->addRow(tr("Bac&kground"), m_bound.add(box, row, set));
 }
 
 void PicturePanel::addStereo(QFormLayout* form, bool quadBuffer)

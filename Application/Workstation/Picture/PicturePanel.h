@@ -13,7 +13,7 @@ class QSlider;
 namespace petrous::workstation
 {
 
-/// Rendering settings: bone, lamp, stereo. Every number has its unit.
+/// Rendering settings: bone, lamp, background, stereo. Every number has its unit.
 class PicturePanel : public Panel
 {
   Q_OBJECT
@@ -30,6 +30,7 @@ private:
   void addCheck(QFormLayout* form, const QString& name, const char* objectName, const QString& tip,
                 const Bindings::Get<bool>& get, const Bindings::Set<bool>& set);
   void addPercent(QFormLayout* form, const QString& name, QSlider* slider);
+  void addBackground(QFormLayout* form);
   void addStereo(QFormLayout* form, bool quadBuffer);
   void setBoneOpacity(double opacity);
 

@@ -110,6 +110,7 @@ void SceneDisplay::setContents(const rendering::SceneContents& contents)
 {
   rendering::SceneContents next = contents;
   next.light = m_light;
+  next.background = m_background;
   next.tool = m_contents.tool;
   m_picture.setContents(next);
   m_contents = std::move(next);
@@ -123,6 +124,14 @@ void SceneDisplay::setLight(const rendering::LightSettings& light)
   m_light = light;
   if (m_follower)
     m_follower->m_light = light; // setContents passes on the contents
+  setContents(m_contents);
+}
+
+void SceneDisplay::setBackground(const rendering::BackgroundColor& color)
+{
+  m_background = color;
+  if (m_follower)
+    m_follower->m_background = color;
   setContents(m_contents);
 }
 
@@ -274,6 +283,7 @@ void SceneDisplay::setFollower(SceneDisplay* follower)
   follower->m_follows = true;
   follower->setRate();
   follower->m_light = m_light;
+  follower->m_background = m_background;
   follower->m_contents.tool = m_contents.tool;
   follower->m_warning = m_warning;
   if (m_measures)

@@ -56,10 +56,12 @@ public:
   rendering::ScenePicture& picture() noexcept { return m_picture; }
   const rendering::ScenePicture& picture() const noexcept { return m_picture; }
 
-  /// Keeps light and tool. Throws RenderingError BadContents.
+  /// Keeps light, background and tool. Throws RenderingError BadContents.
   void setContents(const rendering::SceneContents& contents);
   const rendering::SceneContents& contents() const noexcept { return m_contents; }
   void setLight(const rendering::LightSettings& light);
+  void setBackground(const rendering::BackgroundColor& color);
+  const rendering::BackgroundColor& background() const noexcept { return m_background; }
   void setTool(const std::optional<rendering::ToolPose>& tool);
   const std::optional<rendering::ToolPose>& tool() const noexcept { return m_contents.tool; }
   /// The tool with its force, from the servo; redrawn if it changed.
@@ -121,6 +123,7 @@ private:
   std::unique_ptr<rendering::StereoPicture> m_stereo; // destroyed before m_picture
   rendering::SceneContents m_contents;                // of the last setContents, kept up to date
   rendering::LightSettings m_light;
+  rendering::BackgroundColor m_background = rendering::kDefaultBackground;
   std::unique_ptr<MeasureOverlay> m_measures; // destroyed before m_renderer
   std::unique_ptr<TouchOverlay> m_touch;      // while a tool is in use; destroyed before m_renderer
   std::unique_ptr<GhostOverlay> m_ghostOverlay; // destroyed before m_renderer

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <QApplication>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMouseEvent>
 #include <QRegion>
+#include <QStyle>
 
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
@@ -18,6 +20,7 @@
 #include "petrous/Interaction/CameraStyle.h"
 #include "petrous/Interaction/OrbitCamera.h"
 #include "petrous/Interaction/RendererPickRay.h"
+#include "petrous/Presenters/Background.h"
 
 namespace petrous::workstation
 {
@@ -198,8 +201,26 @@ void ThreeDView::showFocusFrame()
                            m_display->stereo() == rendering::StereoMode::None);
 }
 
+// Letters and their plates are those of the theme on a dark one.
+void ThreeDView::followBackground()
+{
+  const bool isOnLight =
+      presenters::backdropOf(m_display->background()) == presenters::Backdrop::Light;
+  if (isOnLight == std::exchange(m_isOnLight, isOnLight))
+    return;
+  std::vector<QLabel*> labels(m_letters.begin(), m_letters.end());
+  labels.insert(labels.end(), {m_stamp, m_notes});
+  for (QLabel* label : labels)
+  {
+    label->setProperty("onLight", isOnLight);
+    label->style()->unpolish(label);
+    label->style()->polish(label);
+  }
+}
+
 void ThreeDView::placeLetters()
 {
+  followBackground();
   showFocusFrame();
   // In stereo they would float in front of or behind the patient.
   const bool mono = m_display->stereo() == rendering::StereoMode::None;

@@ -77,6 +77,7 @@ private:
   void followClick(const QMouseEvent& event);
   void sendWheel(const QWheelEvent& event);
   void placeLetters();
+  void followBackground();
   void placeStamp();
   void placeNotes();
   void placeFocusFrame();
@@ -96,7 +97,8 @@ private:
   bool m_isFocused = false;
   bool m_cameByTab = false; // the focus, also while another window or a menu has it
   QStringList m_noteLines;
-  int m_covered = 0; // px, from the upper edge
+  int m_covered = 0;        // px, from the upper edge
+  bool m_isOnLight = false; // letters, by the background
 };
 
 } // namespace petrous::workstation

@@ -374,10 +374,10 @@ void RegistrationPanel::setRunning(bool running)
   enable();
 }
 
-void RegistrationPanel::setProgress(double fraction, const QString& text)
+void RegistrationPanel::setProgress(double fraction, const QString& text, const QString& left)
 {
   m_progress->setValue(static_cast<int>(1000.0 * fraction));
-  m_progress->setFormat(text);
+  m_progress->setFormat(withTimeLeft(text, left));
 }
 
 void RegistrationPanel::setMetric(const QString& text)

@@ -36,7 +36,7 @@ public:
   void refresh(); ///< registration, landmarks, undo state
   void setOverlay(const std::optional<presenters::OverlayMode>& mode, double opacity);
   void setRunning(bool running);
-  void setProgress(double fraction, const QString& text);
+  void setProgress(double fraction, const QString& text, const QString& left);
   void setMetric(const QString& text); ///< at the current registration
   void say(const QString& line);       ///< an error, or what to do next; empty: nothing
   void openPoints();

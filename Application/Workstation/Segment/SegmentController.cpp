@@ -28,6 +28,7 @@
 #include "SliceView.h"
 #include "Theme.h"
 #include "WindowTexts.h"
+#include "petrous/Presenters/TimeLeft.h"
 
 namespace petrous::workstation
 {
@@ -457,7 +458,7 @@ void SegmentController::askWork()
 
 void SegmentController::run(SegmentEditor::Work work, bool step)
 {
-  m_panel->setProgress(0.0, {});
+  m_panel->setProgress(0.0, {}, {});
   m_work->start([work = std::move(work)](const core::Progress& progress) -> BackgroundWork::Reply
                 { return work(progress); });
   if (step)
@@ -547,10 +548,9 @@ bool SegmentController::finish(SegmentEditor::Work work)
 {
   using namespace std::chrono_literals;
   const auto token = std::make_shared<core::CancelToken>();
-  std::atomic<int> percent{0};
-  const core::Progress progress([&percent](double fraction, const std::string&)
-                                { percent = static_cast<int>(100.0 * fraction); },
-                                token);
+  std::atomic<double> reached{0.0};
+  const core::Progress progress(
+      [&reached](double fraction, const std::string&) { reached = fraction; }, token);
   auto done = std::async(std::launch::async, [&] { return work(progress); });
   if (done.wait_for(100ms) != std::future_status::ready)
   {
@@ -561,6 +561,7 @@ bool SegmentController::finish(SegmentEditor::Work work)
     dialog.setAutoReset(false);
     QEventLoop loop;
     QTimer timer;
+    presenters::TimeLeft time;
     connect(&dialog, &QProgressDialog::canceled, &loop, [&token] { token->cancel(); });
     connect(&timer, &QTimer::timeout, &loop,
             [&]
@@ -568,7 +569,14 @@ bool SegmentController::finish(SegmentEditor::Work work)
               if (done.wait_for(0ms) == std::future_status::ready)
                 loop.quit();
               else if (!token->isCancelled())
-                dialog.setValue(percent);
+              {
+                const double fraction = reached;
+                const double now = presenters::steadySeconds();
+                time.report(fraction, now);
+                dialog.setLabelText(withTimeLeft(
+                    tr("Computing the draft…"), phrase(presenters::timeLeftText(time.shown(now)))));
+                dialog.setValue(static_cast<int>(100.0 * fraction));
+              }
             });
     timer.start(20ms);
     loop.exec();
@@ -603,8 +611,13 @@ void SegmentController::awaitStep()
   QEventLoop loop;
   QTimer timer;
   connect(&dialog, &QProgressDialog::canceled, m_work.get(), &BackgroundWork::cancel);
-  connect(m_work.get(), &BackgroundWork::progressed, &dialog,
-          [&dialog](double fraction) { dialog.setValue(static_cast<int>(100.0 * fraction)); });
+  connect(
+      m_work.get(), &BackgroundWork::progressed, &dialog,
+      [&dialog, label = dialog.labelText()](double fraction, const QString&, const QString& left)
+      {
+        dialog.setLabelText(withTimeLeft(label, left));
+        dialog.setValue(static_cast<int>(100.0 * fraction));
+      });
   connect(&timer, &QTimer::timeout, &loop,
           [&]
           {

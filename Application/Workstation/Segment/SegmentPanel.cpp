@@ -543,10 +543,10 @@ void SegmentPanel::focusName()
   m_name->selectAll();
 }
 
-void SegmentPanel::setProgress(double fraction, const QString& text)
+void SegmentPanel::setProgress(double fraction, const QString& text, const QString& left)
 {
   m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
-  m_progress->setFormat(text);
+  m_progress->setFormat(withTimeLeft(text, left));
 }
 
 void SegmentPanel::complain(const QString& line)

@@ -40,7 +40,7 @@ public:
   void refresh();
   void showWork(bool works);
   void showVolume(); ///< alone, while a stroke is painted
-  void setProgress(double fraction, const QString& text);
+  void setProgress(double fraction, const QString& text, const QString& left);
   void partsChanged() override;
   void say(const QString& line);      ///< what was done; empty: nothing
   void withdraw(const QString& line); ///< if it was said last

@@ -17,6 +17,7 @@
 #include "WindowTexts.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Library/LibraryFiles.h"
+#include "petrous/Presenters/Background.h"
 #include "petrous/Presenters/CameraPaths.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/FilmFile.h"
@@ -31,11 +32,14 @@ namespace
 {
 
 // As the window draws it, but for tool and thickness.
-rendering::SceneContents contentsOf(const scene::Case& value, const core::Progress& progress)
+rendering::SceneContents contentsOf(const scene::Case& value,
+                                    const rendering::BackgroundColor& background,
+                                    const core::Progress& progress)
 {
   rendering::SceneContents contents = presenters::sceneContents(value, progress);
   presenters::illuminate(contents, value.view.light);
   presenters::clip(contents, value.view.clipping, value.ct.geometry);
+  contents.background = background;
   return contents;
 }
 
@@ -124,7 +128,7 @@ void ShareController::report()
 {
   if (!mayBegin())
     return;
-  ReportDialog dialog(m_model.value(), m_model.leftOut(), &m_window);
+  ReportDialog dialog(m_model.value(), m_view.display().background(), m_model.leftOut(), &m_window);
   if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
     return;
   m_keeper.run(tr("Writing the report"),
@@ -163,32 +167,35 @@ void ShareController::printPicture()
   if (!mayBegin())
     return;
   PrintDialog dialog(m_model.value(),
-                     static_cast<double>(m_view.height()) / std::max(m_view.width(), 1), &m_window);
+                     static_cast<double>(m_view.height()) / std::max(m_view.width(), 1),
+                     m_view.display().background(), &m_window);
   if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
     return;
-  m_keeper.run(tr("Drawing the picture"),
-               [this, value = shown(), size = dialog.size(), samples = dialog.samples(),
-                file = dialog.file(), library = m_model.library()](
-                   const core::Progress& progress) -> BackgroundWork::Reply
-               {
-                 constexpr int kTile = 1024; // pixels
-                 library::refuseOverwriting(file, library.folder());
-                 rendering::ScenePicture scene;
-                 scene.setContents(contentsOf(value, progress.part(0.0, 0.1)));
-                 rendering::Picture picture =
-                     rendering::renderTiled(scene, *value.camera, size.width(), size.height(),
-                                            progress.part(0.1, 0.95), kTile, samples);
-                 const double magnified = std::max(size.height() / 600.0, 1.0);
-                 presenters::addLines(picture, linesOf(value), magnified);
-                 presenters::addEdgeLetters(picture, *value.camera, magnified);
-                 presenters::addScaleBar(
-                     picture, rendering::millimetresPerPixel(*value.camera, size.height()),
-                     value.camera->parallelScale ? "" : "in the focal plane", magnified);
-                 library.checkVoxels(value, progress);
-                 const auto png = rendering::pngOf(picture, size.dotsPerInch);
-                 core::writeFile(file, {reinterpret_cast<const char*>(png.data()), png.size()});
-                 return [this, file] { done(file, tr("The picture is written"), false); };
-               });
+  m_keeper.run(
+      tr("Drawing the picture"),
+      [this, value = shown(), size = dialog.size(), samples = dialog.samples(),
+       background = dialog.background(), file = dialog.file(),
+       library = m_model.library()](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        constexpr int kTile = 1024; // pixels
+        library::refuseOverwriting(file, library.folder());
+        rendering::ScenePicture scene;
+        scene.setContents(contentsOf(value, background, progress.part(0.0, 0.1)));
+        rendering::Picture picture =
+            rendering::renderTiled(scene, *value.camera, size.width(), size.height(),
+                                   progress.part(0.1, 0.95), kTile, samples);
+        const double magnified = std::max(size.height() / 600.0, 1.0);
+        const presenters::Backdrop backdrop = presenters::backdropOf(background);
+        presenters::addLines(picture, linesOf(value), magnified, backdrop);
+        presenters::addEdgeLetters(picture, *value.camera, magnified, backdrop);
+        presenters::addScaleBar(
+            picture, rendering::millimetresPerPixel(*value.camera, size.height()),
+            value.camera->parallelScale ? "" : "in the focal plane", magnified, backdrop);
+        library.checkVoxels(value, progress);
+        const auto png = rendering::pngOf(picture, size.dotsPerInch);
+        core::writeFile(file, {reinterpret_cast<const char*>(png.data()), png.size()});
+        return [this, file] { done(file, tr("The picture is written"), false); };
+      });
 }
 
 void ShareController::film()
@@ -201,7 +208,7 @@ void ShareController::film()
   m_keeper.run(
       tr("Drawing the film"),
       [this, value = shown(), along = dialog.along(), frames = dialog.frames(),
-       file = dialog.file(),
+       background = m_view.display().background(), file = dialog.file(),
        library = m_model.library()](const core::Progress& progress) mutable -> BackgroundWork::Reply
       {
         library::refuseOverwriting(file, library.folder());
@@ -211,7 +218,8 @@ void ShareController::film()
         presenters::FilmOptions film;
         film.removesAnyBeyond = true; // FilmDialog::files, which the user was asked about
         film.lines = linesOf(value);
-        const rendering::SceneContents contents = contentsOf(value, progress.part(0.05, 0.1));
+        const rendering::SceneContents contents =
+            contentsOf(value, background, progress.part(0.05, 0.1));
         library.checkVoxels(value, progress); // before the first frame is there
         presenters::writeFilm(file, contents, cameras, film, progress.part(0.1, 1.0));
         return [this, file] { done(file, tr("The film is written"), false); };

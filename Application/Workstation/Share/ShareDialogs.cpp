@@ -62,6 +62,22 @@ QStringList withheldFrom(const scene::Case& value, const std::vector<std::string
   return lines;
 }
 
+QComboBox* backgroundBox(const char* name)
+{
+  auto* box = new QComboBox;
+  box->setObjectName(name);
+  box->addItem(ShareDialog::tr("As in the 3D view"));
+  box->addItem(ShareDialog::tr("White"));
+  box->setToolTip(ShareDialog::tr("White saves ink, and goes with the paper"));
+  return box;
+}
+
+rendering::BackgroundColor chosenBackground(const QComboBox& box,
+                                            const rendering::BackgroundColor& ofView)
+{
+  return box.currentIndex() == 1 ? rendering::BackgroundColor{1.0, 1.0, 1.0} : ofView;
+}
+
 } // namespace
 
 ShareDialog::ShareDialog(const char* name, const QString& title, const QString& accept,
@@ -129,11 +145,13 @@ void ShareDialog::askAndAccept()
     accept();
 }
 
-ReportDialog::ReportDialog(const scene::Case& value, const std::vector<std::string>& leftOut,
-                           QWidget* parent)
+ReportDialog::ReportDialog(const scene::Case& value, const rendering::BackgroundColor& ofView,
+                           const std::vector<std::string>& leftOut, QWidget* parent)
   : ShareDialog("planReport", tr("Report of the plan"), tr("&Write the report"), parent)
   , m_approach(new QComboBox)
   , m_language(new QComboBox)
+  , m_ofView(ofView)
+  , m_background(backgroundBox("reportBackground"))
   , m_date(new QCheckBox(tr("with the &date of the planned operation")))
   , m_identity(new QCheckBox(tr("with &names and the note as typed, and who signed")))
 {
@@ -161,6 +179,7 @@ ReportDialog::ReportDialog(const scene::Case& value, const std::vector<std::stri
          "a number"));
   m_form->addRow(tr("&Approach:"), m_approach);
   m_form->addRow(tr("&Language:"), m_language);
+  m_form->addRow(tr("&Background:"), m_background);
   m_form->addRow(tr("What:"), m_date);
   m_form->addRow({}, m_identity);
   m_note->setText(tr("Pictures, slices at the key places, distances of the dissection, strokes, "
@@ -197,6 +216,7 @@ presenters::ReportOptions ReportDialog::options() const
   presenters::ReportOptions options;
   options.approach = bytes(m_approach->currentData().toString());
   options.language = static_cast<presenters::ReportLanguage>(m_language->currentData().toInt());
+  options.background = chosenBackground(*m_background, m_ofView);
   options.withDate = m_date->isChecked();
   options.keepIdentity = m_identity->isChecked();
   options.made = bytes(QDate::currentDate().toString(Qt::ISODate));
@@ -204,12 +224,15 @@ presenters::ReportOptions ReportDialog::options() const
   return options;
 }
 
-PrintDialog::PrintDialog(const scene::Case& value, double heightToWidth, QWidget* parent)
+PrintDialog::PrintDialog(const scene::Case& value, double heightToWidth,
+                         const rendering::BackgroundColor& ofView, QWidget* parent)
   : ShareDialog("printPicture", tr("Picture for print"), tr("&Write the picture"), parent)
   , m_heightToWidth(heightToWidth)
   , m_width(new QDoubleSpinBox)
   , m_dots(new QSpinBox)
   , m_samples(new QSpinBox)
+  , m_ofView(ofView)
+  , m_background(backgroundBox("printBackground"))
 {
   m_width->setObjectName("printWidth");
   m_width->setRange(10.0, 1000.0);
@@ -231,6 +254,7 @@ PrintDialog::PrintDialog(const scene::Case& value, double heightToWidth, QWidget
   m_samples->setToolTip(tr("More smooth the edges and take as much longer"));
   m_form->addRow(tr("&Resolution:"), m_dots);
   m_form->addRow(tr("&Smoothness:"), m_samples);
+  m_form->addRow(tr("&Background:"), m_background);
   connect(m_width, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &PrintDialog::check);
   connect(m_dots, qOverload<int>(&QSpinBox::valueChanged), this, &PrintDialog::check);
   setFile(proposed(value, tr("view"), ".png"));
@@ -248,6 +272,11 @@ rendering::PrintSize PrintDialog::size() const
 int PrintDialog::samples() const
 {
   return m_samples->value();
+}
+
+rendering::BackgroundColor PrintDialog::background() const
+{
+  return chosenBackground(*m_background, m_ofView);
 }
 
 QString PrintDialog::problem() const

@@ -8,6 +8,7 @@
 #include "petrous/Core/CameraPose.h"
 #include "petrous/Presenters/PlanReport.h"
 #include "petrous/Rendering/PrintPicture.h"
+#include "petrous/Rendering/SceneContents.h"
 #include "petrous/Scene/Case.h"
 
 class QCheckBox;
@@ -57,8 +58,9 @@ class ReportDialog : public ShareDialog
   Q_OBJECT
 public:
   /// leftOut: of damaged structures, WorkstationModel::leftOut.
-  ReportDialog(const scene::Case& value, const std::vector<std::string>& leftOut = {},
-               QWidget* parent = nullptr);
+  /// `ofView`: the background of the 3D view.
+  ReportDialog(const scene::Case& value, const rendering::BackgroundColor& ofView,
+               const std::vector<std::string>& leftOut = {}, QWidget* parent = nullptr);
 
   presenters::ReportOptions options() const; ///< without mayIdentify
   bool isPdf() const;
@@ -69,6 +71,8 @@ protected:
 private:
   QComboBox* m_approach;
   QComboBox* m_language;
+  rendering::BackgroundColor m_ofView;
+  QComboBox* m_background;
   QCheckBox* m_date;
   QCheckBox* m_identity;
 };
@@ -78,11 +82,13 @@ class PrintDialog : public ShareDialog
 {
   Q_OBJECT
 public:
-  /// `heightToWidth`: of the 3D view, whose shape the picture has.
-  PrintDialog(const scene::Case& value, double heightToWidth, QWidget* parent = nullptr);
+  /// `heightToWidth`: of the 3D view, whose shape the picture has; `ofView`: its background.
+  PrintDialog(const scene::Case& value, double heightToWidth,
+              const rendering::BackgroundColor& ofView, QWidget* parent = nullptr);
 
   rendering::PrintSize size() const;
   int samples() const; ///< rays a pixel
+  rendering::BackgroundColor background() const;
 
 protected:
   QString problem() const override;
@@ -92,6 +98,8 @@ private:
   QDoubleSpinBox* m_width;
   QSpinBox* m_dots;
   QSpinBox* m_samples;
+  rendering::BackgroundColor m_ofView;
+  QComboBox* m_background;
 };
 
 /// `petrous render --turntable` and `--along`.

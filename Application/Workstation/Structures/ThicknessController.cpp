@@ -37,11 +37,13 @@ ThicknessController::ThicknessController(presenters::WorkstationModel& model, Th
       });
   connect(&panel, &StructuresPanel::thicknessAsked, this, &ThicknessController::showOver);
   connect(&m_work, &BackgroundWork::progressed, this,
-          [this](double fraction, const QString&)
+          [this](double fraction, const QString&, const QString& left)
           {
-            emit statusMessage(tr("The bone over %1 is being measured: %2 % (F6 stops it)")
-                                   .arg(shownName(m_measured))
-                                   .arg(numberText(100.0 * fraction, 0)));
+            emit statusMessage(
+                withTimeLeft(tr("The bone over %1 is being measured: %2 % (F6 stops it)")
+                                 .arg(shownName(m_measured))
+                                 .arg(numberText(100.0 * fraction, 0)),
+                             left));
           });
   m_followLater.setSingleShot(true);
   m_followLater.setInterval(kFollowAfter);

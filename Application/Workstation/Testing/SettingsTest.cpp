@@ -43,6 +43,8 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   widget<QAbstractButton>("shadows").click();
   widget<QDoubleSpinBox>("exposure").setValue(-1.5);
   widget<QAbstractButton>("toneCurve").click();
+  widget<QComboBox>("background")
+      .setCurrentIndex(widget<QComboBox>("background").findText("White"));
   widget<QDoubleSpinBox>("eyeSeparation").setValue(22.0);
   auto& stereo = widget<QComboBox>("stereoMode");
   stereo.setCurrentIndex(stereo.findText("Anaglyph (red-cyan)"));
@@ -60,6 +62,8 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   EXPECT_TRUE(widget<QAbstractButton>("shadows").isChecked());
   EXPECT_EQ(widget<QDoubleSpinBox>("exposure").value(), -1.5);
   EXPECT_TRUE(widget<QAbstractButton>("toneCurve").isChecked());
+  EXPECT_EQ(widget<QComboBox>("background").currentText(), "White");
+  EXPECT_EQ(view().display().background(), (rendering::BackgroundColor{1.0, 1.0, 1.0}));
   EXPECT_EQ(widget<QDoubleSpinBox>("eyeSeparation").value(), 22.0);
   EXPECT_EQ(widget<QDoubleSpinBox>("convergence").value(), 0.0);
   EXPECT_EQ(widget<QComboBox>("stereoMode").currentText(), "Anaglyph (red-cyan)");
@@ -160,7 +164,7 @@ TEST_F(Settings, WhatNobodyUnderstandsIsTheUsual)
 {
   const QString file = QString::fromStdString((folder() / "odd.conf").string());
   std::ofstream(file.toStdString())
-      << "[light]\nfalloff_mm=nan\nwetness=lots\nexposure_ev=inf\n[stereo]\n"
+      << "[light]\nfalloff_mm=nan\nwetness=lots\nexposure_ev=inf\nbackground=pink\n[stereo]\n"
          "mode=holographic\neye_separation_mm=-5\n[hand]\nthrust_n=x\n"
          "[burr]\ndiameter_mm=4\nrpm=60000\nkind=laser\n";
   WindowSettings settings(file);
@@ -169,6 +173,7 @@ TEST_F(Settings, WhatNobodyUnderstandsIsTheUsual)
   EXPECT_EQ(view.light().falloff, 0.0);
   EXPECT_EQ(view.light().wetness, 0.0);
   EXPECT_EQ(view.light().exposure, 0.0);
+  EXPECT_EQ(view.background(), rendering::kDefaultBackground);
   EXPECT_EQ(view.stereo(), rendering::StereoMode::None);
   EXPECT_EQ(view.rig().eyeSeparation, 0.0); // clamped to its limits, as a user's value is
   EXPECT_FALSE(settings.thrust());

@@ -151,6 +151,8 @@ TEST_F(ShareWindow, DrawsThePictureOfTheViewForPrint)
          {
            dialog.findChild<QDoubleSpinBox*>("printWidth")->setValue(100.0);
            dialog.findChild<QSpinBox*>("printDots")->setValue(50);
+           EXPECT_EQ(dialog.findChild<QComboBox*>("printBackground")->currentIndex(), 0);
+           dialog.findChild<QComboBox*>("printBackground")->setCurrentIndex(1);
          });
   action("Picture for print…")->trigger();
   ASSERT_TRUE(waitFor([&] { return QFile::exists(file("view.png")); }));
@@ -161,6 +163,8 @@ TEST_F(ShareWindow, DrawsThePictureOfTheViewForPrint)
   EXPECT_NEAR(static_cast<double>(picture.height()) / picture.width(),
               static_cast<double>(view().height()) / view().width(), 0.01);
   EXPECT_GT(pixelsUnlikeTheCorner(picture), 1000);
+  EXPECT_EQ(picture.pixelColor(2, picture.height() - 3), QColor(Qt::white));
+  EXPECT_EQ(view().display().background(), rendering::kDefaultBackground) << "only on paper";
 }
 
 TEST_F(ShareWindow, FilmsOnceAroundAndNamesWhatAVideoNeeds)

@@ -225,6 +225,51 @@ TEST_F(ViewStates, EachChangeOfTheLightIsAStepOfTheOneUndo)
   EXPECT_FALSE(widget<QAbstractButton>("shadows").isChecked());
 }
 
+TEST_F(ViewStates, TheBackgroundIsTheUsersAndCanBeUndone)
+{
+  const rendering::BackgroundColor white{1.0, 1.0, 1.0};
+  saveBall("ball");
+  openWindow("ball");
+  auto& box = widget<QComboBox>("background");
+  const auto isOnLight = [this](const char* name)
+  {
+    const QList<QLabel*> labels = view().findChildren<QLabel*>(name);
+    return !labels.empty() &&
+           std::all_of(labels.begin(), labels.end(),
+                       [](const QLabel* label) { return label->property("onLight").toBool(); });
+  };
+  const auto isCorner = [this](const rendering::BackgroundColor& color)
+  {
+    const QImage shown = view().grabFramebuffer().convertToFormat(QImage::Format_RGB32);
+    const QColor at = shown.pixelColor(2, shown.height() - 3); // no letter is drawn in it
+    return std::abs(at.redF() - color[0]) < 0.01 && std::abs(at.blueF() - color[2]) < 0.01;
+  };
+  EXPECT_EQ(box.currentText(), "Dark grey");
+  EXPECT_TRUE(waitFor([&] { return isCorner(rendering::kDefaultBackground); }));
+  EXPECT_FALSE(isOnLight("direction"));
+  box.setCurrentIndex(box.findText("White"));
+  EXPECT_EQ(view().display().background(), white);
+  EXPECT_FALSE(window().model().unsaved());
+  EXPECT_TRUE(waitFor([&] { return isCorner(white); }));
+  for (const char* name : {"direction", "caseStamp", "guessed"})
+    EXPECT_TRUE(waitFor([&] { return isOnLight(name); })) << name;
+
+  EXPECT_TRUE(action("Undo")->text().endsWith("background"));
+  action("Undo")->trigger();
+  EXPECT_EQ(box.currentText(), "Dark grey");
+  EXPECT_TRUE(waitFor([&] { return isCorner(rendering::kDefaultBackground); }));
+  EXPECT_TRUE(waitFor([&] { return !isOnLight("direction"); }));
+  action("Redo")->trigger();
+  EXPECT_EQ(view().display().background(), white);
+
+  // It is not the case's: the next one has it, too.
+  saveBall("plain");
+  closeWindow();
+  openWindow("plain");
+  EXPECT_EQ(widget<QComboBox>("background").currentText(), "White");
+  EXPECT_EQ(view().display().background(), white);
+}
+
 // In a narrow view it lies below the letter at the top and the case's name.
 TEST_F(ViewStates, ANoteCoversNeitherLettersNorTheCaseAndItsSide)
 {

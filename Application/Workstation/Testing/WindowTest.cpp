@@ -7,6 +7,7 @@
 #include <cmath>
 #include <new>
 #include <thread>
+#include <vector>
 
 #include <QAbstractItemModelTester>
 #include <QComboBox>
@@ -91,6 +92,55 @@ TEST_F(Window, ClosingCancelsWhatRunsAndSaysWhatItWaitsFor)
   EXPECT_TRUE(isIgnored);
   EXPECT_EQ(said, "Finishing: saving");
   EXPECT_EQ(window().findChild<QProgressDialog*>("finishing"), nullptr);
+}
+
+// With a clock of its own: a fifth of the task took ten seconds, and then nothing comes for a
+// while.
+TEST_F(Window, ATaskSaysHowMuchTimeIsLeft)
+{
+  std::atomic<double> now{0.0}, allowed{0.0};
+  std::atomic<bool> isReleased{false};
+  struct Said
+  {
+    double fraction;
+    QString step, left;
+  };
+  std::vector<Said> said;
+  BackgroundWork task;
+  task.setClock([&now] { return now.load(); });
+  QObject::connect(&task, &BackgroundWork::progressed, &task,
+                   [&said](double fraction, const QString& step, const QString& left) {
+                     said.push_back({fraction, step, left});
+                   });
+  const auto isSaid = [&said](double fraction)
+  { return !said.empty() && said.back().fraction == fraction; };
+  task.start(
+      [&](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        for (const double fraction : {0.0, 0.2})
+        {
+          while (allowed < fraction)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+          progress.report(fraction, "saving");
+        }
+        while (!isReleased)
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return [] {};
+      });
+  EXPECT_TRUE(waitFor([&] { return isSaid(0.0); }));
+  EXPECT_TRUE(!said.empty() && said.back().left.isEmpty());
+  now = 10.0;
+  allowed = 0.2;
+  EXPECT_TRUE(waitFor([&] { return isSaid(0.2); }));
+  EXPECT_TRUE(!said.empty() && said.back().left == "about 40 s left");
+  now = 20.0; // as long as the pause before; the end that was foreseen stays
+  EXPECT_TRUE(waitFor([&] { return !said.empty() && said.back().left == "about 30 s left"; }));
+  EXPECT_EQ(said.back().step, "saving");
+  EXPECT_EQ(said.back().fraction, 0.2);
+  isReleased = true;
+  EXPECT_TRUE(waitFor([&] { return !task.busy(); }));
+  EXPECT_EQ(withTimeLeft("Saving…", {}), "Saving…");
+  EXPECT_EQ(withTimeLeft("Saving…", "about 30 s left"), "Saving… · about 30 s left");
 }
 
 TEST_F(Window, AJobThatChangesTheCaseIsWaitedForStoppedOrLeftRunning)

@@ -18,7 +18,11 @@ namespace petrous::workstation
 
 BackgroundWork::BackgroundWork()
   : QObject(QCoreApplication::instance())
+  , m_clock(presenters::steadySeconds)
 {
+  constexpr int kAgain = 1000; // ms
+  m_again.setInterval(kAgain);
+  connect(&m_again, &QTimer::timeout, this, &BackgroundWork::refresh);
 }
 
 BackgroundWork::~BackgroundWork()
@@ -31,6 +35,9 @@ void BackgroundWork::start(Work work)
   drop();
   m_token = std::make_shared<core::CancelToken>();
   m_latest = std::make_shared<Latest>();
+  m_timeLeft.restart();
+  m_left.clear();
+  m_again.start();
   m_thread = std::thread([this, work = std::move(work), latest = m_latest]
                          { guarded([&] { run(work, latest); }); });
   m_busy = true; // what it posts is handled later
@@ -53,6 +60,7 @@ void BackgroundWork::abandon()
 
 void BackgroundWork::cancel()
 {
+  m_again.stop();
   if (m_token)
     m_token->cancel();
 }
@@ -85,6 +93,7 @@ void BackgroundWork::wait()
   if (m_thread.joinable())
     m_thread.join();
   ++m_number; // pending results are ignored
+  m_again.stop();
   m_busy = m_isAbandoned = false;
   m_next = {};
 }
@@ -111,6 +120,7 @@ void BackgroundWork::end(Reply what)
         if (number != m_number)
           return;
         m_busy = false;
+        m_again.stop();
         if (!std::exchange(m_isAbandoned, false))
           return what();
         what = {}; // with what it holds, before the next one begins
@@ -136,11 +146,27 @@ void BackgroundWork::notify(const std::shared_ptr<Latest>& latest, double fracti
       {
         std::unique_lock<std::mutex> lock(latest->mutex);
         latest->onItsWay = false;
-        const double reached = latest->fraction;
-        const QString step = phrase(latest->text);
+        m_reached = latest->fraction;
+        m_step = phrase(latest->text);
         lock.unlock();
-        emit progressed(reached, step);
+        m_timeLeft.report(m_reached, m_clock());
+        m_left = timeLeft();
+        emit progressed(m_reached, m_step, m_left);
       });
+}
+
+QString BackgroundWork::timeLeft()
+{
+  const std::string text = presenters::timeLeftText(m_timeLeft.shown(m_clock()));
+  return text.empty() ? QString() : phrase(text);
+}
+
+void BackgroundWork::refresh()
+{
+  const QString left = timeLeft();
+  if (left == std::exchange(m_left, left) || m_isAbandoned)
+    return;
+  emit progressed(m_reached, m_step, m_left);
 }
 
 void BackgroundWork::run(const Work& work, const std::shared_ptr<Latest>& latest)

@@ -5,11 +5,13 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <QObject>
 #include <QTimer>
 
 #include "petrous/Core/Progress.h"
+#include "petrous/Presenters/TimeLeft.h"
 
 class QProgressDialog;
 class QWidget;
@@ -51,8 +53,13 @@ public:
 
   QString step() const; ///< of a running task: what it reported last; may be empty
 
+  /// Seconds, from any origin, for the time that is left; of a clock that is not this computer's.
+  void setClock(std::function<double()> clock) { m_clock = std::move(clock); }
+
 signals:
-  void progressed(double fraction, const QString& text); ///< only the latest of several
+  /// Only the latest of several. `left`: "about 20 s left", in the window's language; empty while
+  /// it is not known (presenters::TimeLeft). Again where it changed without another report.
+  void progressed(double fraction, const QString& text, const QString& left);
   void failed(const QString& why);
   void cancelled();
 
@@ -67,6 +74,8 @@ private:
   void notify(const std::shared_ptr<Latest>& latest, double fraction, const std::string& text);
   void run(const Work& work, const std::shared_ptr<Latest>& latest);
   void end(Reply what);
+  QString timeLeft();
+  void refresh();
 
   std::shared_ptr<core::CancelToken> m_token;
   std::shared_ptr<Latest> m_latest; // of the running task
@@ -74,7 +83,12 @@ private:
   bool m_busy = false;
   bool m_isAbandoned = false;
   bool m_isCompleting = false;
-  Work m_next;           // when the abandoned one has ended
+  Work m_next; // when the abandoned one has ended
+  std::function<double()> m_clock;
+  presenters::TimeLeft m_timeLeft;
+  QTimer m_again;         // while the task runs
+  double m_reached = 0.0; // as emitted last
+  QString m_step, m_left;
   unsigned m_number = 0; // of the task whose results are handled
 };
 

@@ -50,8 +50,10 @@ QString stampText(const presenters::CaseStamp& stamp)
   return parts.join(QString::fromUtf8(" · "));
 }
 
-void drawStamp(QImage& picture, const QString& text, bool isSideBySide)
+void drawStamp(QImage& picture, const QString& text, bool isSideBySide,
+               presenters::Backdrop backdrop)
 {
+  const bool isOnDark = backdrop == presenters::Backdrop::Dark;
   QPainter painter(&picture);
   painter.setRenderHint(QPainter::Antialiasing);
   QFont font = painter.font();
@@ -66,8 +68,9 @@ void drawStamp(QImage& picture, const QString& text, bool isSideBySide)
     QPainterPath letters; // legible on bone and on the background
     letters.addText(n * width - margin - metrics.horizontalAdvance(shown),
                     margin + metrics.ascent(), font, shown);
-    painter.strokePath(letters, QPen(QColor(0, 0, 0, 200), 0.25 * font.pixelSize()));
-    painter.fillPath(letters, QColor("#f2f5f8"));
+    painter.strokePath(letters, QPen(isOnDark ? QColor(0, 0, 0, 200) : QColor(255, 255, 255, 200),
+                                     0.25 * font.pixelSize()));
+    painter.fillPath(letters, QColor(isOnDark ? "#f2f5f8" : "#10161e"));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <QObject>
 #include <QString>
 
+#include "petrous/Presenters/Background.h"
 #include "petrous/Presenters/CaseStamp.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -25,7 +26,8 @@ class ThreeDView;
 QString stampText(const presenters::CaseStamp& stamp);
 
 /// Writes on a picture, in its upper right corner; on one that is side by side, on both halves.
-void drawStamp(QImage& picture, const QString& text, bool isSideBySide = false);
+void drawStamp(QImage& picture, const QString& text, bool isSideBySide = false,
+               presenters::Backdrop backdrop = presenters::Backdrop::Dark);
 
 /// Writes over every view whose case it is and which side is operated on, and asks for the side
 /// where the case does not say it.

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "Theme.h"
 #include "petrous/Dissection/BurrName.h"
+#include "petrous/Presenters/Background.h"
 
 namespace petrous::workstation
 {
@@ -30,6 +32,8 @@ constexpr std::array<std::pair<BurrKind, const char*>, 2> kKinds{{
     {BurrKind::Cutting, "cutting"},
     {BurrKind::Diamond, "diamond"},
 }};
+
+constexpr const char* kBackground = "light/background";
 
 QString keyOf(const std::string& hand, const char* what)
 {
@@ -66,6 +70,8 @@ void WindowSettings::restore(presenters::ViewSettings& view, bool quadBuffer) co
   view.setToneCurve(m_file.value("light/tone_curve").toBool());
   if (const auto edges = number("light/edges"))
     view.setEdges(*edges);
+  if (const auto color = presenters::parseBackground(bytes(m_file.value(kBackground).toString())))
+    view.setBackground(*color);
   view.setEyeSeparation(number("stereo/eye_separation_mm"));
   view.setConvergence(number("stereo/convergence_mm"));
   const QString mode = m_file.value("stereo/mode").toString();
@@ -82,6 +88,7 @@ void WindowSettings::keep(const presenters::ViewSettings& view)
   m_file.setValue("light/exposure_ev", view.light().exposure);
   m_file.setValue("light/tone_curve", view.light().toneCurve);
   m_file.setValue("light/edges", view.light().edges);
+  m_file.setValue(kBackground, words(presenters::backgroundText(view.background())));
   for (const auto& [value, name] : kModes)
     if (value == view.stereo())
       m_file.setValue("stereo/mode", name);

@@ -251,6 +251,11 @@ QString capitalized(const QString& text)
   return text.left(1).toUpper() + text.mid(1);
 }
 
+QString withTimeLeft(const QString& text, const QString& left)
+{
+  return left.isEmpty() ? text : text + QString::fromUtf8(" · ") + left;
+}
+
 QString sentence(const QString& text)
 {
   static const QString ends(".!?…");

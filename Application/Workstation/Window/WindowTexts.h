@@ -55,6 +55,8 @@ std::filesystem::path pathOf(const QString& file);
 
 /// With a capital letter at its beginning.
 QString capitalized(const QString& text);
+/// "Reading… · about 20 s left"; `text` alone while it is not known how much is left.
+QString withTimeLeft(const QString& text, const QString& left);
 /// Adds a full stop if there is none.
 QString sentence(const QString& text);
 

@@ -254,6 +254,10 @@ TEST(ReferenceRayCaster, DrawsTheBackgroundWithoutACt)
   const ReferencePicture picture = see({}, sideCamera());
   EXPECT_TRUE(std::isnan(picture.depth.at(3, 3)));
   EXPECT_LT((rgbOf(picture, 3, 3) - background()).norm(), 1e-6);
+  SceneContents contents;
+  contents.background = {1.0, 0.5, 0.25};
+  const ReferencePicture other = see(contents, sideCamera());
+  EXPECT_LT((rgbOf(other, 3, 3) - Eigen::Vector3d(1.0, 0.5, 0.25)).norm(), 1e-6);
 }
 
 TEST(ReferenceRayCaster, StopsWhenCancelled)

@@ -125,11 +125,39 @@ TEST(ScenePicture, DrawsThinAndEmptyGridsAsAir)
   EXPECT_TRUE(isBackground(draw({}, slanting()).pixel(kWidth / 2, kHeight / 2)));
 }
 
+// Also while it is shown, in the picture that is there already, and nothing that is lit changes.
+TEST(ScenePicture, HasTheBackgroundOfItsContents)
+{
+  const auto is = [](const std::uint8_t* pixel, int red, int green, int blue)
+  {
+    return std::abs(pixel[0] - red) <= 1 && std::abs(pixel[1] - green) <= 1 &&
+           std::abs(pixel[2] - blue) <= 1;
+  };
+  SceneContents contents = hollowBall();
+  ScenePicture scene;
+  scene.setContents(contents);
+  scene.setCamera(slanting());
+  OffscreenView view(kWidth, kHeight);
+  const Picture usual = view.render(scene);
+  EXPECT_TRUE(isBackground(usual.pixel(0, 0)));
+  contents.background = {1.0, 0.6, 0.2};
+  scene.setContents(contents);
+  const Picture other = view.render(scene);
+  EXPECT_TRUE(is(other.pixel(0, 0), 255, 153, 51));
+  const std::uint8_t* before = usual.pixel(kWidth / 2, kHeight / 2);
+  EXPECT_TRUE(is(other.pixel(kWidth / 2, kHeight / 2), before[0], before[1], before[2]));
+  EXPECT_FALSE(isBackground(before)) << "bone";
+}
+
 TEST(ScenePicture, RefusesContentsThatContradictEachOther)
 {
   ScenePicture scene;
   SceneContents contents = hollowBall();
   contents.mask = std::make_shared<volume::CutMask>(cube(10, 1.0));
+  EXPECT_THROW(scene.setContents(contents), RenderingError);
+
+  contents = hollowBall();
+  contents.background = {0.0, 0.0, 1.5};
   EXPECT_THROW(scene.setContents(contents), RenderingError);
 
   contents = labelledBall(cube(48, 0.5));

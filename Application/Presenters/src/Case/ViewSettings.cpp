@@ -92,6 +92,14 @@ void ViewSettings::setConvergence(std::optional<double> millimetres)
          events.stereoChanged);
 }
 
+void ViewSettings::setBackground(const rendering::BackgroundColor& color)
+{
+  rendering::BackgroundColor next;
+  std::transform(color.begin(), color.end(), next.begin(),
+                 [](double value) { return held(value, 0.0, 1.0); });
+  change(m_background, next, events.backgroundChanged);
+}
+
 void ViewSettings::take(const scene::ViewState& view, bool quadBuffer)
 {
   if (view.light)
@@ -112,6 +120,7 @@ void ViewSettings::take(const ViewSettings& other)
   setEyeSeparation(other.m_rig.eyeSeparation);
   setConvergence(other.m_rig.convergence);
   setStereo(other.m_stereo);
+  setBackground(other.m_background);
 }
 
 void ViewSettings::setLight(const scene::ViewState::Light& light)
@@ -133,6 +142,11 @@ scene::ViewState::Light ViewSettings::lightState() const
 scene::ViewState::Stereo ViewSettings::stereoState() const
 {
   return {kModes[static_cast<std::size_t>(m_stereo)], m_rig.eyeSeparation, m_rig.convergence};
+}
+
+std::string backgroundEdit()
+{
+  return "background";
 }
 
 LightEdit lightEdit(const scene::ViewState::Light& before, const scene::ViewState::Light& after)

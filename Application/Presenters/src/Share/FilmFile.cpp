@@ -283,7 +283,7 @@ std::size_t writeFilm(const fs::path& file, const rendering::SceneContents& cont
                         std::to_string(cameras.size()));
     scene.setCamera(cameras[n]);
     rendering::Picture frame = view.render(scene);
-    addLines(frame, options.lines, magnified);
+    addLines(frame, options.lines, magnified, backdropOf(contents.background));
     if (!options.thickness.empty())
       rendering::drawThicknessLegend(frame, options.thickness, kFarthestThickness);
     if (video)

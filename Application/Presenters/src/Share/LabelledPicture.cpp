@@ -17,12 +17,24 @@ namespace
 {
 
 using Color = std::array<std::uint8_t, 3>;
-constexpr Color kInk{242, 245, 248};
 constexpr Color kDark{0, 0, 0};
 constexpr Color kCross{255, 208, 64};
 constexpr int kMargin = 8;
 constexpr int kLetter = 17;
 constexpr int kLine = 14;
+
+// Of letters and bars, with what is around them.
+struct Ink
+{
+  Color color;
+  Color outline;
+};
+
+constexpr Ink inkOn(Backdrop backdrop)
+{
+  return backdrop == Backdrop::Dark ? Ink{{242, 245, 248}, kDark}
+                                    : Ink{{16, 22, 30}, {255, 255, 255}};
+}
 
 int scaled(double pixels, double magnified)
 {
@@ -39,13 +51,16 @@ void fill(rendering::Picture& picture, int left, int top, int right, int bottom,
 }
 
 template <class Letters>
-void addLetters(rendering::Picture& picture, const Letters& letters, double magnified)
+void addLetters(rendering::Picture& picture, const Letters& letters, double magnified,
+                Backdrop backdrop = Backdrop::Dark)
 {
+  const Ink ink = inkOn(backdrop);
   const double width = picture.width;
   const double height = picture.height;
   const double margin = kMargin * magnified;
-  const auto letter = [&](const std::string& text, const rendering::TextPlace& place)
-  { rendering::writeText(picture, text, place, scaled(kLetter, magnified), kInk); };
+  const auto letter = [&](const std::string& text, const rendering::TextPlace& place) {
+    rendering::writeText(picture, text, place, scaled(kLetter, magnified), ink.color, ink.outline);
+  };
   letter(letters.left, {margin, 0.5 * height, 0.0, 0.5});
   letter(letters.right, {width - margin, 0.5 * height, 1.0, 0.5});
   letter(letters.top, {0.5 * width, margin, 0.5, 0.0});
@@ -54,15 +69,17 @@ void addLetters(rendering::Picture& picture, const Letters& letters, double magn
 
 } // namespace
 
-void addEdgeLetters(rendering::Picture& picture, const core::CameraPose& camera, double magnified)
+void addEdgeLetters(rendering::Picture& picture, const core::CameraPose& camera, double magnified,
+                    Backdrop backdrop)
 {
-  addLetters(picture, interaction::edgeDirections(camera), magnified);
+  addLetters(picture, interaction::edgeDirections(camera), magnified, backdrop);
 }
 
 // Text above a bar with end marks.
 void addScaleBar(rendering::Picture& picture, double mmPerPixel, const std::string& where,
-                 double magnified)
+                 double magnified, Backdrop backdrop)
 {
+  const Ink ink = inkOn(backdrop);
   const double length = scaleBarLength(0.28 * picture.width * mmPerPixel);
   if (length <= 0.0)
     return;
@@ -78,25 +95,28 @@ void addScaleBar(rendering::Picture& picture, double mmPerPixel, const std::stri
     fill(picture, right - pixels(2) - wider, bottom - pixels(7) - wider, right + wider, bottom,
          color);
   };
-  bar(pixels(1), kDark);
-  bar(0, kInk);
+  bar(pixels(1), ink.outline);
+  bar(0, ink.color);
   const std::string text = core::generalText(length) + " mm";
   const double middle = 0.5 * (left + right);
   if (where.empty())
     rendering::writeText(picture, text, {middle, bottom - 10.0 * magnified, 0.5, 1.0},
-                         pixels(kLine), kInk);
+                         pixels(kLine), ink.color, ink.outline);
   else
     rendering::writeText(picture, text + " " + where,
-                         {double(right), bottom - 10.0 * magnified, 1.0, 1.0}, pixels(kLine), kInk);
+                         {double(right), bottom - 10.0 * magnified, 1.0, 1.0}, pixels(kLine),
+                         ink.color, ink.outline);
 }
 
-void addLines(rendering::Picture& picture, const std::vector<std::string>& lines, double magnified)
+void addLines(rendering::Picture& picture, const std::vector<std::string>& lines, double magnified,
+              Backdrop backdrop)
 {
+  const Ink ink = inkOn(backdrop);
   double row = kMargin * magnified;
   for (const std::string& line : lines)
   {
     rendering::writeText(picture, line, {kMargin * magnified, row, 0.0, 0.0},
-                         scaled(kLine, magnified), kInk);
+                         scaled(kLine, magnified), ink.color, ink.outline);
     row += 1.5 * kLine * magnified;
   }
 }

@@ -531,6 +531,8 @@ private:
     const int width = m_options.pictureWidth;
     const int height = 3 * width / 4;
     clip(contents, clipping, m_value.ct.geometry);
+    contents.background = m_options.background;
+    const Backdrop backdrop = backdropOf(contents.background);
     rendering::ScenePicture scene;
     scene.setContents(contents);
     rendering::Picture picture = rendering::renderTiled(scene, camera, width, height, progress);
@@ -538,10 +540,10 @@ private:
     std::vector<std::string> lines{say(sideText(m_value.description.side))};
     for (const std::string& line : clippingTexts(clipping, m_value.ct.geometry))
       lines.push_back(say(line));
-    addLines(picture, lines, magnified);
-    addEdgeLetters(picture, camera, magnified);
+    addLines(picture, lines, magnified, backdrop);
+    addEdgeLetters(picture, camera, magnified, backdrop);
     addScaleBar(picture, rendering::millimetresPerPixel(camera, height),
-                camera.parallelScale ? "" : say("in the focal plane"), magnified);
+                camera.parallelScale ? "" : say("in the focal plane"), magnified, backdrop);
     for (std::size_t n = 1; n < lines.size(); ++n)
       caption += " (" + lines[n] + ")";
     return reportPicture(std::move(caption), picture, 2);

@@ -55,6 +55,9 @@ void checkContents(const SceneContents& contents)
           "the sections' grey window must be wider than 0");
   require(!contents.thickness.distance || contents.thickness.farthest > 0.0,
           "the farthest thickness must be above 0 mm");
+  require(std::all_of(contents.background.begin(), contents.background.end(),
+                      [](double value) { return value >= 0.0 && value <= 1.0; }),
+          "the background's red, green and blue must lie within 0 to 1");
 }
 
 void checkMaterials(const SceneContents& contents)

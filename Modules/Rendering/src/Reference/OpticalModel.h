@@ -195,8 +195,8 @@ double softEdge(const appearance::TransferFunction& transfer);
 /// (|g| + softEdge); gradient g, intensity per mm.
 double softFacing(const Eigen::Vector3d& gradient, const Eigen::Vector3d& ray, double edge);
 
-/// Background; RGB, 0 to 1.
-constexpr double kBackground[3] = {0.105, 0.115, 0.130};
+/// Background where the contents have no other; RGB, 0 to 1.
+constexpr BackgroundColor kBackground = kDefaultBackground;
 
 } // namespace optics
 } // namespace petrous::rendering

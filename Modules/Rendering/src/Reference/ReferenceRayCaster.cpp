@@ -49,6 +49,7 @@ public:
   Implementation(const SceneContents& contents, const Quality& quality)
     : m_shapes(contents)
     , m_hasShadows(contents.light.shadows)
+    , m_background(contents.background[0], contents.background[1], contents.background[2])
   {
     const double step = checkedStep(quality);
     checkContents(contents);
@@ -63,6 +64,7 @@ private:
 
   SurfaceGeometry m_shapes;
   bool m_hasShadows;
+  Eigen::Vector3d m_background;
   std::optional<TissueRay> m_tissue;
 };
 
@@ -93,9 +95,7 @@ ReferenceRayCaster::Implementation::see(const PixelRay& ray, const optics::Lamp&
       return {color, light.depth};
   }
   const GatheredLight light = gather(ray, std::numeric_limits<double>::infinity(), lamp);
-  const Eigen::Vector3d background(optics::kBackground[0], optics::kBackground[1],
-                                   optics::kBackground[2]);
-  return {color + visible * (light.color + light.transmittance * background), light.depth};
+  return {color + visible * (light.color + light.transmittance * m_background), light.depth};
 }
 
 ReferenceRayCaster::ReferenceRayCaster(const SceneContents& contents)

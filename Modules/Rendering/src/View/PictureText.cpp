@@ -68,7 +68,7 @@ TextMask maskOf(const std::string& text, int size)
 } // namespace
 
 void writeText(Picture& picture, const std::string& text, const TextPlace& place, int size,
-               const std::array<std::uint8_t, 3>& color)
+               const std::array<std::uint8_t, 3>& color, const std::array<std::uint8_t, 3>& outline)
 {
   const TextMask mask = maskOf(text, size);
   const int left = static_cast<int>(std::lround(place.column - place.across * mask.width));
@@ -80,14 +80,14 @@ void writeText(Picture& picture, const std::string& text, const TextPlace& place
       const int y = top + row;
       if (x < 0 || y < 0 || x >= picture.width || y >= picture.height)
         continue;
-      const double dark = kBorderOpacity * mask.around(column, row);
+      const double around = kBorderOpacity * mask.around(column, row);
       const double share = mask.at(column, row);
       std::uint8_t* pixel =
           &picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
                             static_cast<std::size_t>(x))];
       for (std::size_t c = 0; c < 3; ++c)
-        pixel[c] = static_cast<std::uint8_t>(
-            std::lround(pixel[c] * (1.0 - dark) * (1.0 - share) + color[c] * share));
+        pixel[c] = static_cast<std::uint8_t>(std::lround(
+            (pixel[c] * (1.0 - around) + outline[c] * around) * (1.0 - share) + color[c] * share));
     }
 }
 

@@ -285,6 +285,7 @@ public:
   void attach(vtkRenderer* renderer);
   void setMeshes(const SceneContents& contents);
   void setVolume(const SceneContents& contents);
+  void setBackground(const BackgroundColor& color);
   void applyCamera();
   void startFrame();
   void endFrame();
@@ -308,6 +309,7 @@ public:
   double milliseconds = 0.0; // of the latest frame with a known time
   std::vector<std::unique_ptr<MeshActor>> meshes;
   ToolProps tool;
+  BackgroundColor background = kDefaultBackground;
 
 private:
   template <class Visit>
@@ -480,7 +482,7 @@ void ScenePicture::Implementation::attach(vtkRenderer* next)
   renderer = next;
   if (!next)
     return;
-  next->SetBackground(optics::kBackground[0], optics::kBackground[1], optics::kBackground[2]);
+  setBackground(background);
   next->GradientBackgroundOff();
   next->AutomaticLightCreationOff();
   next->RemoveAllLights();
@@ -493,6 +495,13 @@ void ScenePicture::Implementation::attach(vtkRenderer* next)
   m_startObserver = next->AddObserver(vtkCommand::StartEvent, m_onStart);
   m_endObserver = next->AddObserver(vtkCommand::EndEvent, m_onEnd);
   applyCamera();
+}
+
+void ScenePicture::Implementation::setBackground(const BackgroundColor& color)
+{
+  background = color;
+  if (renderer)
+    renderer->SetBackground(color[0], color[1], color[2]);
 }
 
 void ScenePicture::Implementation::applyCamera()
@@ -560,6 +569,7 @@ void ScenePicture::setContents(const SceneContents& contents)
   m_implementation->setVolume(contents);
   m_implementation->setMeshes(contents);
   m_implementation->tool.setLight(contents.light);
+  m_implementation->setBackground(contents.background);
   setTool(contents.tool);
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "petrous/Core/CameraPose.h"
+#include "petrous/Presenters/Background.h"
 #include "petrous/Presenters/SliceGeometry.h"
 #include "petrous/Presenters/SliceOverlay.h"
 #include "petrous/Rendering/Picture.h"
@@ -13,20 +14,20 @@ namespace petrous::presenters
 {
 
 /// What is written into pictures that leave the window, in the sizes of a picture on a screen.
-/// `magnified`: for one with more pixels, as for print.
+/// `magnified`: for one with more pixels, as for print; `backdrop`: what its background is.
 
 /// A scale bar at the lower right with its length, a round number; `where` follows it: "in the
 /// focal plane".
 void addScaleBar(rendering::Picture& picture, double mmPerPixel, const std::string& where = {},
-                 double magnified = 1.0);
+                 double magnified = 1.0, Backdrop backdrop = Backdrop::Dark);
 
 /// The patient's directions at the middles of the edges of a 3D picture.
 void addEdgeLetters(rendering::Picture& picture, const core::CameraPose& camera,
-                    double magnified = 1.0);
+                    double magnified = 1.0, Backdrop backdrop = Backdrop::Dark);
 
 /// Lines at the upper left.
 void addLines(rendering::Picture& picture, const std::vector<std::string>& lines,
-              double magnified = 1.0);
+              double magnified = 1.0, Backdrop backdrop = Backdrop::Dark);
 
 /// A cross with a gap in its middle at a place; pixels.
 void addCross(rendering::Picture& picture, const Eigen::Vector2d& place);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "petrous/Core/Progress.h"
+#include "petrous/Rendering/SceneContents.h"
 #include "petrous/Scene/Case.h"
 
 namespace petrous::presenters
@@ -33,6 +34,7 @@ struct ReportOptions
   std::string version;     ///< of the program
   int pictureWidth = 1200; ///< pixels of the 3-D pictures
   int sliceWidth = 360;
+  rendering::BackgroundColor background = rendering::kDefaultBackground; ///< of the 3-D pictures
   /// Whether a typed text may identify the patient (IdentityText); such a text is withheld unless
   /// `keepIdentity`. Null: every typed text is.
   std::function<bool(const std::string&)> mayIdentify;

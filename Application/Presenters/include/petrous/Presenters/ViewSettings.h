@@ -12,7 +12,7 @@ namespace petrous::presenters
 {
 
 /// How the window renders a scene: lamp and stereo, as a case was saved with, else as the user has
-/// them. Without Qt; not thread-safe.
+/// them, and the background, which is the user's alone. Without Qt; not thread-safe.
 class ViewSettings
 {
 public:
@@ -23,6 +23,7 @@ public:
   {
     std::function<void()> lightChanged;
     std::function<void()> stereoChanged;
+    std::function<void()> backgroundChanged;
   };
   Events events;
 
@@ -41,6 +42,9 @@ public:
   void setEyeSeparation(std::optional<double> millimetres);
   void setConvergence(std::optional<double> millimetres);
 
+  const rendering::BackgroundColor& background() const noexcept { return m_background; }
+  void setBackground(const rendering::BackgroundColor& color); ///< clamped to 0 to 1
+
   /// What a case was saved with; values beyond the limits are clamped. `quadBuffer`: the driver
   /// supports that mode; otherwise it leaves the mode as it is.
   void take(const scene::ViewState& view, bool quadBuffer);
@@ -53,9 +57,13 @@ private:
   rendering::LightSettings m_light;
   rendering::StereoMode m_stereo = rendering::StereoMode::None;
   rendering::StereoRig m_rig;
+  rendering::BackgroundColor m_background = rendering::kDefaultBackground;
 };
 
-/// A change of the lamp, for the menu of undo.
+/// A change of the background, for the menu of undo.
+std::string backgroundEdit();
+
+/// A change of the lamp, likewise.
 struct LightEdit
 {
   std::string what;          ///< "exposure"; "light" if it is more than one property

@@ -17,9 +17,11 @@ struct TextPlace
   double down = 0.0;   ///< 0 top edge, 1 bottom edge
 };
 
-/// Draws a line of text (UTF-8) with a dark outline, so that it is legible on bone and on air
-/// alike. Text is clipped at the picture's border. size: of the font, points at 72 dpi.
+/// Draws a line of text (UTF-8) with an outline, dark unless another is given, so that it is
+/// legible on bone and on air alike. Text is clipped at the picture's border. size: of the font,
+/// points at 72 dpi.
 void writeText(Picture& picture, const std::string& text, const TextPlace& place, int size,
-               const std::array<std::uint8_t, 3>& color);
+               const std::array<std::uint8_t, 3>& color,
+               const std::array<std::uint8_t, 3>& outline = {0, 0, 0});
 
 } // namespace petrous::rendering

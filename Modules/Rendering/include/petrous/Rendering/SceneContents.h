@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -117,6 +118,10 @@ struct ClippingPlane
   Eigen::Vector3d normal{0.0, 0.0, 1.0}; ///< unit, towards the side that is kept
 };
 
+/// RGB as it is displayed, 0 to 1.
+using BackgroundColor = std::array<double, 3>;
+inline constexpr BackgroundColor kDefaultBackground{0.105, 0.115, 0.130};
+
 /// Everything a picture shows, as a value type; voxels and triangles are shared.
 struct SceneContents
 {
@@ -140,6 +145,7 @@ struct SceneContents
   std::vector<MeshContents> meshes;
   std::optional<ToolPose> tool;
   LightSettings light;
+  BackgroundColor background = kDefaultBackground; ///< neither lit nor exposed
 };
 
 /// The image that a material of another source than the CT reads.

@@ -2238,6 +2238,10 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>Turn the patient: this face is dragged along the line of sight</source>
         <translation>Drehen Sie den Patienten: Diese Fläche wird entlang der Blickrichtung gezogen</translation>
     </message>
+    <message>
+        <source>Turn the patient: the plane is dragged along the line of sight</source>
+        <translation>Drehen Sie den Patienten: Die Ebene wird entlang der Blickrichtung gezogen</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ColorChooser</name>

@@ -33,3 +33,12 @@ TEST(MovedPlane, GoesAlongItsNormalAndStaysInTheImage)
   EXPECT_LT((by(100.0).point - Vector3d::Constant(10.0)).norm(), 1e-9);
   EXPECT_LT((by(-100.0).point - Vector3d::Zero()).norm(), 1e-9);
 }
+
+TEST(PlaneCenter, IsItsPointOrBelowTheMiddleOfTheImage)
+{
+  const core::GridGeometry grid({11, 11, 11}, {1.0, 1.0, 1.0}, {0.0, 0.0, 0.0});
+  const ViewState::Clipping::Plane inside{Vector3d(1.0, 2.0, 3.0), Vector3d::UnitZ()};
+  EXPECT_EQ(presenters::planeCenter(inside, grid), inside.point);
+  const ViewState::Clipping::Plane far{Vector3d(-500.0, 900.0, 3.0), Vector3d::UnitZ()};
+  EXPECT_LT((presenters::planeCenter(far, grid) - Vector3d(5.0, 5.0, 3.0)).norm(), 1e-12);
+}

@@ -1,10 +1,10 @@
 #include "ClippingController.h"
 
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include <QAction>
+#include <QLineF>
 #include <QMouseEvent>
 
 #include "Commands.h"
@@ -29,7 +29,9 @@ using presenters::FaceHandle;
 using presenters::HandledBox;
 
 constexpr double kReach = 9.0; // px, to a handle in the 3D view
+constexpr double kClick = 3.0; // px, that a click may move
 constexpr double kStep = 0.5;  // mm, of a key
+constexpr double kArrow = 8.0; // mm, of a plane's arrow, at whose tip it is dragged
 
 // The edges of a box, and a handle at the middle of each face.
 std::vector<DrawnMeasure> drawn(const HandledBox& box)
@@ -115,7 +117,7 @@ bool ClippingController::toolHasView() const
   return m_view.tool().GetDrillMode() || m_view.tool().GetProbeMode();
 }
 
-bool ClippingController::showsHandles() const
+bool ClippingController::showsBox() const
 {
   return m_model.hasCase() && m_actions.cropBox->isChecked() && !toolHasView();
 }
@@ -135,9 +137,21 @@ void ClippingController::refresh()
   }
   const CropFrame frame(m_model.value().ct.geometry);
   const HandledBox box = frame.box(m_model.value().view.clipping.crop);
-  const bool isShown = showsHandles();
+  const bool isShown = showsBox();
   m_slices.setBox(isShown ? std::optional(SliceBox{box}) : std::nullopt);
-  m_view.display().setHandles(isShown ? drawn(box) : std::vector<DrawnMeasure>());
+  std::vector<DrawnMeasure> parts = isShown ? drawn(box) : std::vector<DrawnMeasure>();
+  if (!toolHasView())
+    for (const Clipping::Plane& plane : m_model.value().view.clipping.planes)
+    {
+      const Eigen::Vector3d center = presenters::planeCenter(plane, m_model.value().ct.geometry);
+      DrawnMeasure arrow;
+      arrow.index = parts.size();
+      arrow.points = {center, center + kArrow * plane.normal};
+      arrow.handles = {1};
+      arrow.color = boxColor();
+      parts.push_back(std::move(arrow));
+    }
+  m_view.display().setHandles(parts);
   if (m_dialog && m_dialog->isVisible())
     m_dialog->show(frame, box.box);
 }
@@ -255,7 +269,8 @@ void ClippingController::drag(const Eigen::Vector3d& patient)
   if (!m_drag || !m_model.hasCase())
     return;
   m_model.setClipping(m_drag(patient));
-  tellSize();
+  if (!(m_model.value().view.clipping.crop == m_before.crop))
+    tellSize();
 }
 
 void ClippingController::endDrag()
@@ -272,17 +287,55 @@ void ClippingController::tellSize()
   emit statusMessage(tr("Crop box: %1").arg(boxSizeText(frame.box(clipping.crop).box.sizes())));
 }
 
-bool ClippingController::takeFace(const QPointF& position)
+// Of the box while it is shown, and of each plane.
+std::vector<ClippingController::Handle> ClippingController::handles() const
 {
-  if (!showsHandles())
-    return false;
-  const CropFrame frame(m_model.value().ct.geometry);
+  std::vector<Handle> all;
+  if (!m_model.hasCase() || toolHasView())
+    return all;
+  const core::GridGeometry& grid = m_model.value().ct.geometry;
   const Clipping before = m_model.value().view.clipping;
-  const std::array<FaceHandle, 6> handles = presenters::faceHandles(frame.box(before.crop));
+  if (m_actions.cropBox->isChecked())
+  {
+    const CropFrame frame(grid);
+    for (const FaceHandle& face : presenters::faceHandles(frame.box(before.crop)))
+    {
+      presenters::BoxFaces faces;
+      (face.isUpper ? faces.upper : faces.lower)[face.axis] = true;
+      all.push_back({face.at, face.normal,
+                     tr("Turn the patient: this face is dragged along the line of sight"),
+                     [frame, before, faces, face](double millimetres)
+                     {
+                       Clipping clipping = before;
+                       clipping.crop = frame.dragged(before.crop, faces, face.at,
+                                                     face.at + millimetres * face.normal);
+                       return clipping;
+                     }});
+    }
+  }
+  for (std::size_t n = 0; n < before.planes.size(); ++n)
+  {
+    const Clipping::Plane& plane = before.planes[n];
+    all.push_back({presenters::planeCenter(plane, grid) + kArrow * plane.normal, plane.normal,
+                   tr("Turn the patient: the plane is dragged along the line of sight"),
+                   [before, n, grid](double millimetres)
+                   {
+                     Clipping clipping = before;
+                     clipping.planes[n] =
+                         presenters::movedPlane(before.planes[n], millimetres, grid);
+                     return clipping;
+                   }});
+  }
+  return all;
+}
+
+bool ClippingController::takeHandle(const QPointF& position)
+{
+  const std::vector<Handle> all = handles();
   const double ratio = m_view.devicePixelRatioF();
-  const FaceHandle* found = nullptr;
+  const Handle* found = nullptr;
   double best = kReach;
-  for (const FaceHandle& handle : handles)
+  for (const Handle& handle : all)
     if (const auto at = m_view.display().pixelOf(handle.at))
     {
       const double away =
@@ -295,23 +348,17 @@ bool ClippingController::takeFace(const QPointF& position)
   if (!found)
     return false;
   const auto grabbed =
-      presenters::closestAlong(found->at, found->normal, m_view.sightLine(position));
+      presenters::closestAlong(found->at, found->direction, m_view.sightLine(position));
   if (!grabbed)
   {
-    emit statusMessage(tr("Turn the patient: this face is dragged along the line of sight"));
-    return true;
+    emit statusMessage(found->alongSight);
+    return false; // the patient turns
   }
-  m_line = Line{found->at, found->normal};
-  presenters::BoxFaces faces;
-  (found->isUpper ? faces.upper : faces.lower)[found->axis] = true;
+  m_line = Line{found->at, found->direction};
+  m_pressed = position;
   beginDrag(
-      [frame, before, faces,
-       from = m_line->at + *grabbed * m_line->direction](const Eigen::Vector3d& to)
-      {
-        Clipping clipping = before;
-        clipping.crop = frame.dragged(before.crop, faces, from, to);
-        return clipping;
-      });
+      [line = *m_line, grabbed = *grabbed, dragged = found->dragged](const Eigen::Vector3d& to)
+      { return dragged(line.direction.dot(to - line.at) - grabbed); });
   return true;
 }
 
@@ -338,10 +385,13 @@ bool ClippingController::handleMouse(const QMouseEvent& event)
   switch (event.type())
   {
   case QEvent::MouseButtonPress:
-    return isLeft && event.modifiers() == Qt::NoModifier && takeFace(event.localPos());
+    return isLeft && event.modifiers() == Qt::NoModifier && takeHandle(event.localPos());
   case QEvent::MouseMove:
     if (!m_line)
       return false;
+    if (m_pressed && QLineF(*m_pressed, event.localPos()).length() <= kClick)
+      return true;
+    m_pressed.reset();
     if (const auto along = presenters::closestAlong(m_line->at, m_line->direction,
                                                     m_view.sightLine(event.localPos())))
       drag(m_line->at + *along * m_line->direction);

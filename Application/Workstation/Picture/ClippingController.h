@@ -2,8 +2,10 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include <QObject>
+#include <QPointF>
 #include <QPointer>
 
 #include "petrous/Presenters/BoxHandles.h"
@@ -56,9 +58,17 @@ private:
   void endDrag();
   void tellSize();
   bool handleMouse(const QMouseEvent& event);
-  bool takeFace(const QPointF& position);
+  /// What can be dragged in the 3D view: where it stands, along which line, and to what.
+  struct Handle
+  {
+    Eigen::Vector3d at, direction; ///< patient LPS mm; unit
+    QString alongSight;            ///< why it cannot be dragged along the line of sight
+    std::function<Clipping(double millimetres)> dragged;
+  };
+  std::vector<Handle> handles() const;
+  bool takeHandle(const QPointF& position);
   bool toolHasView() const;
-  bool showsHandles() const;
+  bool showsBox() const;
 
   presenters::WorkstationModel& m_model;
   SliceColumn& m_slices;
@@ -74,6 +84,7 @@ private:
     Eigen::Vector3d at, direction;
   };
   std::optional<Line> m_line;
+  std::optional<QPointF> m_pressed; ///< until it is dragged
 };
 
 } // namespace petrous::workstation

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <QDoubleSpinBox>
+#include <QLineF>
 #include <QMouseEvent>
 #include <QPushButton>
 
@@ -202,4 +203,32 @@ TEST_F(ClippingBox, APlaneIsMovedByKeysAndUndone)
   redo();
   ASSERT_EQ(clipping().planes.size(), 1U);
   EXPECT_EQ(clipping().planes.front().point, plane.point);
+}
+
+TEST_F(ClippingBox, APlaneIsDraggedByItsArrow)
+{
+  saveBall("ball");
+  openWindow("ball");
+  action("Cut away to the crosshair")->trigger(); // seen from the side of the ear
+  ASSERT_EQ(clipping().planes.size(), 1U);
+  const scene::ViewState::Clipping before = clipping();
+  const scene::ViewState::Clipping::Plane plane = before.planes.front();
+  action("Anterior")->trigger();
+  picture();
+  const Vector3d tip = plane.point + 8.0 * plane.normal;
+  const QPoint from = inView(tip);
+  const QPoint to = inView(tip + 3.0 * plane.normal);
+  const double pixelsPerMm = QLineF(from, to).length() / 3.0;
+  ASSERT_GT(pixelsPerMm, 2.0);
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, from);
+  moveTo(view(), (from + to) / 2);
+  moveTo(view(), to);
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, to);
+  ASSERT_EQ(clipping().planes.size(), 1U);
+  const Vector3d moved = clipping().planes.front().point - plane.point;
+  EXPECT_NEAR(moved.dot(plane.normal), 3.0, 2.0 / pixelsPerMm);
+  EXPECT_LT((moved - moved.dot(plane.normal) * plane.normal).norm(), 1e-9);
+  EXPECT_EQ(clipping().planes.front().normal, plane.normal);
+  undo();
+  EXPECT_EQ(clipping(), before);
 }

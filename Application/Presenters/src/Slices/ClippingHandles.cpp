@@ -34,4 +34,12 @@ Clipping::Plane movedPlane(const Clipping::Plane& plane, double step,
           plane.normal};
 }
 
+Eigen::Vector3d planeCenter(const Clipping::Plane& plane, const core::GridGeometry& grid)
+{
+  if (grid.hullContains(grid.voxelFromPatient(plane.point)))
+    return plane.point;
+  const Eigen::Vector3d middle = grid.center();
+  return middle - plane.normal.dot(middle - plane.point) * plane.normal;
+}
+
 } // namespace petrous::presenters

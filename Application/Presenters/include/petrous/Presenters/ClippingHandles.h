@@ -17,4 +17,9 @@ std::string clippingChange(const scene::ViewState::Clipping& before,
 scene::ViewState::Clipping::Plane movedPlane(const scene::ViewState::Clipping::Plane& plane,
                                              double step, const core::GridGeometry& grid);
 
+/// Where the handle of a plane stands, patient LPS mm: at its point, or where that is outside of
+/// the hull, at the foot of the perpendicular from the middle of the image.
+Eigen::Vector3d planeCenter(const scene::ViewState::Clipping::Plane& plane,
+                            const core::GridGeometry& grid);
+
 } // namespace petrous::presenters

@@ -1027,6 +1027,33 @@
     </message>
 </context>
 <context>
+    <name>petrous::workstation::BoxNumbers</name>
+    <message>
+        <source>&amp;x, to the left</source>
+        <translation>&amp;x, nach links</translation>
+    </message>
+    <message>
+        <source>&amp;y, to the back</source>
+        <translation>&amp;y, nach hinten</translation>
+    </message>
+    <message>
+        <source>&amp;z, to the head</source>
+        <translation>&amp;z, zum Kopf</translation>
+    </message>
+    <message>
+        <source>Where the box begins</source>
+        <translation>Wo der Quader beginnt</translation>
+    </message>
+    <message>
+        <source>Where the box ends</source>
+        <translation>Wo der Quader endet</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+</context>
+<context>
     <name>petrous::workstation::BranchController</name>
     <message>
         <source>%1: %2 %3, %4 mm³</source>
@@ -2182,6 +2209,33 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     </message>
 </context>
 <context>
+    <name>petrous::workstation::ClippingController</name>
+    <message>
+        <source>Nothing is cut away by a plane</source>
+        <translation>Keine Ebene schneidet etwas weg</translation>
+    </message>
+    <message>
+        <source>Open a case first</source>
+        <translation>Öffnen Sie zuerst einen Fall</translation>
+    </message>
+    <message>
+        <source>The crop box comes when the tool is put away</source>
+        <translation>Der Beschnittquader erscheint, sobald das Werkzeug weggelegt ist</translation>
+    </message>
+    <message>
+        <source>Crop box: %1</source>
+        <translation>Beschnittquader: %1</translation>
+    </message>
+    <message>
+        <source>Turn the patient: this face is dragged along the line of sight</source>
+        <translation>Drehen Sie den Patienten: Diese Fläche wird entlang der Blickrichtung gezogen</translation>
+    </message>
+    <message>
+        <source>Turn the patient: the plane is dragged along the line of sight</source>
+        <translation>Drehen Sie den Patienten: Die Ebene wird entlang der Blickrichtung gezogen</translation>
+    </message>
+</context>
+<context>
     <name>petrous::workstation::ColorChooser</name>
     <message>
         <source>Colours</source>
@@ -2376,6 +2430,21 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>Not compared</source>
         <translation>Nicht verglichen</translation>
+    </message>
+</context>
+<context>
+    <name>petrous::workstation::CropBoxDialog</name>
+    <message>
+        <source>Crop box</source>
+        <translation>Beschnittquader</translation>
+    </message>
+    <message>
+        <source>&amp;Whole image</source>
+        <translation>&amp;Ganzes Bild</translation>
+    </message>
+    <message>
+        <source>All of the image is shown again; clipping planes stay</source>
+        <translation>Zeigt wieder das ganze Bild; Schnittebenen bleiben</translation>
     </message>
 </context>
 <context>
@@ -3680,6 +3749,18 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
     <message>
         <source>Of a slice, too</source>
         <translation>Auch aus einer Schicht</translation>
+    </message>
+    <message>
+        <source>Crop box</source>
+        <translation>Beschnittquader</translation>
+    </message>
+    <message>
+        <source>drag an edge or a corner</source>
+        <translation>Kante oder Ecke ziehen</translation>
+    </message>
+    <message>
+        <source>While it is shown; in the 3D view drag the middle of a face. A double click on an edge shows all of the image</source>
+        <translation>Solange er gezeigt wird; in der 3D-Ansicht die Mitte einer Fläche ziehen. Ein Doppelklick auf eine Kante zeigt das ganze Bild</translation>
     </message>
 </context>
 <context>
@@ -5646,28 +5727,9 @@ Verletzt: %1, %2</translation>
         <translation>Nur was im Quader liegt, wird gelesen: Ziehen Sie seine Kanten oder geben Sie ihn in mm an (LPS des Patienten).</translation>
     </message>
     <message>
-        <source>&amp;x, to the left</source>
-        <translation>&amp;x, nach links</translation>
-    </message>
-    <message>
-        <source>&amp;y, to the back</source>
-        <translation>&amp;y, nach hinten</translation>
-    </message>
-    <message>
-        <source>&amp;z, to the head</source>
-        <translation>&amp;z, zum Kopf</translation>
-    </message>
-    <message>
-        <source> mm</source>
-        <translation> mm</translation>
-    </message>
-    <message>
         <source>%1 × %2 × %3 mm: %4, of %5</source>
         <translation>%1 × %2 × %3 mm: %4, von %5</translation>
     </message>
-</context>
-<context>
-    <name>petrous::workstation::RegionView</name>
     <message>
         <source>Drag an edge of the box, or the box.  Outside it: move the crosshair.  Wheel: scroll.</source>
         <translation>Ziehen Sie eine Kante des Quaders oder den Quader.  Außerhalb: Fadenkreuz bewegen.  Rad: blättern.</translation>
@@ -9568,6 +9630,38 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>The view that was clicked last fills the window, and goes back; as a double click on it. Esc goes back, too</source>
         <translation>Die zuletzt angeklickte Ansicht füllt das Fenster und kehrt zurück; wie ein Doppelklick auf sie. Auch Esc kehrt zurück</translation>
+    </message>
+    <message>
+        <source>Cut &amp;deeper</source>
+        <translation>T&amp;iefer wegschneiden</translation>
+    </message>
+    <message>
+        <source>Moves the plane that cuts the picture by 0.5 mm</source>
+        <translation>Verschiebt die Ebene, die das Bild schneidet, um 0,5 mm</translation>
+    </message>
+    <message>
+        <source>Cut l&amp;ess deep</source>
+        <translation>Wenige&amp;r tief wegschneiden</translation>
+    </message>
+    <message>
+        <source>Moves the plane that cuts the picture back by 0.5 mm</source>
+        <translation>Verschiebt die Ebene, die das Bild schneidet, um 0,5 mm zurück</translation>
+    </message>
+    <message>
+        <source>Crop bo&amp;x</source>
+        <translation>Beschnitt&amp;quader</translation>
+    </message>
+    <message>
+        <source>A box whose edges are dragged in the slices, and its faces in the 3D view: only what is in it is shown, until a tool is taken up. A double click on an edge shows all of the image</source>
+        <translation>Ein Quader, dessen Kanten in den Schichten und dessen Flächen in der 3D-Ansicht gezogen werden: Nur was darin liegt, wird gezeigt, bis ein Werkzeug aufgenommen wird. Ein Doppelklick auf eine Kante zeigt das ganze Bild</translation>
+    </message>
+    <message>
+        <source>Crop &amp;box in numbers…</source>
+        <translation>Beschnittquader in &amp;Zahlen…</translation>
+    </message>
+    <message>
+        <source>Where the crop box begins and ends, in mm</source>
+        <translation>Wo der Beschnittquader beginnt und endet, in mm</translation>
     </message>
 </context>
 </TS>

@@ -2972,6 +2972,18 @@
         <translation>Bericht: Das Präparat des Falls „%1“ ist nicht geladen</translation>
     </message>
     <message>
+        <source>clipping plane</source>
+        <translation>Schnittebene</translation>
+    </message>
+    <message>
+        <source>crop box</source>
+        <translation>Beschnittquader</translation>
+    </message>
+    <message>
+        <source>what is cut away</source>
+        <translation>Weggeschnittenes</translation>
+    </message>
+    <message>
         <source>Axial</source>
         <translation>Axial</translation>
     </message>

@@ -58,6 +58,7 @@ SceneDisplay::SceneDisplay(vtkGenericOpenGLRenderWindow& window, std::function<b
   m_picture.attach(m_renderer);
   m_stereo = std::make_unique<rendering::StereoPicture>(m_picture);
   m_measures = std::make_unique<MeasureOverlay>(*m_renderer);
+  m_handles = std::make_unique<MeasureOverlay>(*m_renderer);
   m_observers = {m_window.AddObserver(vtkCommand::StartEvent, this, &SceneDisplay::frameStarted),
                  m_window.AddObserver(vtkCommand::EndEvent, this, &SceneDisplay::frameEnded)};
   m_settle.setSingleShot(true);
@@ -89,6 +90,7 @@ void SceneDisplay::release()
     m_window.RemoveObserver(observer);
   m_shown = [] { return false; };
   m_measures.reset();
+  m_handles.reset();
   m_touch.reset();
   m_ghostOverlay.reset();
   m_stereo.reset();
@@ -197,6 +199,12 @@ void SceneDisplay::setMeasures(const std::vector<DrawnMeasure>& measures)
   if (!m_measures)
     return;
   if (m_measures->set(measures))
+    redraw(m_moving);
+}
+
+void SceneDisplay::setHandles(const std::vector<DrawnMeasure>& handles)
+{
+  if (m_handles && m_handles->set(handles))
     redraw(m_moving);
 }
 
@@ -362,6 +370,8 @@ void SceneDisplay::frameStarted()
 {
   if (m_measures)
     m_measures->place();
+  if (m_handles)
+    m_handles->place();
   m_clock.start();
 }
 

@@ -76,6 +76,8 @@ public:
   const QString& warning() const noexcept { return m_warning; }
   /// Marks and measurements over the scene.
   void setMeasures(const std::vector<DrawnMeasure>& measures);
+  /// Outlines and handles over the scene that are dragged; not in the follower.
+  void setHandles(const std::vector<DrawnMeasure>& handles);
   /// Pixels from the upper left of the renderer's viewport, as drawn last; none behind the camera.
   std::optional<std::array<double, 2>> pixelOf(const Eigen::Vector3d& patient) const;
   /// A recorded tool beside the one in use; none: no ghost.
@@ -125,6 +127,7 @@ private:
   rendering::LightSettings m_light;
   rendering::BackgroundColor m_background = rendering::kDefaultBackground;
   std::unique_ptr<MeasureOverlay> m_measures; // destroyed before m_renderer
+  std::unique_ptr<MeasureOverlay> m_handles;  // likewise
   std::unique_ptr<TouchOverlay> m_touch;      // while a tool is in use; destroyed before m_renderer
   std::unique_ptr<GhostOverlay> m_ghostOverlay; // destroyed before m_renderer
   std::optional<rendering::ToolPose> m_ghost;

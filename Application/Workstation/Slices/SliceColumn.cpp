@@ -61,6 +61,10 @@ SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
     connect(view, &SliceView::handleTaken, this, &SliceColumn::handleTaken);
     connect(view, &SliceView::handleDragged, this, &SliceColumn::handleDragged);
     connect(view, &SliceView::handleReleased, this, &SliceColumn::handleReleased);
+    connect(view, &SliceView::boxTaken, this, &SliceColumn::boxTaken);
+    connect(view, &SliceView::boxDragged, this, &SliceColumn::boxDragged);
+    connect(view, &SliceView::boxReleased, this, &SliceColumn::boxReleased);
+    connect(view, &SliceView::boxResetAsked, this, &SliceColumn::boxResetAsked);
   }
 }
 
@@ -340,6 +344,12 @@ void SliceColumn::setMeasures(const std::vector<DrawnMeasure>& measures)
 {
   for (SliceView* view : m_views)
     view->setMeasures(measures);
+}
+
+void SliceColumn::setBox(const std::optional<SliceBox>& box)
+{
+  for (SliceView* view : m_views)
+    view->setBox(box);
 }
 
 double SliceColumn::mmPerPixel(SliceOrientation plane) const

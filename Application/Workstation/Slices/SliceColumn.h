@@ -9,6 +9,7 @@
 #include <QWidget>
 
 #include "BackgroundWork.h"
+#include "petrous/Presenters/BoxHandles.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Presenters/SlicePresenter.h"
@@ -19,6 +20,7 @@ namespace petrous::workstation
 
 class SliceView;
 struct DrawnMeasure;
+struct SliceBox;
 struct SliceDrawing;
 struct SliceMark;
 struct SliceTool;
@@ -81,6 +83,7 @@ public:
   void setMeasuring(bool on); ///< the left button sets points
   void setDrawing(const SliceDrawing& drawing);
   void setMeasures(const std::vector<DrawnMeasure>& measures);
+  void setBox(const std::optional<SliceBox>& box);
   void setDraft(const std::shared_ptr<const presenters::DraftLayer>& draft);
   /// A structure that is not shown, as its draft is; empty: none.
   void setHidden(const std::string& structure);
@@ -108,6 +111,10 @@ signals:
   void handleTaken(std::size_t measurement, std::size_t point);
   void handleDragged(const Eigen::Vector3d& patient);
   void handleReleased();
+  void boxTaken(const petrous::presenters::BoxFaces& faces, const Eigen::Vector3d& patient);
+  void boxDragged(const Eigen::Vector3d& patient);
+  void boxReleased();
+  void boxResetAsked();
 
 private:
   void frameTissue();

@@ -5,6 +5,10 @@
 
 #include <QPainter>
 #include <QPainterPath>
+#include <QPolygonF>
+
+#include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -228,6 +232,68 @@ void paintCube(QPainter& painter, double edge, const presenters::SliceGeometry& 
     painter.setPen(pen);
     painter.drawRect(QRectF(pixel[0] - half, pixel[1] - half, 2.0 * half, 2.0 * half));
   }
+}
+
+void paintBox(QPainter& painter, const presenters::HandledBox& box, bool dims,
+              const presenters::SliceGeometry& slice)
+{
+  constexpr double kHalf = 3.5;  // px, of a handle
+  constexpr double kSize = 40.0; // px, from which on it is written
+  const presenters::BoxInSlice shown(box, slice);
+  QPolygonF outline;
+  std::vector<QPointF> handles;
+  for (const presenters::BoxInSlice::Edge& edge : shown.edges())
+  {
+    const Eigen::Vector2d middle = 0.5 * (edge.from + edge.to);
+    outline << QPointF(edge.from[0] + 0.5, edge.from[1] + 0.5);
+    handles.push_back(outline.last());
+    handles.emplace_back(middle[0] + 0.5, middle[1] + 0.5);
+  }
+  if (dims)
+  {
+    QPainterPath outside;
+    outside.addRect(QRectF(painter.viewport()));
+    outside.addPolygon(outline);
+    outside.closeSubpath();
+    painter.fillPath(outside, QColor(0, 0, 0, 110));
+  }
+  const QColor color = boxColor();
+  const Qt::PenStyle style = shown.isSection() ? Qt::SolidLine : Qt::DashLine;
+  painter.setBrush(Qt::NoBrush);
+  for (const auto& pen : {QPen(QColor(0, 0, 0, 200), 3.5), QPen(color, 1.5, style)})
+  {
+    painter.setPen(pen);
+    painter.drawPolygon(outline);
+  }
+  painter.setPen(QPen(QColor(0, 0, 0, 200), 1.0));
+  painter.setBrush(color);
+  for (const QPointF& at : handles)
+    painter.drawRect(QRectF(at.x() - kHalf, at.y() - kHalf, 2.0 * kHalf, 2.0 * kHalf));
+  painter.setBrush(Qt::NoBrush);
+
+  const QRectF bounds = outline.boundingRect();
+  if (shown.edges().size() != 4 || bounds.width() < kSize)
+    return;
+  const auto length = [&](std::size_t n)
+  {
+    const presenters::BoxInSlice::Edge& edge = shown.edges()[n];
+    return (edge.to - edge.from).norm() * slice.mmPerPixel();
+  };
+  const presenters::BoxInSlice::Edge& first = shown.edges()[0];
+  const bool isAcross =
+      std::abs(first.to[0] - first.from[0]) > std::abs(first.to[1] - first.from[1]);
+  const QString text =
+      QString("%1 × %2 mm")
+          .arg(numberText(length(isAcross ? 0 : 1), 1), numberText(length(isAcross ? 1 : 0), 1));
+  QFont font = painter.font();
+  font.setPixelSize(12);
+  painter.setFont(font);
+  const QRectF seen = bounds.intersected(QRectF(painter.viewport()));
+  if (!seen.isEmpty())
+    drawText(painter,
+             seen.bottomRight() -
+                 QPointF(QFontMetricsF(font).horizontalAdvance(text) + 2.0 * kHalf, 2.0 * kHalf),
+             text, color);
 }
 
 } // namespace petrous::workstation

@@ -6,6 +6,7 @@
 #include <QPointF>
 #include <QString>
 
+#include "petrous/Presenters/BoxHandles.h"
 #include "petrous/Presenters/SliceGeometry.h"
 
 class QPainter;
@@ -57,6 +58,11 @@ bool isInSlice(const Eigen::Vector3d& point, const presenters::SliceGeometry& sl
 /// Intersection of the slice with a cube of this edge (mm) centred at `at`.
 void paintCube(QPainter& painter, double edge, const presenters::SliceGeometry& slice,
                const Eigen::Vector3d& at);
+
+/// Outline and handles of a box, dashed where the slice lies beside it, and its size in the slice.
+/// `dims`: what is outside is dark.
+void paintBox(QPainter& painter, const presenters::HandledBox& box, bool dims,
+              const presenters::SliceGeometry& slice);
 
 /// In the painter's font, readable on bone and on air alike.
 void drawText(QPainter& painter, const QPointF& baseline, const QString& text, const QColor& color);

@@ -449,6 +449,8 @@ void SliceView::paintEvent(QPaintEvent*)
   paintMarks(painter, m_drawing.marks, picture, m_crosshair);
   paintInterpolated(painter);
   paintCrosshair(painter);
+  if (m_box)
+    paintBox(painter, m_box->handled, m_box->dims, picture);
   paintMeasures(painter, m_measures, picture, m_crosshair, shownReach());
   paintLetters(painter);
   paintScaleBar(painter);
@@ -644,6 +646,8 @@ void SliceView::mousePressEvent(QMouseEvent* event)
   }
   else if (event->modifiers() & Qt::ControlModifier)
     m_turning = true;
+  else if (!(event->modifiers() & Qt::ShiftModifier) && takeBox(event->localPos()))
+    return;
   else if (m_tool && !(event->modifiers() & Qt::ShiftModifier))
   {
     m_toolDown = true;
@@ -659,7 +663,8 @@ void SliceView::mouseDoubleClickEvent(QMouseEvent* event)
   const bool isTools = m_tool && !(event->modifiers() & Qt::ShiftModifier);
   const bool turns = event->modifiers() & Qt::ControlModifier;
   if (event->button() == Qt::LeftButton && !isTools && !turns)
-    return emit enlargeAsked(m_orientation);
+    return facesAt(event->localPos()).any() ? emit boxResetAsked()
+                                            : emit enlargeAsked(m_orientation);
   // A point of a measurement was set by the first click already.
   if (isTools && !turns && m_tool->measures && event->button() == Qt::LeftButton)
     return emit toolDoubleClicked();
@@ -672,6 +677,12 @@ void SliceView::mouseReleaseEvent(QMouseEvent* event)
   {
     m_handleDown = false;
     emit handleReleased();
+    return;
+  }
+  if (event->button() == Qt::LeftButton && m_boxDown)
+  {
+    m_boxDown = false;
+    emit boxReleased();
     return;
   }
   if (event->button() == Qt::RightButton && std::exchange(m_mayMenu, false))
@@ -710,6 +721,46 @@ std::optional<SliceView::Handle> SliceView::handleAt(const QPointF& position) co
   return found;
 }
 
+void SliceView::setBox(const std::optional<SliceBox>& box)
+{
+  m_box = box;
+  if (!box && std::exchange(m_boxDown, false))
+    emit boxReleased();
+  update();
+}
+
+// A tool has the left button for itself.
+presenters::BoxFaces SliceView::facesAt(const QPointF& position) const
+{
+  constexpr double kReach = 7.0; // px
+  if (!m_presenter || !m_box || m_tool)
+    return {};
+  return presenters::BoxInSlice(m_box->handled, slice())
+      .facesAt({position.x() - 0.5, position.y() - 0.5}, kReach);
+}
+
+bool SliceView::takeBox(const QPointF& position)
+{
+  if (!m_box || m_tool)
+    return false;
+  presenters::BoxFaces faces = facesAt(position);
+  if (!faces.any() && m_box->moves)
+    if (const presenters::BoxInSlice section(m_box->handled, slice());
+        section.contains({position.x() - 0.5, position.y() - 0.5}))
+      faces = section.insideFaces();
+  if (!faces.any())
+    return false;
+  m_boxDown = true;
+  m_pressed = position;
+  emit boxTaken(faces, patientAt(position));
+  return true;
+}
+
+void SliceView::showCursorAt(const QPointF& position)
+{
+  setCursor(handleAt(position) || facesAt(position).any() ? Qt::SizeAllCursor : Qt::CrossCursor);
+}
+
 void SliceView::setMeasures(std::vector<DrawnMeasure> measures)
 {
   m_measures = std::move(measures);
@@ -731,7 +782,7 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
   if (m_tool)
     update();
   if (event->buttons() == Qt::NoButton)
-    setCursor(handleAt(event->localPos()) ? Qt::SizeAllCursor : Qt::CrossCursor);
+    showCursorAt(event->localPos());
   if (m_mayMenu && (event->localPos() - m_dragged).manhattanLength() < kClick)
     return;
   m_mayMenu = false;
@@ -744,12 +795,15 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
       emit turnOthersAsked(m_orientation, turned);
     return;
   }
-  if (m_handleDown)
+  if (m_handleDown || m_boxDown)
   {
     if (m_pressed && (event->localPos() - *m_pressed).manhattanLength() < kClick)
       return;
     m_pressed.reset();
-    emit handleDragged(shownAt(event->localPos()));
+    if (m_boxDown)
+      emit boxDragged(patientAt(event->localPos()));
+    else
+      emit handleDragged(shownAt(event->localPos()));
   }
   else if (m_toolDown)
     emit toolDragged(pointedAt(event->localPos()));

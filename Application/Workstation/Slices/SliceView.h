@@ -9,6 +9,7 @@
 #include <QWidget>
 
 #include "SliceMarks.h"
+#include "petrous/Presenters/BoxHandles.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Presenters/SlicePresenter.h"
@@ -23,6 +24,14 @@ struct SliceTool
   double radius = 0.0;   ///< mm, of the ball that follows the pointer; 0: none is drawn
   QColor color;          ///< of its outline
   bool measures = false; ///< leaves handles of measurements to be dragged
+};
+
+/// A box whose edges and corners can be dragged in the slices.
+struct SliceBox
+{
+  presenters::HandledBox handled;
+  bool moves = false; ///< dragged inside, all of it moves
+  bool dims = false;  ///< what is outside
 };
 
 /// What a tool shows in the slices besides its draft.
@@ -84,6 +93,7 @@ public:
   void setTool(const std::optional<SliceTool>& tool);
   void setDrawing(SliceDrawing drawing);
   void setMeasures(std::vector<DrawnMeasure> measures);
+  void setBox(const std::optional<SliceBox>& box);
   /// What is being segmented; nullptr: nothing.
   void setDraft(std::shared_ptr<const presenters::DraftLayer> draft);
   void draftChanged(const core::PatientBox& box); ///< its voxels, in this box
@@ -116,6 +126,11 @@ signals:
   void handleTaken(std::size_t measurement, std::size_t point);
   void handleDragged(const Eigen::Vector3d& patient);
   void handleReleased();
+  /// Faces of the box were taken, at a point; dragged to; let go. No tool has the left button then.
+  void boxTaken(const petrous::presenters::BoxFaces& faces, const Eigen::Vector3d& patient);
+  void boxDragged(const Eigen::Vector3d& patient);
+  void boxReleased();
+  void boxResetAsked(); ///< a double click on an edge
 
 protected:
   void paintEvent(QPaintEvent* event) override;
@@ -164,6 +179,9 @@ private:
     std::size_t measurement, point;
   };
   std::optional<Handle> handleAt(const QPointF& position) const;
+  presenters::BoxFaces facesAt(const QPointF& position) const;
+  bool takeBox(const QPointF& position);
+  void showCursorAt(const QPointF& position);
 
   presenters::SliceOrientation m_orientation;
   std::shared_ptr<const presenters::SlicePresenter> m_presenter;
@@ -216,6 +234,8 @@ private:
   bool m_handleDown = false;
   std::optional<QPointF> m_pressed; // a handle, until it is dragged
   std::vector<DrawnMeasure> m_measures;
+  std::optional<SliceBox> m_box;
+  bool m_boxDown = false;
 };
 
 } // namespace petrous::workstation

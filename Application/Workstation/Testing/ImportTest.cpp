@@ -1815,7 +1815,7 @@ TEST_F(Import, ARegionIsDrawnBeforeTheScanIsRead)
         auto* left = dialog.findChild<QDoubleSpinBox*>("x0");
         left->setValue(left->minimum() + 12.0);
         // The axial view's lower edge is posterior: dragged up by 60 pixels.
-        auto* view = dialog.findChild<RegionView*>("axialView");
+        auto* view = dialog.findChild<SliceView*>("axialView");
         const auto slice = view->slice();
         const Eigen::Vector3d back = dialog.region()->max();
         const Eigen::Vector2d edge = slice.pixelFromPatient(back);

@@ -46,6 +46,7 @@
 #include "CaseSaver.h"
 #include "CaseStamps.h"
 #include "CatalogueDialog.h"
+#include "ClippingController.h"
 #include "CommandPalette.h"
 #include "Commands.h"
 #include "ComparisonController.h"
@@ -226,6 +227,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
   , m_registration(new RegistrationController(m_model, *m_slices, *this))
   , m_segment(new SegmentController(m_model, *m_slices, *this))
   , m_measure(new MeasureController(m_model, *m_slices, *m_view, *this))
+  , m_clipping(new ClippingController(m_model, *m_slices, *m_view, *m_actions, *this))
   , m_sliceControl(new SliceController(m_model, *m_view, *m_slices, *m_settings, *this))
   , m_library(new LibraryController(m_model, *m_keeper, *this, m_options.drawThumbnailsAfter))
   , m_exchange(new ExchangeController(m_model, *m_keeper, *m_library->menu(), *this))
@@ -283,6 +285,7 @@ MainWindow::~MainWindow()
   delete m_registration;  // likewise
   delete m_segment;       // likewise
   delete m_measure;       // likewise
+  delete m_clipping;      // filters the view's events
   delete m_video;         // likewise
   delete m_replay;        // likewise
   delete m_drill;
@@ -535,6 +538,7 @@ void MainWindow::connectModel()
   {
     m_picture->appearanceChanged();
     m_slices->appearanceChanged();
+    m_clipping->refresh();
     for (const auto& [entry, panel] : m_panels)
       panel->appearanceChanged();
   };
@@ -733,8 +737,6 @@ void MainWindow::connectActions()
   { m_view->setCamera(interaction::rolled(m_view->picture().camera(), degrees)); };
   on(m_actions->rollLeft, [roll] { roll(-kRoll); });
   on(m_actions->rollRight, [roll] { roll(kRoll); });
-  on(m_actions->clipHere, [this] { clipHere(); });
-  on(m_actions->clipOff, [this] { m_model.setClipping({}); });
   on(m_actions->attach, [this] { m_attachments->attach(); });
   on(m_actions->boneWindow, [this] { m_slices->boneWindow(); });
   on(m_actions->softWindow, [this] { m_slices->softWindow(); });
@@ -912,6 +914,8 @@ void MainWindow::connectMeasure()
   { return m_view->tool().GetDrillMode() || m_view->tool().GetProbeMode(); };
   connect(m_measure, &MeasureController::stateChanged, this, &MainWindow::showUndo);
   connect(m_measure, &MeasureController::changed, m_saver, &CaseSaver::save);
+  connect(m_clipping, &ClippingController::statusMessage, this,
+          [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
   connect(m_measure, &MeasureController::statusMessage, this,
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
 }
@@ -1079,6 +1083,7 @@ void MainWindow::caseClosed()
   m_slices->clear();
   m_segment->caseChanged();
   m_measure->caseChanged();
+  m_clipping->caseChanged();
   tellPanels();
   m_removedBanner->hide();
   m_place->clear();
@@ -1125,6 +1130,7 @@ void MainWindow::caseChanged()
   m_slices->caseChanged();
   m_segment->caseChanged();
   m_measure->caseChanged();
+  m_clipping->caseChanged();
   tellPanels();
   if (!value.view.tool) // the thrust may be that of the case before
     m_bar->setThrust(m_settings->thrust().value_or(DrillBar::kUsualThrust));
@@ -1377,17 +1383,6 @@ void MainWindow::sideAnswered()
   if (side == Side::Left ? from.x() < -kFromTheSide : from.x() > kFromTheSide)
     showView(side == Side::Left ? rendering::StandardView::SurgicalLeft
                                 : rendering::StandardView::SurgicalRight);
-}
-
-// The plane through the crosshair, facing the viewer; a box that is shown alone stays.
-void MainWindow::clipHere()
-{
-  if (!m_model.hasCase())
-    return;
-  const core::CameraPose camera = m_view->picture().camera();
-  scene::ViewState::Clipping clipping = m_model.value().view.clipping;
-  clipping.planes = {{m_model.crosshair(), (camera.focalPoint - camera.position).normalized()}};
-  m_model.setClipping(clipping);
 }
 
 void MainWindow::stepped(bool back)

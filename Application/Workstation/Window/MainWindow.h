@@ -38,6 +38,7 @@ class DeviceWatcher;
 class ActiveDeviceController;
 class ExchangeController;
 class LibraryController;
+class ClippingController;
 class MeasureController;
 class PictureController;
 class ProbeLabel;
@@ -125,7 +126,6 @@ private:
   void notice(const QString& text);
   void showView(rendering::StandardView view);
   void sideAnswered();
-  void clipHere();
   void stepped(bool back); // by an undo or a redo
   void addPanels();
   QDockWidget* addDock(const PanelEntry& entry, Panel* panel);
@@ -187,6 +187,7 @@ private:
   RegistrationController* m_registration;
   SegmentController* m_segment;
   MeasureController* m_measure;
+  ClippingController* m_clipping; ///< after m_measure: its handles come first
   SliceController* m_sliceControl;
   LibraryController* m_library;
   ExchangeController* m_exchange;

@@ -279,6 +279,11 @@ QColor planeColor(presenters::SliceOrientation orientation)
   return {"#f0cf4f"};
 }
 
+QColor boxColor()
+{
+  return {"#5ec8ff"};
+}
+
 QString words(const std::string& text)
 {
   return QString::fromUtf8(text.data(), static_cast<int>(text.size()));

@@ -54,6 +54,8 @@ QIcon swatch(const QColor& color, int size);
 
 /// The colour of a slice plane in every view.
 QColor planeColor(presenters::SliceOrientation orientation);
+/// Of a box that is dragged.
+QColor boxColor();
 
 /// Conversion between UTF-8 and QString.
 QString words(const std::string& text);

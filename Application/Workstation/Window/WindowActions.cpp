@@ -165,6 +165,17 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                   tr("What lies before the crosshair is not shown, until a tool is taken up"));
   clipOff = make(m_view, tr("Show what was cut &away"), Qt::CTRL + Qt::SHIFT + Qt::Key_C,
                  tr("Also where the case was saved with a part of the picture only"));
+  clipDeeper = make(m_view, tr("Cut &deeper"), Qt::SHIFT + Qt::Key_PageDown,
+                    tr("Moves the plane that cuts the picture by 0.5 mm"));
+  clipLess = make(m_view, tr("Cut l&ess deep"), Qt::SHIFT + Qt::Key_PageUp,
+                  tr("Moves the plane that cuts the picture back by 0.5 mm"));
+  cropBox = make(m_view, tr("Crop bo&x"), Qt::SHIFT + Qt::Key_V,
+                 tr("A box whose edges are dragged in the slices, and its faces in the 3D view: "
+                    "only what is in it is shown, until a tool is taken up. A double click on an "
+                    "edge shows all of the image"));
+  cropBox->setCheckable(true);
+  cropNumbers = make(m_view, tr("Crop &box in numbers…"), {},
+                     tr("Where the crop box begins and ends, in mm"));
   m_view->addSeparator();
   m_greyWindows = m_view->addMenu(tr("Grey &window of the slices"));
   boneWindow = make(m_greyWindows, {}, Qt::Key_B, {});
@@ -293,6 +304,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                                        attach,
                                        clipHere,
                                        clipOff,
+                                       cropBox,
+                                       cropNumbers,
                                        exportPart,
                                        archive,
                                        addMrFolder,

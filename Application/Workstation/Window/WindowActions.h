@@ -66,6 +66,10 @@ public:
   QAction* boneThickness; ///< checkable
   QAction* clipHere;
   QAction* clipOff;
+  QAction* clipDeeper;
+  QAction* clipLess;
+  QAction* cropBox; ///< checkable
+  QAction* cropNumbers;
   QActionGroup* layouts; ///< checkable; each one's data is its ViewLayout
   QAction* enlargeView;  ///< checkable
   QAction* boneWindow;

@@ -36,6 +36,13 @@ QString numberText(const std::string& text)
   return shown.replace(", ", "; ").replace(decimal, point);
 }
 
+QString boxSizeText(const Eigen::Vector3d& millimetres)
+{
+  return QString("%1 × %2 × %3 mm")
+      .arg(numberText(millimetres[0], 1), numberText(millimetres[1], 1),
+           numberText(millimetres[2], 1));
+}
+
 QString volumeText(double volume)
 {
   const int decimals = volume < 100.0 ? 2 : volume < 10000.0 ? 1 : 0;

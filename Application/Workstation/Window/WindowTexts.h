@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include <Eigen/Core>
+
 #include <QString>
 
 #include "petrous/Presenters/WorkstationModel.h"
@@ -15,6 +17,7 @@ QString numberText(double value, int decimals);
 /// A text of numbers and units alone, with a point, as the window's language has it: "0,25 mm",
 /// "0,5; 12,0" for "0.5, 12.0".
 QString numberText(const std::string& text);
+QString boxSizeText(const Eigen::Vector3d& millimetres); ///< "40.0 × 38.0 × 30.0 mm"
 
 /// "12.34 mm³", with decimals as its size deserves.
 QString volumeText(double cubicMillimetres);

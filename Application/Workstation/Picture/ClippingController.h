@@ -1,0 +1,90 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <QObject>
+#include <QPointF>
+#include <QPointer>
+
+#include "petrous/Presenters/BoxHandles.h"
+#include "petrous/Presenters/WorkstationModel.h"
+
+class QMouseEvent;
+class QWidget;
+
+namespace petrous::workstation
+{
+
+class CropBoxDialog;
+class SliceColumn;
+class ThreeDView;
+class WindowActions;
+
+/// What is cut away from the picture of the open case: the clipping plane and the crop box, whose
+/// edges and faces are dragged in the slices and in the 3D view. Each drag is a step of undo. While
+/// a tool is in use all is shown, and there are no handles.
+class ClippingController : public QObject
+{
+  Q_OBJECT
+public:
+  /// `window`: parent of the dialog. All must outlive this.
+  ClippingController(presenters::WorkstationModel& model, SliceColumn& slices, ThreeDView& view,
+                     WindowActions& actions, QWidget& window);
+  ~ClippingController() override;
+
+  void caseChanged(); ///< or closed
+  void refresh();     ///< the clipping may have changed
+
+signals:
+  void statusMessage(const QString& line);
+
+protected:
+  bool eventFilter(QObject* watched, QEvent* event) override; ///< of the 3D view
+
+private:
+  using Clipping = scene::ViewState::Clipping;
+
+  void cutHere();
+  void showBox(bool shown);
+  void enterBox();
+  void change(const Clipping& clipping, const std::string& continues = {});
+  void record(const Clipping& before, const std::string& continues = {});
+  void setCrop(const std::optional<core::IndexBox>& crop);
+  void movePlanes(double step);
+  void beginDrag(std::function<Clipping(const Eigen::Vector3d& patient)> drag);
+  void drag(const Eigen::Vector3d& patient);
+  void endDrag();
+  void tellSize();
+  bool handleMouse(const QMouseEvent& event);
+  /// What can be dragged in the 3D view: where it stands, along which line, and to what.
+  struct Handle
+  {
+    Eigen::Vector3d at, direction; ///< patient LPS mm; unit
+    QString alongSight;            ///< why it cannot be dragged along the line of sight
+    std::function<Clipping(double millimetres)> dragged;
+  };
+  std::vector<Handle> handles() const;
+  bool takeHandle(const QPointF& position);
+  bool toolHasView() const;
+  bool showsBox() const;
+
+  presenters::WorkstationModel& m_model;
+  SliceColumn& m_slices;
+  ThreeDView& m_view;
+  WindowActions& m_actions;
+  QWidget& m_window;
+  QPointer<CropBoxDialog> m_dialog;
+  Clipping m_before; ///< the drag
+  std::function<Clipping(const Eigen::Vector3d& patient)> m_drag;
+  /// In the 3D view: the line along which a handle is dragged.
+  struct Line
+  {
+    Eigen::Vector3d at, direction;
+  };
+  std::optional<Line> m_line;
+  std::optional<QPointF> m_pressed; ///< until it is dragged
+};
+
+} // namespace petrous::workstation

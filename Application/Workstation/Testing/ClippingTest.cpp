@@ -1,0 +1,234 @@
+// The crop box and the clipping plane of the open case, moved by mouse, numbers and keys.
+#include "GuiTest.h"
+
+#include <cmath>
+
+#include <QDoubleSpinBox>
+#include <QLineF>
+#include <QMouseEvent>
+#include <QPushButton>
+
+#include "SceneDisplay.h"
+#include "SliceView.h"
+#include "ThreeDView.h"
+#include "petrous/Presenters/BoxHandles.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+using Eigen::Vector3d;
+
+namespace
+{
+
+// The ball's image: 64 voxels of 0.5 mm along each axis.
+class ClippingBox : public GuiTest
+{
+protected:
+  SliceView& axial() { return *window().findChild<SliceView*>("axialView"); }
+  const scene::ViewState::Clipping& clipping() { return window().model().value().view.clipping; }
+  void undo() { QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier); }
+  void redo() { QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier); }
+
+  static void moveTo(QWidget& widget, const QPoint& at)
+  {
+    QMouseEvent move(QEvent::MouseMove, at, Qt::LeftButton, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&widget, &move);
+  }
+
+  /// Where the axial view shows the left face of the box, in the middle of the edge.
+  QPoint leftEdge(const std::optional<core::IndexBox>& crop)
+  {
+    const presenters::CropFrame frame(window().model().value().ct.geometry);
+    Vector3d at = frame.box(crop).box.center();
+    at[0] = frame.box(crop).box.max()[0];
+    const Eigen::Vector2d pixel = axial().slice().pixelFromPatient(at);
+    return {static_cast<int>(std::lround(pixel[0])), static_cast<int>(std::lround(pixel[1]))};
+  }
+
+  QPoint inView(const Vector3d& patient)
+  {
+    const auto at = view().display().pixelOf(patient);
+    if (!at)
+      return {};
+    const double ratio = view().devicePixelRatioF();
+    return {static_cast<int>(std::lround((*at)[0] / ratio)),
+            static_cast<int>(std::lround((*at)[1] / ratio))};
+  }
+};
+
+} // namespace
+
+TEST_F(ClippingBox, IsDraggedByAnEdgeInASliceUndoneAndSaved)
+{
+  saveBall("ball");
+  openWindow("ball");
+  const QImage whole = picture();
+  action("Crop box")->trigger();
+  EXPECT_TRUE(action("Crop box")->isChecked());
+  EXPECT_FALSE(clipping().crop) << "nothing is cropped before an edge is dragged";
+  const QPoint from = leftEdge(std::nullopt);
+  const int pixels = 60;
+  const double voxels = pixels * axial().slice().mmPerPixel() / 0.5;
+  const core::IndexBox expected{{0, 0, 0}, {64 - static_cast<int>(std::lround(voxels)), 64, 64}};
+  ASSERT_GT(voxels, 1.0);
+  ASSERT_LT(voxels, 50.0);
+  const Vector3d crosshair = window().model().crosshair();
+  QTest::mousePress(&axial(), Qt::LeftButton, Qt::NoModifier, from);
+  moveTo(axial(), from - QPoint(pixels / 2, 0));
+  EXPECT_TRUE(clipping().crop) << "the picture follows the pointer";
+  moveTo(axial(), from - QPoint(pixels, 0));
+  QTest::mouseRelease(&axial(), Qt::LeftButton, Qt::NoModifier, from - QPoint(pixels, 0));
+  EXPECT_EQ(clipping().crop, expected);
+  EXPECT_EQ(window().model().crosshair(), crosshair);
+  EXPECT_EQ(window().model().undoText(), "crop box");
+
+  undo(); // one step, however often the pointer moved
+  EXPECT_FALSE(clipping().crop);
+  redo();
+  EXPECT_EQ(clipping().crop, expected);
+  ASSERT_TRUE(settled());
+  const auto revision = window().model().value().revision;
+  action("Save")->trigger();
+  ASSERT_TRUE(
+      waitFor([&] { return window().model().value().revision > revision && !window().busy(); }));
+  EXPECT_EQ(library().open("ball").view.clipping.crop, expected);
+
+  // A double click on the edge shows all of it again.
+  const QPoint edge = leftEdge(expected);
+  QTest::mouseDClick(&axial(), Qt::LeftButton, Qt::NoModifier, edge);
+  EXPECT_FALSE(clipping().crop);
+  action("Crop box")->trigger();
+  EXPECT_LT(differentPixels(picture(), whole), 50);
+  // Without its handles the edge is no edge.
+  QTest::mouseClick(&axial(), Qt::LeftButton, Qt::NoModifier, from - QPoint(20, 0));
+  EXPECT_FALSE(clipping().crop);
+  EXPECT_NE(window().model().crosshair(), crosshair);
+}
+
+TEST_F(ClippingBox, IsDraggedByAFaceInTheThreeDView)
+{
+  scene::ViewState::Clipping some;
+  some.crop = core::IndexBox{{16, 16, 16}, {48, 48, 48}};
+  scene::Case ball = ballCase("ball");
+  ball.view.clipping = some;
+  library().save(ball);
+  openWindow("ball");
+  action("Crop box")->trigger();
+  picture();
+  const auto headFace = [this]
+  {
+    const presenters::CropFrame frame(window().model().value().ct.geometry);
+    const Eigen::AlignedBox3d box = frame.box(clipping().crop).box;
+    return Vector3d(box.center()[0], box.center()[1], box.max()[2]);
+  };
+  // From the side of the ear the head is up.
+  const QPoint from = inView(headFace());
+  const double pixelsPerMm =
+      inView(headFace() - Vector3d(0.0, 0.0, 4.0)).y() / 4.0 - from.y() / 4.0;
+  ASSERT_GT(pixelsPerMm, 1.0);
+  const QPoint to = from + QPoint(0, static_cast<int>(std::lround(3.0 * pixelsPerMm)));
+  const core::CameraPose camera = view().picture().camera();
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, from);
+  moveTo(view(), (from + to) / 2);
+  moveTo(view(), to);
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, to);
+  picture();
+  ASSERT_TRUE(clipping().crop);
+  EXPECT_EQ(clipping().crop->lower, some.crop->lower);
+  EXPECT_EQ(clipping().crop->upper[0], 48);
+  EXPECT_EQ(clipping().crop->upper[1], 48);
+  EXPECT_LT(clipping().crop->upper[2], 48);
+  // The face is under the pointer, but for half a voxel.
+  EXPECT_NEAR(inView(headFace()).y(), to.y(), 0.25 * pixelsPerMm + 2.0);
+  EXPECT_EQ(view().picture().camera().position, camera.position) << "the patient does not turn";
+  undo();
+  EXPECT_EQ(clipping(), some);
+}
+
+TEST_F(ClippingBox, IsEnteredInMillimetres)
+{
+  saveBall("ball");
+  openWindow("ball");
+  action("Crop box in numbers…")->trigger();
+  auto* dialog = window().findChild<QDialog*>("cropBoxDialog");
+  ASSERT_TRUE(dialog);
+  ASSERT_TRUE(dialog->isVisible());
+  auto* x0 = dialog->findChild<QDoubleSpinBox*>("x0");
+  x0->setValue(kBallCenter[0] - 15.75 + 4.0);
+  EXPECT_EQ(clipping().crop, (core::IndexBox{{8, 0, 0}, {64, 64, 64}}));
+  // No less than 5 mm, from the 1st to the 11th voxel.
+  auto* y1 = dialog->findChild<QDoubleSpinBox*>("y1");
+  y1->setValue(kBallCenter[1] - 15.75 + 1.0);
+  EXPECT_EQ(clipping().crop, (core::IndexBox{{8, 0, 0}, {64, 11, 64}}));
+  EXPECT_NEAR(y1->value(), kBallCenter[1] - 15.75 + 5.0, 0.051);
+  undo();
+  EXPECT_EQ(clipping().crop, (core::IndexBox{{8, 0, 0}, {64, 64, 64}}));
+  EXPECT_NEAR(y1->value(), kBallCenter[1] + 15.75, 0.051) << "the dialog follows";
+  dialog->findChild<QPushButton*>("wholeImage")->click();
+  EXPECT_FALSE(clipping().crop);
+  dialog->close();
+}
+
+TEST_F(ClippingBox, GivesWayToATool)
+{
+  saveBall("ball");
+  openWindow("ball");
+  action("Crop box")->trigger();
+  QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(waitFor([this] { return view().tool().GetDrillMode() != 0; }));
+  const QPoint from = leftEdge(std::nullopt);
+  QTest::mousePress(&axial(), Qt::LeftButton, Qt::NoModifier, from);
+  moveTo(axial(), from - QPoint(60, 0));
+  QTest::mouseRelease(&axial(), Qt::LeftButton, Qt::NoModifier, from - QPoint(60, 0));
+  EXPECT_FALSE(clipping().crop);
+  EXPECT_TRUE(action("Crop box")->isChecked()) << "it comes back when the tool is put away";
+}
+
+TEST_F(ClippingBox, APlaneIsMovedByKeysAndUndone)
+{
+  saveBall("ball");
+  openWindow("ball");
+  EXPECT_FALSE(action("Cut deeper")->isEnabled());
+  action("Cut away to the crosshair")->trigger();
+  ASSERT_EQ(clipping().planes.size(), 1U);
+  const scene::ViewState::Clipping::Plane plane = clipping().planes.front();
+  action("Cut deeper")->trigger();
+  action("Cut deeper")->trigger();
+  EXPECT_LT((clipping().planes.front().point - plane.point - 1.0 * plane.normal).norm(), 1e-9);
+  action("Cut less deep")->trigger();
+  EXPECT_LT((clipping().planes.front().point - plane.point - 0.5 * plane.normal).norm(), 1e-9);
+  while (!clipping().planes.empty() && window().model().canUndo())
+    undo();
+  EXPECT_TRUE(clipping().empty());
+  redo();
+  ASSERT_EQ(clipping().planes.size(), 1U);
+  EXPECT_EQ(clipping().planes.front().point, plane.point);
+}
+
+TEST_F(ClippingBox, APlaneIsDraggedByItsArrow)
+{
+  saveBall("ball");
+  openWindow("ball");
+  action("Cut away to the crosshair")->trigger(); // seen from the side of the ear
+  ASSERT_EQ(clipping().planes.size(), 1U);
+  const scene::ViewState::Clipping before = clipping();
+  const scene::ViewState::Clipping::Plane plane = before.planes.front();
+  action("Anterior")->trigger();
+  picture();
+  const Vector3d tip = plane.point + 8.0 * plane.normal;
+  const QPoint from = inView(tip);
+  const QPoint to = inView(tip + 3.0 * plane.normal);
+  const double pixelsPerMm = QLineF(from, to).length() / 3.0;
+  ASSERT_GT(pixelsPerMm, 2.0);
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, from);
+  moveTo(view(), (from + to) / 2);
+  moveTo(view(), to);
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, to);
+  ASSERT_EQ(clipping().planes.size(), 1U);
+  const Vector3d moved = clipping().planes.front().point - plane.point;
+  EXPECT_NEAR(moved.dot(plane.normal), 3.0, 2.0 / pixelsPerMm);
+  EXPECT_LT((moved - moved.dot(plane.normal) * plane.normal).norm(), 1e-9);
+  EXPECT_EQ(clipping().planes.front().normal, plane.normal);
+  undo();
+  EXPECT_EQ(clipping(), before);
+}

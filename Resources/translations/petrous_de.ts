@@ -2830,10 +2830,6 @@ Ohne ihn dreht Ziehen den Patienten.</translation>
         <translation> mm</translation>
     </message>
     <message>
-        <source>Diameter of the burr, mm, of those that are sold ([ smaller, ] larger)</source>
-        <translation>Durchmesser der Fräse, mm, unter den erhältlichen ([ kleiner, ] größer)</translation>
-    </message>
-    <message>
         <source>Cutting</source>
         <translation>Schneidend</translation>
     </message>
@@ -2912,6 +2908,10 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
     <message>
         <source>The hand on the device presses the burr itself</source>
         <translation>Die Hand am Gerät drückt die Fräse selbst an</translation>
+    </message>
+    <message>
+        <source>Diameter of the burr, mm, of those that are sold (A or [ smaller, S or ] larger)</source>
+        <translation>Durchmesser der Fräse, mm, unter den erhältlichen (A oder [ kleiner, S oder ] größer)</translation>
     </message>
 </context>
 <context>
@@ -6667,10 +6667,6 @@ Verletzt: %1, %2</translation>
         <translation>Ra&amp;dius</translation>
     </message>
     <message>
-        <source>Of the ball, or disk ([ smaller, ] larger)</source>
-        <translation>Der Kugel oder Scheibe ([ kleiner, ] größer)</translation>
-    </message>
-    <message>
         <source> mm</source>
         <translation> mm</translation>
     </message>
@@ -7025,6 +7021,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>The preview is being computed.</source>
         <translation>Die Vorschau wird berechnet.</translation>
+    </message>
+    <message>
+        <source>Of the ball, or disk (A or [ smaller, S or ] larger)</source>
+        <translation>Der Kugel oder Scheibe (A oder [ kleiner, S oder ] größer)</translation>
     </message>
 </context>
 <context>
@@ -7753,10 +7753,6 @@ Rot und schraffiert: weggebohrt.</translation>
         <translation>Mittel</translation>
     </message>
     <message>
-        <source>Of the layer, mm (Ctrl+[ and Ctrl+])</source>
-        <translation>Des Pakets, mm (Strg+[ und Strg+])</translation>
-    </message>
-    <message>
         <source> mm</source>
         <translation> mm</translation>
     </message>
@@ -7795,6 +7791,10 @@ Rot und schraffiert: weggebohrt.</translation>
     <message>
         <source>Name of the window of width %1 and level %2:</source>
         <translation>Name des Fensters mit Breite %1 und Zentrum %2:</translation>
+    </message>
+    <message>
+        <source>Of the layer, mm (Shift+J thicker, Ctrl+Shift+J thinner; or Ctrl+] and Ctrl+[)</source>
+        <translation>Des Pakets, mm (Umschalt+J dicker, Strg+Umschalt+J dünner; auch Strg+] und Strg+[)</translation>
     </message>
 </context>
 <context>
@@ -8245,6 +8245,10 @@ Nichts verlässt diesen Rechner.</translation>
     <message>
         <source>Bone is what is denser than this, in the image&apos;s own unit: it is not in Hounsfield units</source>
         <translation>Knochen ist, was dichter als dies ist, in der eigenen Einheit des Bildes: Es ist nicht in Hounsfield-Einheiten</translation>
+    </message>
+    <message>
+        <source>&amp;Find a structure</source>
+        <translation>Eine Struktur &amp;suchen</translation>
     </message>
 </context>
 <context>

@@ -200,6 +200,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                      tr("The next smaller one that is sold"));
   largerBurr =
       make(drill, tr("&Larger burr"), Qt::Key_BracketRight, tr("The next larger one that is sold"));
+  addKey(*smallerBurr, Qt::Key_A);
+  addKey(*largerBurr, Qt::Key_S);
   otherKind = make(drill, tr("Next &kind of burr"), Qt::Key_L,
                    tr("Cutting, diamond, or the next one of your own"));
   QMenu* handpiece = drill->addMenu(tr("Handp&iece"));

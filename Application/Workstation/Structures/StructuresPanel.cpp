@@ -23,6 +23,7 @@
 #include <QTreeView>
 #include <QVBoxLayout>
 
+#include "Commands.h"
 #include "NearbyModel.h"
 #include "StructureEditor.h"
 #include "StructuresModel.h"
@@ -100,13 +101,13 @@ void StructuresPanel::addSearch(QVBoxLayout& layout)
   m_search->setClearButtonEnabled(true);
   m_search->installEventFilter(this);
   connect(m_search, &QLineEdit::textChanged, this, &StructuresPanel::filter);
-  auto* find = new QAction(this);
-  find->setShortcut(Qt::Key_Slash);
-  find->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+  auto* find = new QAction(tr("&Find a structure"), this);
+  find->setObjectName("findStructure");
+  find->setShortcut(Qt::Key_Slash); // of the whole window, as long as the panel is not closed
   connect(find, &QAction::triggered, m_search,
           [this]
           {
-            m_search->setFocus(Qt::ShortcutFocusReason);
+            showSetting(*m_search);
             m_search->selectAll();
           });
   addAction(find);
@@ -563,6 +564,11 @@ void StructuresPanel::showRange()
 bool StructuresPanel::isOnMr() const
 {
   return m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr;
+}
+
+QWidget* StructuresPanel::mainControl()
+{
+  return m_list;
 }
 
 void StructuresPanel::caseChanged()

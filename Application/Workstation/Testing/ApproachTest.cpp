@@ -123,6 +123,30 @@ TEST_F(Approaches, AreATreeOfTheirStrokesWithWhatEachRemoved)
   EXPECT_EQ(main->child(1)->child(0)->text(2), "1 min 15 s") << "with the first stroke";
 }
 
+TEST_F(Approaches, AClosedCaseLeavesNoneInThePanels)
+{
+  saveApproaches();
+  saveBall("untouched");
+  openWindow("ball");
+  openPanel();
+  QTest::keyClick(&window(), Qt::Key_F7);
+  const auto* removed = window().findChild<QLabel*>("removed");
+  ASSERT_TRUE(waitFor([&] { return removed->text().contains("21.0"); }));
+  ASSERT_EQ(rows().size(), 6);
+  action("Close the case")->trigger();
+  ASSERT_TRUE(waitFor([this] { return !window().model().hasCase() && !window().busy(); }));
+  EXPECT_EQ(rows(), QStringList());
+  EXPECT_EQ(removed->text(), "");
+  EXPECT_EQ(line().maximum(), 0);
+  // Of one without a stroke, as many changes as of none.
+  window().begin("untouched");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  EXPECT_EQ(rows(), QStringList({QString::fromUtf8("▶ main"), ".Untouched"}));
+  action("Close the case")->trigger();
+  ASSERT_TRUE(waitFor([this] { return !window().model().hasCase() && !window().busy(); }));
+  EXPECT_EQ(rows(), QStringList());
+}
+
 TEST_F(Approaches, ArrowKeysGoToTheStatesLive)
 {
   saveApproaches();

@@ -1,6 +1,8 @@
 #include "Panels.h"
 
+#include <QAbstractSpinBox>
 #include <QCoreApplication>
+#include <QLineEdit>
 
 #include "AppearancePanel.h"
 #include "ApproachPanel.h"
@@ -58,6 +60,16 @@ Panel* approachPanel(const PanelContext& context)
 }
 
 } // namespace
+
+QWidget* Panel::mainControl()
+{
+  for (QWidget* widget = nextInFocusChain(); widget != this; widget = widget->nextInFocusChain())
+    if (isAncestorOf(widget) && widget->isVisibleTo(this) && widget->isEnabled() &&
+        (widget->focusPolicy() & Qt::TabFocus) && !qobject_cast<QAbstractSpinBox*>(widget) &&
+        !qobject_cast<QLineEdit*>(widget))
+      return widget;
+  return nullptr;
+}
 
 std::vector<PanelEntry> panelEntries()
 {

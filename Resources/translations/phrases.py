@@ -32,10 +32,10 @@ TEXT_OF_PROGRAM = re.compile(
     r"[tT]oString|verdict|fault|field|doubts|remedy|about|instead|decimation|goesOn|^is$|primary|kSides|^ours$|"
     r"^others$|^code$")
 NOT_TEXT = re.compile(
-    r"^(to_string|fixedText|generalText|lengthText|exactText|string|filename|size|name|path|"
+    r"^(to_string|fixedText|generalText|plainText|lengthText|exactText|string|filename|size|name|path|"
     r"pathText|hexText)$")
 # Functions that give a number, perhaps with its unit.
-NUMBERS = {"to_string", "fixedText", "generalText", "lengthText", "exactText", "decimals", "fixed",
+NUMBERS = {"to_string", "fixedText", "generalText", "plainText", "lengthText", "exactText", "decimals", "fixed",
            "percent", "millimetres", "gigabytes", "seconds", "roughText"}
 
 

@@ -45,7 +45,7 @@ QString slabText(const presenters::Slab& slab)
   const QString name = slab.projection == presenters::Projection::Maximum   ? SliceView::tr("MIP")
                        : slab.projection == presenters::Projection::Minimum ? SliceView::tr("MinIP")
                                                                             : SliceView::tr("Mean");
-  return SliceView::tr("%1 %2 mm").arg(name, numberText(core::generalText(slab.thickness)));
+  return SliceView::tr("%1 %2 mm").arg(name, numberText(core::plainText(slab.thickness)));
 }
 
 SliceView::SliceView(SliceOrientation orientation, QWidget* parent)

@@ -294,6 +294,24 @@ TEST_F(Approaches, ThumbnailsAreDrawnOfTheRowsThatAreSeen)
   picture();
 }
 
+TEST_F(Approaches, KeysOfTheMainWindowActInTheComparison)
+{
+  saveApproaches();
+  openWindow();
+  QTest::keyClick(&window(), Qt::Key_D, Qt::ControlModifier);
+  ASSERT_TRUE(comparison());
+  ASSERT_TRUE(waitFor([this] { return comparison()->table().rowCount() > 0; }));
+  ASSERT_EQ(value().applied(), 2u);
+  QApplication::setActiveWindow(comparison());
+  QTest::keyClick(comparison(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(value().applied(), 1u);
+  QTest::keyClick(comparison(), Qt::Key_Y, Qt::ControlModifier);
+  EXPECT_EQ(value().applied(), 2u);
+  ASSERT_FALSE(tree().isVisible());
+  QTest::keyClick(comparison(), Qt::Key_F9, Qt::ShiftModifier);
+  EXPECT_TRUE(waitFor([this] { return tree().isVisible(); }));
+}
+
 TEST_F(Approaches, AreComparedByOneKey)
 {
   saveApproaches();

@@ -306,6 +306,9 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
   if (const auto burr = m_settings->burr())
     m_bar->setBurr(*burr);
   m_picture->flush = [this] { return flush(); };
+  m_comparison->keys = {m_actions->undo, m_actions->redo,
+                        findChild<QDockWidget*>("approachDock")->toggleViewAction()};
+  m_comparison->keys += m_actions->approaches->actions();
   m_branches->settle = [this] { return m_drill->releaseTool(); };
   m_branches->camera = [this] { return m_viewState->camera(); };
   m_branches->showCamera = [this](const core::CameraPose& camera)

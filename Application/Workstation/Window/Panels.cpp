@@ -3,6 +3,7 @@
 #include <QAbstractSpinBox>
 #include <QCoreApplication>
 #include <QLineEdit>
+#include <QScrollArea>
 
 #include "AppearancePanel.h"
 #include "ApproachPanel.h"
@@ -63,10 +64,14 @@ Panel* approachPanel(const PanelContext& context)
 
 QWidget* Panel::mainControl()
 {
+  const auto isMain = [this](QWidget* widget)
+  {
+    return isAncestorOf(widget) && widget->isVisibleTo(this) && widget->isEnabled() &&
+           (widget->focusPolicy() & Qt::TabFocus) && !qobject_cast<QAbstractSpinBox*>(widget) &&
+           !qobject_cast<QLineEdit*>(widget) && !qobject_cast<QScrollArea*>(widget);
+  };
   for (QWidget* widget = nextInFocusChain(); widget != this; widget = widget->nextInFocusChain())
-    if (isAncestorOf(widget) && widget->isVisibleTo(this) && widget->isEnabled() &&
-        (widget->focusPolicy() & Qt::TabFocus) && !qobject_cast<QAbstractSpinBox*>(widget) &&
-        !qobject_cast<QLineEdit*>(widget))
+    if (isMain(widget))
       return widget;
   return nullptr;
 }

@@ -104,6 +104,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
               tr("Take back the last change: a stroke, an appearance, a part"));
   redo = make(edit, tr("&Redo"), Qt::CTRL + Qt::SHIFT + Qt::Key_Z,
               tr("Make the change again that was taken back"));
+  addKey(*redo, Qt::CTRL + Qt::Key_Y);
   edit->addSeparator();
   strokeCamera = make(edit, tr("Undo goes back to the stroke's &view"), {},
                       tr("Turn the patient as they lay when the stroke was drilled"));

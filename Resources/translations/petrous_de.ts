@@ -4491,6 +4491,10 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
         <source>The case is still being prepared; then the surface can be clicked. The slices can be already.</source>
         <translation>Der Fall wird noch vorbereitet; dann kann die Oberfläche angeklickt werden. Bei den Schichten geht es schon.</translation>
     </message>
+    <message>
+        <source>The points that were set are dropped: they do not make a measurement</source>
+        <translation>Die gesetzten Punkte sind verworfen: Sie ergeben keine Messung</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::MeasurePanel</name>
@@ -7244,10 +7248,6 @@ Verletzt: %1, %2</translation>
         <translation>S&amp;chrift:</translation>
     </message>
     <message>
-        <source>Theme and letters as they were before any choice</source>
-        <translation>Design und Schrift, wie sie vor jeder Wahl waren</translation>
-    </message>
-    <message>
         <source>Another &amp;folder…</source>
         <translation>Anderer &amp;Ordner…</translation>
     </message>
@@ -7319,6 +7319,10 @@ Verletzt: %1, %2</translation>
         <source>&amp;Restore defaults</source>
         <translation>Sta&amp;ndardwerte</translation>
     </message>
+    <message>
+        <source>Theme, letters and language as they were before any choice</source>
+        <translation>Design, Schrift und Sprache, wie sie vor jeder Wahl waren</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ShareController</name>
@@ -7359,8 +7363,8 @@ Verletzt: %1, %2</translation>
         <translation>Der Film ist geschrieben</translation>
     </message>
     <message>
-        <source>The report is written. Read what stands in it as it was typed, for names: %1</source>
-        <translation>Der Bericht ist geschrieben. Lesen Sie auf Namen, was darin steht, wie es eingegeben wurde: %1</translation>
+        <source>Read what stands in it as it was typed, for names: %1</source>
+        <translation>Lesen Sie auf Namen, was darin steht, wie es eingegeben wurde: %1</translation>
     </message>
 </context>
 <context>
@@ -8146,6 +8150,10 @@ Nichts verlässt diesen Rechner.</translation>
     <message>
         <source>%1: %2</source>
         <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>%1 (%2 of %3)</source>
+        <translation>%1 (%2 von %3)</translation>
     </message>
 </context>
 <context>

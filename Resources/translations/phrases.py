@@ -327,13 +327,13 @@ SHORT = {" ".join(word.split()) for word in """
     | difference %1 | dimensions | dissected | distance | document | doubtful | drilled |
     emptied | empty | encrypted | failed | good | gradient %#1 | gradient %1 | growing | half |
     hand | hide %1 | hide %~1 | image | islands | iso | kept | label %#1 | label %1 | labels |
-    landmarks | left | length | margin | mark %#1 | mark %1 | mask | mesh | metadata | missing |
+    landmarks | left | length | margin | mark | mark %#1 | mark %1 | mask | mesh | metadata | missing |
     move %~1 | nerve | node | none | ok | one | opacity | other | point | points | position |
     preset | read | recording | redoing | refused | remove %~1 | removed | repairable | repeat
     %#1 | repeat %1 | resampling | right | screenshot | series | set aside | show %1 | show %~1
     | side | skipped | slices | smoothing | stroke | structure | structure %#1 | structure %1 |
     structures | study | surface | the CT | the MR '%1' | thickness | thickness along the normal
-    | threshold | tilt %#1 | tilt %1 | tissue | transfer | tube | undoing | unknown | unread |
+    | threshold | tilt %#1 | tilt %1 | tissue | to '%1' | transfer | tube | undoing | unknown | unread |
     video | view | volume | wall | withheld | rigid | patient ID | above 0 GPa | above 0 HV |
     within -60 to 60 degrees
 """.split("|")}

@@ -401,15 +401,16 @@ void StructuresPanel::filter()
       m_list->setRowHidden(top, {}, !isFound(row));
       continue;
     }
-    bool isAny = false;
+    std::size_t count = 0;
     for (int n = 0; n < m_structures->rowCount(row); ++n)
     {
       const bool found = isFound(m_structures->index(n, StructuresModel::Name, row));
       m_list->setRowHidden(n, row, !found);
-      isAny = isAny || found;
+      count += found ? 1 : 0;
     }
-    m_list->setRowHidden(top, {}, !isAny);
-    if (!wanted.isEmpty() && isAny)
+    m_list->setRowHidden(top, {}, count == 0);
+    m_structures->setFound(row, wanted.isEmpty() ? std::nullopt : std::optional(count));
+    if (!wanted.isEmpty() && count > 0)
       m_list->expand(row);
   }
   selectionChanged();

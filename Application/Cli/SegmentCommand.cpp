@@ -127,13 +127,13 @@ Made region(const SegmentOptions& options, const scene::Case& value, const scene
   if (made.mask.count == 0)
   {
     const volume::ValueRange all = image.range();
-    throw core::InvalidParameter("nothing lies between " + core::generalText(range.min) + " and " +
-                                 core::generalText(range.max) + unit + "; the image has " +
+    throw core::InvalidParameter("nothing lies between " + core::plainText(range.min) + " and " +
+                                 core::plainText(range.max) + unit + "; the image has " +
                                  fixed(all.min, 1) + " to " + fixed(all.max, 1) + unit);
   }
   made.facts["threshold"] = {range.min, range.max};
   made.lines.push_back(
-      "  between " + core::generalText(range.min) + " and " + core::generalText(range.max) +
+      "  between " + core::plainText(range.min) + " and " + core::plainText(range.max) +
       (options.source == "ct" && presenters::displayOf(value).hounsfield ? " HU" : "") +
       (seeds.empty() ? "" : ", connected with the seed"));
   return made;

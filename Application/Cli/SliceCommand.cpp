@@ -314,7 +314,7 @@ void slice(const Context& context, SliceOptions options)
 
   std::vector<std::string> lines{plane.name};
   if (slab.thickness > 0.0)
-    lines.push_back(projectionWord(slab.projection) + " " + core::generalText(slab.thickness) +
+    lines.push_back(projectionWord(slab.projection) + " " + core::plainText(slab.thickness) +
                     " mm");
   if (mr)
     lines.push_back("MR " + mr->name + (mr->registered ? "" : ": not registered"));

@@ -2891,10 +2891,6 @@ Ohne ihn dreht Ziehen den Patienten.</translation>
         <translation> mm</translation>
     </message>
     <message>
-        <source>Diameter of the burr, mm, of those that are sold ([ smaller, ] larger)</source>
-        <translation>Durchmesser der Fräse, mm, unter den erhältlichen ([ kleiner, ] größer)</translation>
-    </message>
-    <message>
         <source>Cutting</source>
         <translation>Schneidend</translation>
     </message>
@@ -2973,6 +2969,10 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
     <message>
         <source>The hand on the device presses the burr itself</source>
         <translation>Die Hand am Gerät drückt die Fräse selbst an</translation>
+    </message>
+    <message>
+        <source>Diameter of the burr, mm, of those that are sold (A or [ smaller, S or ] larger)</source>
+        <translation>Durchmesser der Fräse, mm, unter den erhältlichen (A oder [ kleiner, S oder ] größer)</translation>
     </message>
 </context>
 <context>
@@ -4563,6 +4563,10 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
     <message>
         <source>The case is still being prepared; then the surface can be clicked. The slices can be already.</source>
         <translation>Der Fall wird noch vorbereitet; dann kann die Oberfläche angeklickt werden. Bei den Schichten geht es schon.</translation>
+    </message>
+    <message>
+        <source>The points that were set are dropped: they do not make a measurement</source>
+        <translation>Die gesetzten Punkte sind verworfen: Sie ergeben keine Messung</translation>
     </message>
 </context>
 <context>
@@ -6761,10 +6765,6 @@ Verletzt: %1, %2</translation>
         <translation>Ra&amp;dius</translation>
     </message>
     <message>
-        <source>Of the ball, or disk ([ smaller, ] larger)</source>
-        <translation>Der Kugel oder Scheibe ([ kleiner, ] größer)</translation>
-    </message>
-    <message>
         <source> mm</source>
         <translation> mm</translation>
     </message>
@@ -7120,6 +7120,10 @@ Verletzt: %1, %2</translation>
         <source>The preview is being computed.</source>
         <translation>Die Vorschau wird berechnet.</translation>
     </message>
+    <message>
+        <source>Of the ball, or disk (A or [ smaller, S or ] larger)</source>
+        <translation>Der Kugel oder Scheibe (A oder [ kleiner, S oder ] größer)</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::SendDialog</name>
@@ -7338,10 +7342,6 @@ Verletzt: %1, %2</translation>
         <translation>S&amp;chrift:</translation>
     </message>
     <message>
-        <source>Theme and letters as they were before any choice</source>
-        <translation>Design und Schrift, wie sie vor jeder Wahl waren</translation>
-    </message>
-    <message>
         <source>Another &amp;folder…</source>
         <translation>Anderer &amp;Ordner…</translation>
     </message>
@@ -7413,6 +7413,10 @@ Verletzt: %1, %2</translation>
         <source>&amp;Restore defaults</source>
         <translation>Sta&amp;ndardwerte</translation>
     </message>
+    <message>
+        <source>Theme, letters and language as they were before any choice</source>
+        <translation>Design, Schrift und Sprache, wie sie vor jeder Wahl waren</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ShareController</name>
@@ -7453,8 +7457,8 @@ Verletzt: %1, %2</translation>
         <translation>Der Film ist geschrieben</translation>
     </message>
     <message>
-        <source>The report is written. Read what stands in it as it was typed, for names: %1</source>
-        <translation>Der Bericht ist geschrieben. Lesen Sie auf Namen, was darin steht, wie es eingegeben wurde: %1</translation>
+        <source>Read what stands in it as it was typed, for names: %1</source>
+        <translation>Lesen Sie auf Namen, was darin steht, wie es eingegeben wurde: %1</translation>
     </message>
 </context>
 <context>
@@ -7859,10 +7863,6 @@ Rot und schraffiert: weggebohrt.</translation>
         <translation>Mittel</translation>
     </message>
     <message>
-        <source>Of the layer, mm (Ctrl+[ and Ctrl+])</source>
-        <translation>Des Pakets, mm (Strg+[ und Strg+])</translation>
-    </message>
-    <message>
         <source> mm</source>
         <translation> mm</translation>
     </message>
@@ -7901,6 +7901,10 @@ Rot und schraffiert: weggebohrt.</translation>
     <message>
         <source>Name of the window of width %1 and level %2:</source>
         <translation>Name des Fensters mit Breite %1 und Zentrum %2:</translation>
+    </message>
+    <message>
+        <source>Of the layer, mm (Shift+J thicker, Ctrl+Shift+J thinner; or Ctrl+] and Ctrl+[)</source>
+        <translation>Des Pakets, mm (Umschalt+J dicker, Strg+Umschalt+J dünner; auch Strg+] und Strg+[)</translation>
     </message>
 </context>
 <context>
@@ -8253,6 +8257,10 @@ Nichts verlässt diesen Rechner.</translation>
         <source>%1: %2</source>
         <translation>%1: %2</translation>
     </message>
+    <message>
+        <source>%1 (%2 of %3)</source>
+        <translation>%1 (%2 von %3)</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::StructuresPanel</name>
@@ -8351,6 +8359,10 @@ Nichts verlässt diesen Rechner.</translation>
     <message>
         <source>Bone is what is denser than this, in the image&apos;s own unit: it is not in Hounsfield units</source>
         <translation>Knochen ist, was dichter als dies ist, in der eigenen Einheit des Bildes: Es ist nicht in Hounsfield-Einheiten</translation>
+    </message>
+    <message>
+        <source>&amp;Find a structure</source>
+        <translation>Eine Struktur &amp;suchen</translation>
     </message>
 </context>
 <context>

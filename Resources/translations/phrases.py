@@ -32,10 +32,10 @@ TEXT_OF_PROGRAM = re.compile(
     r"[tT]oString|verdict|fault|field|doubts|remedy|about|instead|decimation|goesOn|^is$|primary|kSides|^ours$|"
     r"^others$|^code$")
 NOT_TEXT = re.compile(
-    r"^(to_string|fixedText|generalText|lengthText|exactText|string|filename|size|name|path|"
+    r"^(to_string|fixedText|generalText|plainText|lengthText|exactText|string|filename|size|name|path|"
     r"pathText|hexText)$")
 # Functions that give a number, perhaps with its unit.
-NUMBERS = {"to_string", "fixedText", "generalText", "lengthText", "exactText", "decimals", "fixed",
+NUMBERS = {"to_string", "fixedText", "generalText", "plainText", "lengthText", "exactText", "decimals", "fixed",
            "percent", "millimetres", "gigabytes", "seconds", "roughText"}
 
 
@@ -327,13 +327,13 @@ SHORT = {" ".join(word.split()) for word in """
     | difference %1 | dimensions | dissected | distance | document | doubtful | drilled |
     edges | emptied | empty | encrypted | exposure | failed | good | gradient %#1 | gradient %1 | growing | half |
     hand | hide %1 | hide %~1 | image | islands | iso | kept | label %#1 | label %1 | labels |
-    landmarks | left | length | margin | mark %#1 | mark %1 | mask | mesh | metadata | missing |
+    landmarks | left | length | margin | mark | mark %#1 | mark %1 | mask | mesh | metadata | missing |
     move %~1 | nerve | node | none | ok | one | opacity | other | point | points | position |
     preset | read | recording | redoing | refused | remove %~1 | removed | repairable | repeat
     %#1 | repeat %1 | resampling | right | screenshot | series | set aside | shadows | show %1 | show %~1
     | side | skipped | slices | smoothing | stroke | structure | structure %#1 | structure %1 |
     structures | study | surface | the CT | the MR '%1' | thickness | thickness along the normal
-    | threshold | tilt %#1 | tilt %1 | tissue | transfer | tube | undoing | unknown | unread |
+    | threshold | tilt %#1 | tilt %1 | tissue | to '%1' | transfer | tube | undoing | unknown | unread |
     video | view | volume | wall | wetness | withheld | rigid | patient ID | above 0 GPa | above 0 HV |
     within -60 to 60 degrees
 """.split("|")}

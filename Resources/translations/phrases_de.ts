@@ -2252,6 +2252,10 @@
         <translation>zu „%1“, das entfernt wurde</translation>
     </message>
     <message>
+        <source>to '%1'</source>
+        <translation>zu „%1“</translation>
+    </message>
+    <message>
         <source>shortest thickness</source>
         <translation>kürzeste Dicke</translation>
     </message>
@@ -8787,6 +8791,10 @@
     <message>
         <source>%1: not a whole case manifest; restore it from a copy</source>
         <translation>%1: kein vollständiges Manifest eines Falls; stellen Sie es aus einer Kopie wieder her</translation>
+    </message>
+    <message>
+        <source>mark</source>
+        <translation>Marke</translation>
     </message>
     <message>
         <source>angle</source>

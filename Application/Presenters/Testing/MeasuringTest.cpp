@@ -274,6 +274,9 @@ TEST(Quantity, OfWhatFollowedARemovedStructureSaysSo)
   along.structureGone = true; // and another is called so
   EXPECT_NE(quantitiesOf(value, along)[0].remark.find("which was removed"), std::string::npos);
   scene::Measurement wall = made(Kind::Thickness, {{0, 0, 0}, {0, 0, 3}});
+  wall.structure = "air_cells";
+  EXPECT_NE(quantitiesOf(value, wall)[0].remark.find("to 'air cells'"), std::string::npos)
+      << quantitiesOf(value, wall)[0].remark;
   wall.structure = "canal";
   EXPECT_TRUE(quantitiesOf(value, wall)[0].uncertainty);
   wall.structureGone = true;

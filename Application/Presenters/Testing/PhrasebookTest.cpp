@@ -89,6 +89,14 @@ TEST(Phrasebook, APhraseInAPhraseIsTranslatedAndANameThatReadsAsOneIsNot)
   EXPECT_EQ(few().text("'a' cannot be sent: nothing"), "„a“ lässt sich nicht senden: nichts");
 }
 
+TEST(GermanPhrases, NameAMarkAndTheStructureThatAWallIsMeasuredTo)
+{
+  EXPECT_EQ(germanPhrases().text("mark"), "Marke");
+  EXPECT_EQ(germanPhrases().text("to 'air cells'"), "zu „air cells“");
+  EXPECT_EQ(germanPhrases().text("to 'air cells', which was removed"),
+            "zu „air cells“, das entfernt wurde");
+}
+
 TEST(GermanPhrases, NameTheSideInGermanAndNoPartOfTheCaseByAnotherName)
 {
   scene::Case value;

@@ -180,10 +180,15 @@ void ApproachPanel::addActions()
                   [this] { emit removalAsked(chosen()); });
 }
 
+QWidget* ApproachPanel::mainControl()
+{
+  return m_tree;
+}
+
 void ApproachPanel::caseChanged()
 {
   m_thumbnails.clear();
-  m_shown = 0;
+  m_shown.reset();
   stateChanged();
 }
 
@@ -203,7 +208,7 @@ void ApproachPanel::stateChanged()
   const std::uint64_t shown = m_model.hasCase() ? m_model.shownAs() : 0;
   const std::uint64_t changes =
       m_model.hasCase() ? m_model.value().dissection.changes() : std::uint64_t{0};
-  if (shown == m_shown && changes == m_changes)
+  if (m_shown == shown && changes == m_changes)
     return;
   m_shown = shown;
   m_changes = changes;

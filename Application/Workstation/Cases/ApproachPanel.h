@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "Panels.h"
 #include "petrous/Presenters/ApproachTree.h"
 
@@ -28,6 +31,7 @@ public:
   void partsChanged() override;
   void appearanceChanged() override;
   void stateChanged() override;
+  QWidget* mainControl() override;
 
 signals:
   void stateAsked(const QString& approach, quint64 state);
@@ -62,8 +66,8 @@ private:
   QAction* m_rename;
   QAction* m_remove;
   QAction* m_compare;
-  std::uint64_t m_shown = 0;   // the case, as WorkstationModel::shownAs
-  std::uint64_t m_changes = 0; // Dissection::changes, likewise
+  std::optional<std::uint64_t> m_shown; // the case, as WorkstationModel::shownAs; 0: none
+  std::uint64_t m_changes = 0;          // Dissection::changes, likewise
   bool m_isFilling = false;
 };
 

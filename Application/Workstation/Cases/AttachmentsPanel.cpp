@@ -88,6 +88,11 @@ AttachmentsPanel::AttachmentsPanel(const presenters::WorkstationModel& model, QW
   enable();
 }
 
+QWidget* AttachmentsPanel::mainControl()
+{
+  return m_list;
+}
+
 void AttachmentsPanel::caseChanged()
 {
   attachmentsChanged();

@@ -17,6 +17,7 @@ public:
 
   void caseChanged() override;
   void attachmentsChanged() override;
+  QWidget* mainControl() override;
 
 signals:
   void attachAsked();

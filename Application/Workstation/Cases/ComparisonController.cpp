@@ -60,6 +60,7 @@ void ComparisonController::compare(const std::string& first, const std::string& 
   {
     m_window = new ComparisonWindow(&m_parent);
     m_window->setAttribute(Qt::WA_DeleteOnClose);
+    m_window->addActions(keys);
     m_window->setStamp(m_view.stamp());
     m_window->setCamera(m_view.picture().camera());
     connect(m_window, &ComparisonWindow::approachesChosen, this,

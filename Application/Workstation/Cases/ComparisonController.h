@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include <QList>
 #include <QObject>
 #include <QPointer>
 #include <QTimer>
@@ -10,6 +11,8 @@
 #include "BackgroundWork.h"
 #include "petrous/Presenters/ApproachComparison.h"
 #include "petrous/Presenters/WorkstationModel.h"
+
+class QAction;
 
 namespace petrous::workstation
 {
@@ -27,6 +30,9 @@ public:
   ComparisonController(presenters::WorkstationModel& model, ThreeDView& view, SliceColumn& slices,
                        QWidget& window);
   ~ComparisonController() override;
+
+  /// Of the main window, whose keys act in the window of the comparison, too.
+  QList<QAction*> keys;
 
   void compare(const std::string& first, const std::string& second);
   void caseChanged();  ///< another case, other parts, or none: ends the comparison

@@ -390,6 +390,11 @@ void LibraryPanel::select(const std::string& name)
   refresh();
 }
 
+QWidget* LibraryPanel::mainControl()
+{
+  return m_list;
+}
+
 void LibraryPanel::focusList()
 {
   m_list->setFocus();

@@ -53,6 +53,7 @@ public:
   void onSeen(std::function<void(const library::CaseSummary&)> seen);
   void select(const std::string& name); ///< also where the search hides it
   void focusList();
+  QWidget* mainControl() override;
 
   void caseChanged() override { refreshSoon(); }
 

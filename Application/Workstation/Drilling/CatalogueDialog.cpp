@@ -82,7 +82,7 @@ QString cellOf(const QTableWidget& table, const QString& row, int column)
 
 QString number(double value)
 {
-  return numberText(core::generalText(value));
+  return numberText(core::plainText(value));
 }
 
 // One that was not typed over keeps the digits that are not shown.

@@ -75,7 +75,7 @@ DrillBar::DrillBar(QWidget* parent)
   m_diameter->setSuffix(tr(" mm"));
   m_diameter->setObjectName("burrDiameter");
   m_diameter->setToolTip(
-      tr("Diameter of the burr, mm, of those that are sold ([ smaller, ] larger)"));
+      tr("Diameter of the burr, mm, of those that are sold (A or [ smaller, S or ] larger)"));
   m_kind->setObjectName("burrKind");
   m_kind->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   offerBurrs();

@@ -399,8 +399,20 @@ void MeasureController::choose(Tool tool)
   if (tool != Tool::None && m_model.hasCase())
     emit toolTaken(); // before, as putting the others away leaves the tool of this
   m_panel->say({});
+  keepPoints();
   m_editor.setTool(tool);
   refresh();
+}
+
+// Of the tool that is put away: a measurement if they are enough for one.
+void MeasureController::keepPoints()
+{
+  if (!m_model.hasCase() || !hasPoints())
+    return;
+  const std::size_t before = m_editor.all().size();
+  if (m_editor.canFinish() && attempt([this] { m_editor.finish(); }))
+    return announce(before);
+  emit statusMessage(tr("The points that were set are dropped: they do not make a measurement"));
 }
 
 bool MeasureController::attempt(const std::function<void()>& what)

@@ -72,6 +72,7 @@ private:
   void addActions();
   void connectSlices();
   void connectPanel();
+  void keepPoints();
   void choose(Tool tool);
   void set(const Eigen::Vector3d& patient);
   void announce(std::size_t before);

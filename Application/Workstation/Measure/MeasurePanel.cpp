@@ -227,6 +227,11 @@ MeasurePanel::MeasurePanel(presenters::WorkstationModel& model,
   refresh();
 }
 
+QWidget* MeasurePanel::mainControl()
+{
+  return m_list;
+}
+
 void MeasurePanel::caseChanged()
 {
   m_quantities->hide();

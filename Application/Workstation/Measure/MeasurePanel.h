@@ -31,6 +31,7 @@ public:
   void partsChanged() override;
   void partRenamed(const std::string& from, const std::string& to) override;
   void stateChanged() override;
+  QWidget* mainControl() override;
   void refresh();
   void say(const QString& line); ///< a refusal; empty: what the tool takes next
   void showBusy();               ///< a structure is being measured

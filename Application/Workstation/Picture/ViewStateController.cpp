@@ -209,7 +209,8 @@ void ViewStateController::collect()
           : !isSame(now.camera, m_shown.camera))
     m_model.setCamera(now.camera);
   scene::ViewState view = value.view;
-  take(view.slices, now.view.slices, m_shown.view.slices, all);
+  // A zoom that is still being sought is not the one that will be shown.
+  take(view.slices, now.view.slices, m_shown.view.slices, all && !m_slices.isFraming());
   take(view.light, now.view.light, m_shown.view.light, all);
   take(view.stereo, now.view.stereo, m_shown.view.stereo, all);
   take(view.tool, now.view.tool, m_shown.view.tool, all);

@@ -260,7 +260,7 @@ void SegmentPanel::addBrush(QFormLayout& form, const char* radius, const char* s
 {
   form.addRow(tr("Ra&dius"),
               m_bound.add(
-                  numberBox(radius, tr("Of the ball, or disk ([ smaller, ] larger)"),
+                  numberBox(radius, tr("Of the ball, or disk (A or [ smaller, S or ] larger)"),
                             {0.1, 20.0, tr(" mm"), 1, 0.1}),
                   [this] { return m_editor.values().brush; },
                   [this](double mm) { change([=](Values& values) { values.brush = mm; }); }));

@@ -116,12 +116,16 @@ scene::Case ShareController::shown()
   return value;
 }
 
-void ShareController::done(const std::filesystem::path& file, const QString& what, bool opens)
+void ShareController::done(const std::filesystem::path& file, const QString& what, bool opens,
+                           const QString& more)
 {
   const QString path = QFile::decodeName(file.c_str());
-  emit statusMessage(tr("%1: %2").arg(what, path));
-  if (opens && !openFile(path))
-    emit statusMessage(tr("%1: %2; no program is set up to open it").arg(what, path));
+  QString text = opens && !openFile(path)
+                     ? tr("%1: %2; no program is set up to open it").arg(what, path)
+                     : tr("%1: %2").arg(what, path);
+  if (!more.isEmpty())
+    text += ". " + more;
+  emit statusMessage(text);
 }
 
 void ShareController::report()
@@ -131,35 +135,35 @@ void ShareController::report()
   ReportDialog dialog(m_model.value(), m_view.display().background(), m_model.leftOut(), &m_window);
   if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
     return;
-  m_keeper.run(tr("Writing the report"),
-               [this, value = shown(), library = m_model.library(), options = dialog.options(),
-                file = dialog.file(), isPdf = dialog.isPdf()](
-                   const core::Progress& progress) mutable -> BackgroundWork::Reply
-               {
-                 library::refuseOverwriting(file, library.folder());
-                 const presenters::IdentityText identity(value, library);
-                 options.mayIdentify = [&identity](const std::string& text)
-                 { return identity.mayIdentify(text); };
-                 options.mayIdentifySentence = [&identity](const std::string& text)
-                 { return identity.mayIdentifySentence(text); };
-                 options.isOfField = [&identity](const std::string& text)
-                 { return identity.isOfField(text); };
-                 if (!value.dissection.loaded())
-                   library.loadDissection(value);
-                 const presenters::PlanReport report =
-                     presenters::planReport(value, options, progress.part(0.0, 0.9));
-                 library.checkVoxels(value, progress);
-                 core::writeFile(file, isPdf ? report::pdfOf(report, progress.part(0.9, 1.0))
-                                             : presenters::htmlOf(report));
-                 return [this, file, kept = report.keptTexts]
-                 {
-                   done(file, tr("The report is written"), true);
-                   if (!kept.empty())
-                     emit statusMessage(tr("The report is written. Read what stands in it as it "
-                                           "was typed, for names: %1")
-                                            .arg(words(kept)));
-                 };
-               });
+  m_keeper.run(
+      tr("Writing the report"),
+      [this, value = shown(), library = m_model.library(), options = dialog.options(),
+       file = dialog.file(),
+       isPdf = dialog.isPdf()](const core::Progress& progress) mutable -> BackgroundWork::Reply
+      {
+        library::refuseOverwriting(file, library.folder());
+        const presenters::IdentityText identity(value, library);
+        options.mayIdentify = [&identity](const std::string& text)
+        { return identity.mayIdentify(text); };
+        options.mayIdentifySentence = [&identity](const std::string& text)
+        { return identity.mayIdentifySentence(text); };
+        options.isOfField = [&identity](const std::string& text)
+        { return identity.isOfField(text); };
+        if (!value.dissection.loaded())
+          library.loadDissection(value);
+        const presenters::PlanReport report =
+            presenters::planReport(value, options, progress.part(0.0, 0.9));
+        library.checkVoxels(value, progress);
+        core::writeFile(file, isPdf ? report::pdfOf(report, progress.part(0.9, 1.0))
+                                    : presenters::htmlOf(report));
+        return [this, file, kept = report.keptTexts]
+        {
+          done(file, tr("The report is written"), true,
+               kept.empty()
+                   ? QString()
+                   : tr("Read what stands in it as it was typed, for names: %1").arg(words(kept)));
+        };
+      });
 }
 
 void ShareController::printPicture()

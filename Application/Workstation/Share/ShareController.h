@@ -44,7 +44,8 @@ signals:
 private:
   bool mayBegin();
   scene::Case shown(); ///< the case with its present view
-  void done(const std::filesystem::path& file, const QString& what, bool opens);
+  void done(const std::filesystem::path& file, const QString& what, bool opens,
+            const QString& more = {});
 
   presenters::WorkstationModel& m_model;
   CaseDocumentController& m_keeper;

@@ -106,6 +106,11 @@ SharePanel::SharePanel(presenters::WorkstationModel& model, QWidget* parent)
   caseChanged();
 }
 
+QWidget* SharePanel::mainControl()
+{
+  return m_objects;
+}
+
 void SharePanel::caseChanged()
 {
   const QTreeWidgetItem* chosen = m_objects->currentItem();

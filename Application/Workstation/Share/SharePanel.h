@@ -18,6 +18,7 @@ public:
   explicit SharePanel(presenters::WorkstationModel& model, QWidget* parent = nullptr);
 
   void caseChanged() override;
+  QWidget* mainControl() override;
 
 signals:
   void reportAsked();

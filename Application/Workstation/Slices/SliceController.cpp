@@ -151,12 +151,16 @@ void SliceController::addSlabs()
   connect(make(m_menu, tr("&Next projection"), Qt::CTRL + Qt::Key_J,
                tr("Thin, MIP, MinIP, mean in turn")),
           &QAction::triggered, this, &SliceController::nextProjection);
-  connect(make(m_menu, tr("Thi&cker slab"), Qt::CTRL + Qt::Key_BracketRight,
-               tr("1, 2, 3, 5, 8, 12, 20, 30 or 50 mm")),
-          &QAction::triggered, this, [this] { stepSlab(1); });
-  connect(make(m_menu, tr("Thi&nner slab"), Qt::CTRL + Qt::Key_BracketLeft,
-               tr("50, 30, 20, 12, 8, 5, 3, 2 or 1 mm, then the thin slice")),
-          &QAction::triggered, this, [this] { stepSlab(-1); });
+  const auto step = [this](const QString& text, int bracket, int key, int by, const QString& tip)
+  {
+    QAction* action = make(m_menu, text, bracket, tip);
+    addKey(*action, key);
+    connect(action, &QAction::triggered, this, [this, by] { stepSlab(by); });
+  };
+  step(tr("Thi&cker slab"), Qt::CTRL + Qt::Key_BracketRight, Qt::SHIFT + Qt::Key_J, 1,
+       tr("1, 2, 3, 5, 8, 12, 20, 30 or 50 mm"));
+  step(tr("Thi&nner slab"), Qt::CTRL + Qt::Key_BracketLeft, Qt::CTRL + Qt::SHIFT + Qt::Key_J, -1,
+       tr("50, 30, 20, 12, 8, 5, 3, 2 or 1 mm, then the thin slice"));
 }
 
 void SliceController::addZoom()

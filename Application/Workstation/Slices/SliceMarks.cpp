@@ -175,10 +175,32 @@ QRectF placeOfLabel(const QPainter& painter, const QString& label, const QPointF
   return box;
 }
 
+// Below what is in the way, or above it where there is no room left.
+QRectF freePlace(const QRectF& wanted, const std::vector<QRectF>& taken, const QRectF& picture)
+{
+  const auto moved = [&](bool down)
+  {
+    QRectF box = wanted;
+    for (std::size_t n = 0; n < taken.size(); ++n)
+      if (taken[n].intersects(box))
+      {
+        down ? box.moveTop(taken[n].bottom() + 1.0) : box.moveBottom(taken[n].top() - 1.0);
+        n = static_cast<std::size_t>(-1);
+      }
+    return box;
+  };
+  const QRectF below = moved(true);
+  if (below.bottom() <= picture.bottom())
+    return below;
+  const QRectF above = moved(false);
+  return above.top() >= picture.top() ? above : below;
+}
+
 } // namespace
 
 void paintMeasures(QPainter& painter, const std::vector<DrawnMeasure>& measures,
-                   const presenters::SliceGeometry& slice, const Eigen::Vector3d& at, double beyond)
+                   const presenters::SliceGeometry& slice, const Eigen::Vector3d& at, double beyond,
+                   std::vector<QRectF> taken)
 {
   for (const DrawnMeasure& measure : measures)
     if (!measure.points.empty())
@@ -190,7 +212,6 @@ void paintMeasures(QPainter& painter, const std::vector<DrawnMeasure>& measures,
   QFont font = painter.font();
   font.setPixelSize(12);
   painter.setFont(font);
-  std::vector<QRectF> taken;
   for (const DrawnMeasure& measure : measures)
   {
     const auto handle = std::find_if(measure.handles.rbegin(), measure.handles.rend(),
@@ -202,12 +223,7 @@ void paintMeasures(QPainter& painter, const std::vector<DrawnMeasure>& measures,
     const QRectF picture = painter.viewport();
     if (!picture.intersects(QRectF(pixelOf(slice, measure.points[*handle]), QSizeF(1.0, 1.0))))
       continue;
-    for (std::size_t n = 0; n < taken.size(); ++n)
-      if (taken[n].intersects(box))
-      {
-        box.moveTop(taken[n].bottom() + 1.0);
-        n = static_cast<std::size_t>(-1);
-      }
+    box = freePlace(box, taken, picture);
     taken.push_back(box);
     QColor back(10, 12, 15);
     back.setAlphaF(0.72);

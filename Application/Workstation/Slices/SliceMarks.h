@@ -4,6 +4,7 @@
 
 #include <QColor>
 #include <QPointF>
+#include <QRectF>
 #include <QString>
 
 #include "petrous/Presenters/BoxHandles.h"
@@ -46,10 +47,11 @@ struct DrawnMeasure
 
 /// Full where it lies within a millimetre of the slice, which contains `at`, and faint elsewhere up
 /// to 15 mm; the label where a handle lies in the slice, or the middle does. `beyond`: mm on both
-/// sides that are seen as the slice, as in a slab.
+/// sides that are seen as the slice, as in a slab. Labels lie neither on each other nor on `taken`,
+/// places of other texts.
 void paintMeasures(QPainter& painter, const std::vector<DrawnMeasure>& measures,
                    const presenters::SliceGeometry& slice, const Eigen::Vector3d& at,
-                   double beyond = 0.0);
+                   double beyond = 0.0, std::vector<QRectF> taken = {});
 
 /// Whether a point counts as lying in the slice.
 bool isInSlice(const Eigen::Vector3d& point, const presenters::SliceGeometry& slice,

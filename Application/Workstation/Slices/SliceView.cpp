@@ -36,8 +36,17 @@ constexpr double kSightMargin = 40.0; // pixels, of what is brought into sight
 constexpr double kAtOnce = 4e6;
 constexpr int kRefineAfter = 120; // ms without a change
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr double kAlong = 0.7;    // cosine: a slice of the view is one of the grid
-const QColor kGuessed("#ff8c2b"); // interpolated slices
+constexpr double kAlong = 0.7;     // cosine: a slice of the view is one of the grid
+constexpr double kScaleBar = 0.28; // of the width, at most
+const QColor kGuessed("#ff8c2b");  // interpolated slices
+
+// With its text.
+QRectF placeOfScaleBar(const QSize& view)
+{
+  constexpr double kHeight = 28.0; // px
+  const double width = kScaleBar * view.width();
+  return {view.width() - kMargin - width, view.height() - kMargin - kHeight, width, kHeight};
+}
 } // namespace
 
 QString slabText(const presenters::Slab& slab)
@@ -45,8 +54,22 @@ QString slabText(const presenters::Slab& slab)
   const QString name = slab.projection == presenters::Projection::Maximum   ? SliceView::tr("MIP")
                        : slab.projection == presenters::Projection::Minimum ? SliceView::tr("MinIP")
                                                                             : SliceView::tr("Mean");
-  return SliceView::tr("%1 %2 mm").arg(name, numberText(core::generalText(slab.thickness)));
+  return SliceView::tr("%1 %2 mm").arg(name, numberText(core::plainText(slab.thickness)));
 }
+
+struct SliceView::EdgeText
+{
+  QPointF at; // where its baseline begins
+  QString text;
+  QColor color;
+  QFont font;
+
+  QRectF place() const
+  {
+    constexpr double kRim = 2.0; // px, of the halo
+    return QFontMetricsF(font).boundingRect(text).translated(at).adjusted(-kRim, -kRim, kRim, kRim);
+  }
+};
 
 SliceView::SliceView(SliceOrientation orientation, QWidget* parent)
   : QWidget(parent)
@@ -451,8 +474,19 @@ void SliceView::paintEvent(QPaintEvent*)
   paintCrosshair(painter);
   if (m_box)
     paintBox(painter, m_box->handled, m_box->dims, picture);
-  paintMeasures(painter, m_measures, picture, m_crosshair, shownReach());
-  paintLetters(painter);
+  const std::vector<EdgeText> texts = edgeTexts(painter.font());
+  std::vector<QRectF> taken{placeOfScaleBar(size())};
+  for (const EdgeText& one : texts)
+    taken.push_back(one.place());
+  paintMeasures(painter, m_measures, picture, m_crosshair, shownReach(), std::move(taken));
+  QFont font = painter.font();
+  font.setPixelSize(12);
+  for (const EdgeText& one : texts)
+  {
+    painter.setFont(one.font);
+    drawText(painter, one.at, one.text, one.color);
+  }
+  painter.setFont(font);
   paintScaleBar(painter);
   paintTool(painter);
   if (hasFocus())
@@ -539,59 +573,62 @@ void SliceView::paintInterpolated(QPainter& painter) const
   }
 }
 
-void SliceView::paintLetters(QPainter& painter) const
+std::vector<SliceView::EdgeText> SliceView::edgeTexts(const QFont& base) const
 {
-  QFont font = painter.font();
+  std::vector<EdgeText> texts;
+  QFont font = base;
+  const auto add = [&](const QPointF& at, const QString& text, const QColor& color)
+  {
+    if (!text.isEmpty())
+      texts.push_back({at, text, color, font});
+  };
   font.setPixelSize(15);
   font.setBold(true);
-  painter.setFont(font);
   const QFontMetricsF metrics(font);
   const QColor color("#f2f5f8");
   const auto letters = slice().edgeLetters();
   const double top = m_covered + kMargin;
   const double middle = 0.5 * height() + 0.35 * metrics.ascent();
   const auto letter = [](const std::string& text) { return words(text); };
-  drawText(painter, {double(kMargin), middle}, letter(letters.left), color);
+  add({double(kMargin), middle}, letter(letters.left), color);
   const double right = width() - kMargin - metrics.horizontalAdvance(letter(letters.right));
-  drawText(painter, {right, middle}, letter(letters.right), color);
+  add({right, middle}, letter(letters.right), color);
   const double across = 0.5 * (width() - metrics.horizontalAdvance(letter(letters.top)));
-  drawText(painter, {across, top + metrics.ascent()}, letter(letters.top), color);
-  drawText(painter, {across, double(height() - kMargin)}, letter(letters.bottom), color);
+  add({across, top + metrics.ascent()}, letter(letters.top), color);
+  add({across, double(height() - kMargin)}, letter(letters.bottom), color);
 
   font.setPixelSize(12);
-  painter.setFont(font);
   QString name = phrase(m_planes.name(m_orientation));
   if (m_slab.thickness > 0.0)
     name += "  " + slabText(m_slab);
-  drawText(painter, {double(kMargin), top + 11.0}, name, planeColor(m_orientation));
+  add({double(kMargin), top + 11.0}, name, planeColor(m_orientation));
   font.setBold(false);
-  painter.setFont(font);
   const QFontMetricsF small(font);
   const double whole = width() - 2.0 * kMargin;
-  drawText(painter, {double(kMargin), top + 27.0},
-           small.elidedText(m_notice, Qt::ElideMiddle, whole), QColor("#f0a04d"));
+  add({double(kMargin), top + 27.0}, small.elidedText(m_notice, Qt::ElideMiddle, whole),
+      QColor("#f0a04d"));
   if (showsInterpolated())
-    drawText(painter, {double(kMargin), top + 43.0},
-             small.elidedText(tr("interpolated slice: not measured here"), Qt::ElideRight, whole),
-             kGuessed);
+    add({double(kMargin), top + 43.0},
+        small.elidedText(tr("interpolated slice: not measured here"), Qt::ElideRight, whole),
+        kGuessed);
   // Above the letter where it is too long to stand beside it, and always left of the scale bar.
   const bool beside = small.horizontalAdvance(m_readout) <= across - 2.0 * kMargin;
-  drawText(painter, {double(kMargin), height() - kMargin - (beside ? 0.0 : 1.4 * small.height())},
-           small.elidedText(m_readout, Qt::ElideMiddle, kReadout * whole), color);
+  add({double(kMargin), height() - kMargin - (beside ? 0.0 : 1.4 * small.height())},
+      small.elidedText(m_readout, Qt::ElideMiddle, kReadout * whole), color);
   if (underMouse())
   {
     const QString grey = QString("W %1  L %2")
                              .arg(numberText(intensityDisplay().number(seenWindow().width)),
                                   numberText(intensityDisplay().number(seenWindow().level)));
-    const double at = width() - kMargin - QFontMetricsF(font).horizontalAdvance(grey);
-    drawText(painter, {at, top + 11.0}, grey, QColor("#b6c0ca"));
+    add({width() - kMargin - small.horizontalAdvance(grey), top + 11.0}, grey, QColor("#b6c0ca"));
   }
+  return texts;
 }
 
 void SliceView::paintScaleBar(QPainter& painter) const
 {
   const auto picture = slice();
-  const double length = presenters::scaleBarLength(0.28 * width() * picture.mmPerPixel());
+  const double length = presenters::scaleBarLength(kScaleBar * width() * picture.mmPerPixel());
   if (length <= 0.0)
     return;
   const double pixels = length / picture.mmPerPixel();

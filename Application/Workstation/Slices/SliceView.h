@@ -166,7 +166,8 @@ private:
   bool turnPlanes(const QKeyEvent& event);
   double angleAt(const QPointF& position) const; // about the crosshair, degrees, clockwise
   void paintCrosshair(QPainter& painter) const;
-  void paintLetters(QPainter& painter) const;
+  struct EdgeText;
+  std::vector<EdgeText> edgeTexts(const QFont& base) const;
   void paintScaleBar(QPainter& painter) const;
   void paintTool(QPainter& painter) const;
   void paintInterpolated(QPainter& painter) const;

@@ -166,8 +166,10 @@ void SlicesPanel::addSlab(QFormLayout* form)
   slab->addItem(tr("Brightest (MIP)"));
   slab->addItem(tr("Darkest (MinIP)"));
   slab->addItem(tr("Mean"));
-  auto* thickness = numberBox("slabThickness", tr("Of the layer, mm (Ctrl+[ and Ctrl+])"),
-                              {0.0, kThickest, tr(" mm"), 1, 1.0, tr("none")});
+  auto* thickness = numberBox(
+      "slabThickness",
+      tr("Of the layer, mm (Shift+J thicker, Ctrl+Shift+J thinner; or Ctrl+] and Ctrl+[)"),
+      {0.0, kThickest, tr(" mm"), 1, 1.0, tr("none")});
   const auto usual = [this]
   {
     Slab next = m_controller.slab();

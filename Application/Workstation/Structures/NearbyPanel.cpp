@@ -62,9 +62,10 @@ void NearbyPanel::caseChanged()
 
 void NearbyPanel::stateChanged()
 {
-  if (!m_model.hasCase() || !isVisible())
-    return;
-  showRemoved();
+  if (!m_model.hasCase())
+    m_removed->clear();
+  else if (isVisible())
+    showRemoved();
 }
 
 // Includes the open stroke.

@@ -22,6 +22,7 @@ public:
   void stateChanged() override;
   void toolMoved(const presenters::MeasuredTool& tool, const haptics::Pose& pose) override;
   void toolGone() override;
+  QWidget* mainControl() override { return nullptr; } // it is read while the tool is in use
   bool showsNear() const override { return isVisible(); }
   void toolMeasured(const presenters::ToolSurroundings& near) override;
 

@@ -236,6 +236,15 @@ void StructuresModel::measureMeshes()
       });
 }
 
+void StructuresModel::setFound(const QModelIndex& kind, std::optional<std::size_t> found)
+{
+  const Kind* one = kindAt(kind);
+  if (!one || one->found == found)
+    return;
+  m_kinds[static_cast<std::size_t>(one - m_kinds.data())].found = found;
+  emit dataChanged(kind, kind);
+}
+
 QString StructuresModel::countText() const
 {
   std::size_t structures = 0, meshes = 0, shown = 0;
@@ -598,7 +607,11 @@ StructuresModel::changedBy(const Kind& kind, const StructureProperty& property) 
 QVariant StructuresModel::kindData(const Kind& kind, int column, int role) const
 {
   if (column == Name && role == Qt::DisplayRole)
-    return tr("%1 (%2)").arg(tr(titleOfKind(kind.kind))).arg(kind.count);
+    return kind.found ? tr("%1 (%2 of %3)")
+                            .arg(tr(titleOfKind(kind.kind)))
+                            .arg(*kind.found)
+                            .arg(kind.count)
+                      : tr("%1 (%2)").arg(tr(titleOfKind(kind.kind))).arg(kind.count);
   if (column == Name && role == Qt::ToolTipRole)
     return tr("Its check boxes are those of all of them");
   if (column < FirstProperty || !isFlag(propertyAt(column)))

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,9 @@ public:
   /// case (`folded`).
   QString searchText(const QModelIndex& index) const;
   static QString folded(const QString& text);
+  /// How many of a kind a search has found, which then stands beside its name; nullopt: none is
+  /// under way.
+  void setFound(const QModelIndex& kind, std::optional<std::size_t> found);
   QString titleOf(const std::string& part) const; ///< as it is shown
 
   void caseChanged();
@@ -87,6 +91,7 @@ private:
   {
     presenters::StructureKind kind;
     std::size_t first = 0, count = 0;
+    std::optional<std::size_t> found = {}; ///< of a search
   };
   struct Measured
   {

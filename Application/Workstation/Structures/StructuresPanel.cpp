@@ -23,6 +23,7 @@
 #include <QTreeView>
 #include <QVBoxLayout>
 
+#include "Commands.h"
 #include "NearbyModel.h"
 #include "StructureEditor.h"
 #include "StructuresModel.h"
@@ -100,13 +101,13 @@ void StructuresPanel::addSearch(QVBoxLayout& layout)
   m_search->setClearButtonEnabled(true);
   m_search->installEventFilter(this);
   connect(m_search, &QLineEdit::textChanged, this, &StructuresPanel::filter);
-  auto* find = new QAction(this);
-  find->setShortcut(Qt::Key_Slash);
-  find->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+  auto* find = new QAction(tr("&Find a structure"), this);
+  find->setObjectName("findStructure");
+  find->setShortcut(Qt::Key_Slash); // of the whole window, as long as the panel is not closed
   connect(find, &QAction::triggered, m_search,
           [this]
           {
-            m_search->setFocus(Qt::ShortcutFocusReason);
+            showSetting(*m_search);
             m_search->selectAll();
           });
   addAction(find);
@@ -400,15 +401,16 @@ void StructuresPanel::filter()
       m_list->setRowHidden(top, {}, !isFound(row));
       continue;
     }
-    bool isAny = false;
+    std::size_t count = 0;
     for (int n = 0; n < m_structures->rowCount(row); ++n)
     {
       const bool found = isFound(m_structures->index(n, StructuresModel::Name, row));
       m_list->setRowHidden(n, row, !found);
-      isAny = isAny || found;
+      count += found ? 1 : 0;
     }
-    m_list->setRowHidden(top, {}, !isAny);
-    if (!wanted.isEmpty() && isAny)
+    m_list->setRowHidden(top, {}, count == 0);
+    m_structures->setFound(row, wanted.isEmpty() ? std::nullopt : std::optional(count));
+    if (!wanted.isEmpty() && count > 0)
       m_list->expand(row);
   }
   selectionChanged();
@@ -563,6 +565,11 @@ void StructuresPanel::showRange()
 bool StructuresPanel::isOnMr() const
 {
   return m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr;
+}
+
+QWidget* StructuresPanel::mainControl()
+{
+  return m_list;
 }
 
 void StructuresPanel::caseChanged()

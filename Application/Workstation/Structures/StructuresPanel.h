@@ -44,6 +44,7 @@ public:
   void partRenamed(const std::string& from, const std::string& to) override;
   void appearanceChanged() override;
   void toolGone() override;
+  QWidget* mainControl() override;
   bool showsNear() const override { return isVisible(); }
   void toolMeasured(const presenters::ToolSurroundings& near) override;
 

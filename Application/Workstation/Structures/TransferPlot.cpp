@@ -307,7 +307,7 @@ void TransferPlot::paintAxes(QPainter& painter) const
     painter.drawLine(QPointF(plot.left(), y), QPointF(plot.right(), y));
     painter.setPen(ink);
     painter.drawText(QRectF(0.0, y - metrics.height() / 2.0, plot.left() - kGap, metrics.height()),
-                     Qt::AlignRight | Qt::AlignVCenter, numberText(core::generalText(opacity)));
+                     Qt::AlignRight | Qt::AlignVCenter, numberText(core::plainText(opacity)));
   }
   const double room =
       std::max(kTickRoom, metrics.horizontalAdvance(numberText(m_axis.number(m_axis.most))) + 16.0);
@@ -733,7 +733,7 @@ QString TransferPlot::pointText(std::size_t n) const
       .arg(n + 1)
       .arg(part->points.size())
       .arg(numberText(m_axis.text(point.value)))
-      .arg(numberText(core::generalText(double(point.opacity), 3)))
+      .arg(numberText(core::plainText(double(point.opacity), 3)))
       .arg(numberText(core::fixedText(double(point.specular), 2)));
 }
 

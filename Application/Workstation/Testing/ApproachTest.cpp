@@ -123,6 +123,30 @@ TEST_F(Approaches, AreATreeOfTheirStrokesWithWhatEachRemoved)
   EXPECT_EQ(main->child(1)->child(0)->text(2), "1 min 15 s") << "with the first stroke";
 }
 
+TEST_F(Approaches, AClosedCaseLeavesNoneInThePanels)
+{
+  saveApproaches();
+  saveBall("untouched");
+  openWindow("ball");
+  openPanel();
+  QTest::keyClick(&window(), Qt::Key_F7);
+  const auto* removed = window().findChild<QLabel*>("removed");
+  ASSERT_TRUE(waitFor([&] { return removed->text().contains("21.0"); }));
+  ASSERT_EQ(rows().size(), 6);
+  action("Close the case")->trigger();
+  ASSERT_TRUE(waitFor([this] { return !window().model().hasCase() && !window().busy(); }));
+  EXPECT_EQ(rows(), QStringList());
+  EXPECT_EQ(removed->text(), "");
+  EXPECT_EQ(line().maximum(), 0);
+  // Of one without a stroke, as many changes as of none.
+  window().begin("untouched");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  EXPECT_EQ(rows(), QStringList({QString::fromUtf8("▶ main"), ".Untouched"}));
+  action("Close the case")->trigger();
+  ASSERT_TRUE(waitFor([this] { return !window().model().hasCase() && !window().busy(); }));
+  EXPECT_EQ(rows(), QStringList());
+}
+
 TEST_F(Approaches, ArrowKeysGoToTheStatesLive)
 {
   saveApproaches();
@@ -268,6 +292,24 @@ TEST_F(Approaches, ThumbnailsAreDrawnOfTheRowsThatAreSeen)
   EXPECT_NE(thumbnails->of(0), thumbnails->of(1));
   EXPECT_NE(thumbnails->of(1), thumbnails->of(2));
   picture();
+}
+
+TEST_F(Approaches, KeysOfTheMainWindowActInTheComparison)
+{
+  saveApproaches();
+  openWindow();
+  QTest::keyClick(&window(), Qt::Key_D, Qt::ControlModifier);
+  ASSERT_TRUE(comparison());
+  ASSERT_TRUE(waitFor([this] { return comparison()->table().rowCount() > 0; }));
+  ASSERT_EQ(value().applied(), 2u);
+  QApplication::setActiveWindow(comparison());
+  QTest::keyClick(comparison(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(value().applied(), 1u);
+  QTest::keyClick(comparison(), Qt::Key_Y, Qt::ControlModifier);
+  EXPECT_EQ(value().applied(), 2u);
+  ASSERT_FALSE(tree().isVisible());
+  QTest::keyClick(comparison(), Qt::Key_F9, Qt::ShiftModifier);
+  EXPECT_TRUE(waitFor([this] { return tree().isVisible(); }));
 }
 
 TEST_F(Approaches, AreComparedByOneKey)

@@ -12,6 +12,8 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenuBar>
+#include <QPlainTextEdit>
+#include <QRegularExpression>
 #include <QSlider>
 #include <QSpinBox>
 #include <QStatusBar>
@@ -381,4 +383,75 @@ TEST_F(CommandsWindow, NoKeyIsOfTwoActionsOfTheWholeWindow)
           owners[key.toString()] += one->text();
   for (auto it = owners.begin(); it != owners.end(); ++it)
     EXPECT_EQ(it->size(), 1) << it.key().toStdString() << ": " << it->join(", ").toStdString();
+}
+
+// A field claims a key by accepting Qt's question (ShortcutOverride); else it is the window's.
+TEST_F(CommandsWindow, CharactersThatNeedAltGrStayInTheirField)
+{
+  openWindow();
+  QLineEdit line;
+  QDoubleSpinBox number;
+  QComboBox editable, choice;
+  editable.setEditable(true);
+  QPlainTextEdit lines;
+  QLineEdit readOnly;
+  readOnly.setReadOnly(true);
+  const auto claims = [](QWidget& field, int key, Qt::KeyboardModifiers with, const QString& text)
+  {
+    QKeyEvent event(QEvent::ShortcutOverride, key, with, text);
+    event.ignore();
+    QApplication::sendEvent(&field, &event);
+    return event.isAccepted();
+  };
+  const Qt::KeyboardModifiers ctrlAlt = Qt::ControlModifier | Qt::AltModifier;
+  for (QWidget* field : std::initializer_list<QWidget*>{&line, &number, &editable, &lines})
+  {
+    SCOPED_TRACE(field->metaObject()->className());
+    EXPECT_TRUE(claims(*field, Qt::Key_BracketLeft, Qt::GroupSwitchModifier, "[")) << "X11";
+    EXPECT_TRUE(claims(*field, Qt::Key_BracketLeft, ctrlAlt, "[")) << "Windows";
+    EXPECT_TRUE(claims(*field, Qt::Key_Slash, Qt::ShiftModifier, "/"));
+    EXPECT_TRUE(claims(*field, Qt::Key_D, Qt::NoModifier, "d"));
+    EXPECT_FALSE(claims(*field, Qt::Key_BracketLeft, Qt::ControlModifier, "["));
+    EXPECT_FALSE(claims(*field, Qt::Key_B, Qt::AltModifier, "b"));
+    EXPECT_FALSE(claims(*field, Qt::Key_F9, Qt::NoModifier, {}));
+  }
+  for (QWidget* other : std::initializer_list<QWidget*>{&readOnly, &choice})
+    EXPECT_FALSE(claims(*other, Qt::Key_BracketLeft, Qt::GroupSwitchModifier, "["));
+}
+
+TEST_F(CommandsWindow, KeysThatNeedAltGrHaveAnotherOneThatDoesNot)
+{
+  saveBall("ball");
+  openWindow();
+  // On a German, Swiss or French keyboard.
+  const QRegularExpression hidden("[\\[\\]{}@\\\\|~#]");
+  int count = 0;
+  for (const Command& command : commandsOf(window(), true))
+  {
+    const QList<QKeySequence> keys = command.action->shortcuts();
+    const auto isHidden = [&hidden](const QKeySequence& one)
+    { return one.toString(QKeySequence::PortableText).contains(hidden); };
+    if (!std::any_of(keys.begin(), keys.end(), isHidden))
+      continue;
+    ++count;
+    EXPECT_FALSE(std::all_of(keys.begin(), keys.end(), isHidden)) << command.name.toStdString();
+    for (const QKeySequence& one : keys)
+      EXPECT_TRUE(command.keys.contains(one.toString(QKeySequence::NativeText)));
+  }
+  EXPECT_EQ(count, 4) << "burrs and slabs";
+}
+
+TEST_F(CommandsWindow, BurrsChangeByLettersToo)
+{
+  saveBall("ball");
+  openWindow();
+  const auto* diameter = window().findChild<QDoubleSpinBox*>("burrDiameter");
+  const double before = diameter->value();
+  QTest::keyClick(&window(), Qt::Key_S);
+  const double larger = diameter->value();
+  EXPECT_GT(larger, before);
+  QTest::keyClick(&window(), Qt::Key_A);
+  EXPECT_EQ(diameter->value(), before);
+  QTest::keyClick(&window(), Qt::Key_BracketRight);
+  EXPECT_EQ(diameter->value(), larger);
 }

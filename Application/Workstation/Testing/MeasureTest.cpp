@@ -12,6 +12,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QStatusBar>
 #include <QTreeWidget>
 
 #include <vtkActor2D.h>
@@ -262,6 +263,49 @@ TEST_F(MeasureWindow, AnAngleAndAPolygonInASlice)
   ASSERT_EQ(all().size(), 2U);
   EXPECT_EQ(all()[1].points.size(), 4U);
   EXPECT_NEAR(value(1), 256.0, 4.0 * 16.0 * pixel);
+}
+
+TEST_F(MeasureWindow, PointsOfAToolThatIsPutAwayAreMeasuredOrToldOf)
+{
+  openBall();
+  key(Qt::Key_R);
+  click(kBallCenter + Vector3d(-8, -8, 0));
+  click(kBallCenter + Vector3d(8, -8, 0));
+  click(kBallCenter + Vector3d(8, 8, 0));
+  ASSERT_TRUE(all().empty());
+  key(Qt::Key_D);
+  ASSERT_EQ(all().size(), 1U);
+  EXPECT_EQ(all()[0].kind, Kind::Area);
+  EXPECT_EQ(all()[0].points.size(), 3U);
+  action("Undo")->trigger();
+  EXPECT_TRUE(all().empty()) << "as any other";
+  click(kBallCenter);
+  key(Qt::Key_R);
+  EXPECT_TRUE(all().empty());
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("dropped"))
+      << window().statusBar()->currentMessage().toStdString();
+}
+
+// At the place of the plane's name, where a label would lie by itself.
+TEST_F(MeasureWindow, ALabelLiesOnNoTextOfTheSlice)
+{
+  openBall();
+  ASSERT_TRUE(settled());
+  const QRect name(0, 0, 60, 20); // px
+  DrawnMeasure mark;
+  mark.points = {patientOf(QPoint(12, 28))};
+  mark.handles = {0};
+  mark.label = "Distance 1: 12.3 mm";
+  mark.color = Qt::yellow;
+  const auto drawn = [this]
+  { return axial().grab().toImage().convertToFormat(QImage::Format_RGB32); };
+  ASSERT_TRUE(waitFor([this] { return axial().isFine(); }));
+  const QImage before = steady(drawn);
+  axial().setMeasures({mark});
+  const QImage after = steady(drawn);
+  EXPECT_EQ(differentPixels(before.copy(name), after.copy(name), kSmoothing), 0);
+  // About 100 px of letters on a ground of their own.
+  EXPECT_GT(differentPixels(before, after, kSmoothing), 500);
 }
 
 // The ball's surface is under the view's middle; the patient turns when the button is dragged.

@@ -1,5 +1,7 @@
 #include "DeviceTest.h"
 
+#include <algorithm>
+
 #include <QAction>
 #include <QCheckBox>
 #include <QDockWidget>
@@ -89,6 +91,45 @@ TEST_F(Settings, PanelsComeBackAsTheyWereLeft)
   EXPECT_TRUE(widget<QDockWidget>("pictureDock").isHidden());
   EXPECT_TRUE(widget<QDockWidget>("structuresDock").isVisible());
   EXPECT_TRUE(widget<QDockWidget>("registrationDock").isHidden());
+}
+
+TEST_F(Settings, PanelsStayWhenACaseIsClosedAndAreKeptWithoutQuitting)
+{
+  saveBall("ball");
+  saveBall("another");
+  openWindow("ball");
+  const auto inFront = [this](const char* name)
+  { return !widget<QDockWidget>(name).visibleRegion().isEmpty(); };
+  QTest::keyClick(&window(), Qt::Key_F7);
+  QTest::keyClick(&window(), Qt::Key_F10);
+  ASSERT_TRUE(waitFor([&] { return inFront("appearanceDock") && !inFront("structuresDock"); }));
+  action("Close the case")->trigger();
+  ASSERT_TRUE(waitFor([this] { return !window().model().hasCase() && !window().busy(); }));
+  window().begin("another");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  EXPECT_TRUE(waitFor([&] { return inFront("appearanceDock") && inFront("nearbyDock"); }));
+  EXPECT_FALSE(inFront("structuresDock"));
+  // What a program that is killed leaves: the file.
+  const QString file = QString::fromStdString((folder() / "settings.conf").string());
+  EXPECT_TRUE(waitFor(
+      [&]
+      {
+        const auto front = WindowSettings(file).panelsInFront();
+        const auto has = [&](const char* name)
+        {
+          return std::any_of(front.begin(), front.end(),
+                             [&](const auto& one) {
+                               return one.first == name &&
+                                      one.second == widget<QDockWidget>(name).size();
+                             });
+        };
+        return front.size() == 2 && has("appearanceDock") && has("nearbyDock");
+      }));
+  EXPECT_TRUE(WindowSettings(file).panelShown("appearanceDock", false));
+  closeWindow();
+  openWindow("ball");
+  EXPECT_TRUE(waitFor([&] { return inFront("appearanceDock") && inFront("nearbyDock"); }));
+  EXPECT_FALSE(inFront("structuresDock"));
 }
 
 TEST_F(Settings, TheBurrComesBackInTheNextWindowAndTheSlicesWithTheirCase)

@@ -13,6 +13,7 @@
 #include <QPushButton>
 #include <QSpinBox>
 #include <QStandardPaths>
+#include <QStatusBar>
 #include <QTreeWidget>
 
 #include "PdfReport.h"
@@ -100,6 +101,23 @@ TEST_F(ShareWindow, WritesAReportInTwoActionsAndOpensIt)
   QTest::mouseClick(window().findChild<QPushButton*>("shareReport"), Qt::LeftButton);
   EXPECT_TRUE(asked);
   EXPECT_FALSE(QFile::exists(file("plan.html")));
+}
+
+TEST_F(ShareWindow, TheReportIsSaidToLieWhereItIsAlsoWhereNothingShowsIt)
+{
+  openBall();
+  bool asked = false;
+  window().findChild<ShareController*>()->openFile = [&asked](const QString&)
+  {
+    asked = true;
+    return false;
+  };
+  answer("planReport", file("plan.pdf"));
+  QTest::keyClick(&window(), Qt::Key_P, Qt::ControlModifier);
+  ASSERT_TRUE(waitFor([&] { return asked; }));
+  const QString told = window().statusBar()->currentMessage();
+  EXPECT_TRUE(told.contains(file("plan.pdf"))) << told.toStdString();
+  EXPECT_TRUE(told.contains("no program is set up to open it")) << told.toStdString();
 }
 
 // As `petrous report` warns.

@@ -522,6 +522,7 @@ TEST_F(Structures, ASearchIgnoresMarksAndCaseAndKnowsPresetsAndKinds)
   EXPECT_EQ(found(), (Names{"sigmoid sinus", "carotid"}));
   search->setText("artery");
   EXPECT_EQ(found(), Names{"carotid"});
+  EXPECT_EQ(structureCell("carotid").parent().data().toString(), "Vessels (1 of 2)");
   search->setText("sinus sig");
   EXPECT_EQ(found(), Names{"sigmoid sinus"});
   // What is not seen is not changed.
@@ -535,6 +536,7 @@ TEST_F(Structures, ASearchIgnoresMarksAndCaseAndKnowsPresetsAndKinds)
   QApplication::setActiveWindow(&window());
   QTest::keyClick(search, Qt::Key_Escape);
   EXPECT_EQ(found().size(), 5u);
+  EXPECT_EQ(structureCell("carotid").parent().data().toString(), "Vessels (2)");
 }
 
 TEST_F(Structures, SeveralAreEditedAtOnceInOneStep)

@@ -99,8 +99,13 @@ TEST_F(ThemeTest, ALightOneIsSeenAtOnceAndInTheNextWindowAndPicturesStayDark)
   EXPECT_TRUE(light());
   SettingsDialog& again = settings();
   EXPECT_EQ(again.findChild<QComboBox*>("colorScheme")->currentText(), "Light");
+  auto* language = again.findChild<QComboBox*>("language"); // none without lrelease
+  if (language)
+    language->setCurrentIndex(2);
   again.findChild<QPushButton*>("usualTheme")->click();
   EXPECT_EQ(again.findChild<QComboBox*>("colorScheme")->currentText(), "Dark");
+  if (language)
+    EXPECT_EQ(language->currentIndex(), 0) << "the system's";
   EXPECT_FALSE(light());
   again.close();
 }

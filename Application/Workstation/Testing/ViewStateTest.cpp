@@ -13,6 +13,7 @@
 #include <QSpinBox>
 
 #include "DrillBar.h"
+#include "SliceColumn.h"
 #include "SliceView.h"
 
 using namespace petrous;
@@ -175,6 +176,40 @@ TEST_F(ViewStates, ASaveForAnotherReasonKeepsAllOfTheView)
   EXPECT_TRUE(saved.view.light);
   EXPECT_TRUE(saved.view.stereo);
   EXPECT_TRUE(saved.view.tool);
+}
+
+// As an import is, at once: the slices begin with the head, which is still being looked for.
+TEST_F(ViewStates, ACaseSavedAtOnceComesBackWithTheZoomThatWasShown)
+{
+  scene::Case head = ballCase("head");
+  head.labels.clear();
+  head.ct.geometry = core::GridGeometry({64, 64, 64}, Eigen::Vector3d::Constant(2.0),
+                                        kBallCenter - Eigen::Vector3d::Constant(63.0));
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(head.ct.geometry, std::int16_t{-1000});
+  for (int k = 0; k < 64; ++k)
+    for (int j = 0; j < 64; ++j)
+      for (int i = 0; i < 64; ++i)
+        if ((head.ct.geometry.patientFromVoxel(Eigen::Vector3d(i, j, k)) - kBallCenter).norm() <
+            kBallRadius)
+          ct->at(i, j, k) = 1600;
+  head.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+  library().save(head);
+  saveBall("ball");
+  openWindow("ball");
+  ASSERT_TRUE(settled());
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  model.open("head");
+  ASSERT_TRUE(widget<SliceColumn>("slices").isFraming());
+  model.setIso(400.0); // all of the view is saved
+  save();
+  ASSERT_TRUE(settled());
+  const double zoom = widget<SliceView>("axialView").plane().zoom;
+  EXPECT_GT(zoom, 3.0) << "128 mm, of which the ball has 24";
+  closeWindow();
+  openWindow("head");
+  ASSERT_TRUE(settled());
+  EXPECT_NEAR(widget<SliceView>("axialView").plane().zoom, zoom, 1e-3);
 }
 
 TEST_F(ViewStates, EachChangeOfTheLightIsAStepOfTheOneUndo)

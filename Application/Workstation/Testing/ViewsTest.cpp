@@ -301,6 +301,10 @@ TEST_F(Views, ASlabIsFineAfterAWhileAndSavedWithTheCase)
   EXPECT_EQ(slices().slab().projection, presenters::Projection::Maximum);
   key(Qt::Key_BracketRight, Qt::ControlModifier);
   EXPECT_EQ(slices().slab().thickness, 8.0);
+  key(Qt::Key_J, Qt::ShiftModifier);
+  EXPECT_EQ(slices().slab().thickness, 12.0);
+  key(Qt::Key_J, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(slices().slab().thickness, 8.0);
   widget<QDoubleSpinBox>("slabThickness").setValue(90.0);
   doubleClick(axial());
   EXPECT_TRUE(waitFor([this] { return axial().isFine(); }));

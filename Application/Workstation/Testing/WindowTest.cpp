@@ -219,6 +219,55 @@ TEST_F(Window, ThePanelsKeyRaisesAPanelThatLiesBehindAnother)
   EXPECT_TRUE(waitFor([&] { return inFront(picture); }));
 }
 
+TEST_F(Window, ThePanelsKeyGivesItTheKeyboard)
+{
+  saveBall("ball");
+  openWindow();
+  auto* structures = window().findChild<QDockWidget*>("structuresDock");
+  const auto inFront = [](const QDockWidget* dock) { return !dock->visibleRegion().isEmpty(); };
+  ASSERT_TRUE(waitFor([&] { return inFront(structures); }));
+  view().setFocus();
+  QTest::keyClick(&window(), Qt::Key_F9);
+  EXPECT_EQ(window().focusWidget(), &structureList());
+  EXPECT_FALSE(structures->isHidden()) << "it was in front, without the keyboard";
+  QTest::keyClick(&window(), Qt::Key_F9);
+  EXPECT_TRUE(structures->isHidden());
+  EXPECT_EQ(window().focusWidget(), &view());
+  for (const PanelEntry& entry : panelEntries())
+  {
+    const QString name = entry.name;
+    if (name == "registrationDock" || name == "videoDock" || name == "replayDock")
+      continue; // of a case with an MR, a video or a recording
+    auto* dock = window().findChild<QDockWidget*>(name);
+    dock->hide();
+    view().setFocus();
+    QTest::keyClick(&window(), Qt::Key(entry.key & ~Qt::KeyboardModifierMask),
+                    Qt::KeyboardModifiers(entry.key & int(Qt::KeyboardModifierMask)));
+    EXPECT_TRUE(waitFor([&] { return inFront(dock); })) << entry.name;
+    // The keys of a tool in use stay with it where there is nothing to choose.
+    EXPECT_EQ(dock->isAncestorOf(window().focusWidget()), name != "nearbyDock") << entry.name;
+  }
+}
+
+TEST_F(Window, ASlashSearchesTheStructuresFromTheWholeWindow)
+{
+  saveBall("ball");
+  openWindow();
+  auto* structures = window().findChild<QDockWidget*>("structuresDock");
+  auto* search = window().findChild<QLineEdit*>("structuresSearch");
+  QTest::keyClick(&window(), Qt::Key_F8); // before it
+  ASSERT_TRUE(waitFor([&] { return structures->visibleRegion().isEmpty(); }));
+  view().setFocus();
+  QApplication::setActiveWindow(&window());
+  QTest::keyClick(&view(), Qt::Key_Slash);
+  EXPECT_EQ(window().focusWidget(), search);
+  EXPECT_TRUE(waitFor([&] { return !structures->visibleRegion().isEmpty(); }));
+  view().setFocus();
+  structures->hide();
+  QTest::keyClick(&view(), Qt::Key_Slash);
+  EXPECT_EQ(window().focusWidget(), &view());
+}
+
 TEST_F(Window, TheNamesOfPanelsThatShareAPlaceAreWhole)
 {
   saveBall("ball");

@@ -24,6 +24,7 @@
 #include <QVariant>
 
 #include "FoldBox.h"
+#include "MenuAction.h"
 #include "Theme.h"
 
 namespace petrous::workstation
@@ -45,15 +46,6 @@ QString reasonOf(const QAction& action, bool hasCase)
 {
   const QString why = action.property(kWhyNot).toString();
   return !why.isEmpty() || hasCase ? why : QObject::tr("Open a case first");
-}
-
-QString keysOf(const QAction& action)
-{
-  QStringList keys;
-  for (const QKeySequence& one : action.shortcuts())
-    keys += one.toString(QKeySequence::NativeText);
-  keys.removeAll(QString());
-  return keys.join(QObject::tr(" or "));
 }
 
 // The panel, dialog or view whose action it is.

@@ -21,6 +21,7 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QPointer>
 #include <QPushButton>
 #include <QScopedValueRollback>
 #include <QSlider>
@@ -106,6 +107,7 @@ namespace
 constexpr int kMessage = 8000;     // ms
 constexpr int kFileName = 300;     // px
 constexpr int kPanelWidth = 500;   // px, at first: the list of structures with its usual columns
+constexpr int kKeepAfter = 500;    // ms, since panels changed
 constexpr double kRoll = 5.0;      // degrees
 constexpr char kSteps[] = "steps"; // property of a choice box: its last key stepped
 
@@ -184,6 +186,65 @@ public:
   }
 };
 
+// Of a panel that is in front while the keyboard is elsewhere, the key brings it there; else it
+// does what the menu's entry does.
+class PanelKey : public QObject
+{
+public:
+  PanelKey(QDockWidget& dock, Panel& panel)
+    : QObject(&dock)
+    , m_dock(dock)
+    , m_panel(panel)
+  {
+    dock.toggleViewAction()->installEventFilter(this);
+  }
+  bool eventFilter(QObject*, QEvent* event) override
+  {
+    if (event->type() != QEvent::Shortcut || !isInFront(m_dock) || hasFocus(m_dock))
+      return false;
+    QWidget* control = m_panel.mainControl();
+    if (control)
+      control->setFocus(Qt::ShortcutFocusReason);
+    return control != nullptr;
+  }
+
+  // Not hidden, nor behind another one in the same place.
+  static bool isInFront(const QDockWidget& dock)
+  {
+    return !dock.isHidden() && !dock.visibleRegion().isEmpty();
+  }
+  static bool hasFocus(const QDockWidget& dock)
+  {
+    const QWidget* focus = dock.window()->focusWidget();
+    return focus && dock.isAncestorOf(focus);
+  }
+
+private:
+  QDockWidget& m_dock;
+  Panel& m_panel;
+};
+
+// Restarts a timer whenever the size of what it watches is another.
+class SizeWatch : public QObject
+{
+public:
+  SizeWatch(QWidget& watched, QTimer& timer)
+    : QObject(&watched)
+    , m_timer(&timer)
+  {
+    watched.installEventFilter(this);
+  }
+  bool eventFilter(QObject*, QEvent* event) override
+  {
+    if (event->type() == QEvent::Resize && m_timer)
+      m_timer->start();
+    return false;
+  }
+
+private:
+  QPointer<QTimer> m_timer; // its window's, which may end before
+};
+
 } // namespace
 
 MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
@@ -247,6 +308,9 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
   if (const auto burr = m_settings->burr())
     m_bar->setBurr(*burr);
   m_picture->flush = [this] { return flush(); };
+  m_comparison->keys = {m_actions->undo, m_actions->redo,
+                        findChild<QDockWidget*>("approachDock")->toggleViewAction()};
+  m_comparison->keys += m_actions->approaches->actions();
   m_branches->settle = [this] { return m_drill->releaseTool(); };
   m_branches->camera = [this] { return m_viewState->camera(); };
   m_branches->showCamera = [this](const core::CameraPose& camera)
@@ -447,6 +511,9 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
 void MainWindow::addPanels()
 {
   installEventFilter(new FittingTabs(this));
+  m_keepLater.setSingleShot(true);
+  m_keepLater.setInterval(kKeepAfter);
+  connect(&m_keepLater, &QTimer::timeout, this, &MainWindow::keepPanels);
   const PanelContext context{m_model,        *m_picture, *m_registration, *m_segment,  *m_library,
                              *m_attachments, *m_measure, *m_sliceControl, *m_branches, *m_strokes,
                              *m_share,       *m_video,   *m_replay};
@@ -482,19 +549,29 @@ QDockWidget* MainWindow::addDock(const PanelEntry& entry, Panel* panel)
   QAction* toggle = dock->toggleViewAction();
   disconnect(toggle, SIGNAL(triggered(bool)), dock, nullptr);
   connect(toggle, &QAction::triggered, dock,
-          [dock, toggle](bool on)
+          [this, dock, panel, toggle](bool on)
           {
-            const bool show = on || dock->visibleRegion().isEmpty();
+            const bool show = on || !PanelKey::isInFront(*dock);
+            const bool hadFocus = PanelKey::hasFocus(*dock);
             dock->setVisible(show);
             toggle->setChecked(show);
             if (show)
+            {
               dock->raise();
+              if (QWidget* control = panel->mainControl())
+                control->setFocus(Qt::ShortcutFocusReason);
+            }
+            else if (hadFocus && m_model.hasCase())
+              m_area->focusView();
           });
+  new PanelKey(*dock, *panel);
+  new SizeWatch(*dock, m_keepLater);
+  connect(dock, &QDockWidget::visibilityChanged, &m_keepLater, qOverload<>(&QTimer::start));
   dock->hide();
   return dock;
 }
 
-// As the user left them; the first one in front.
+// As the user left them; at first the first one in front.
 void MainWindow::showPanels()
 {
   QDockWidget* front = nullptr;
@@ -510,7 +587,37 @@ void MainWindow::showPanels()
   if (!front)
     return;
   front->raise();
-  resizeDocks({front}, {std::min(kPanelWidth, 5 * width() / 12)}, Qt::Horizontal);
+  QList<QDockWidget*> docks;
+  QList<int> widths, heights;
+  for (const auto& [name, size] : m_settings->panelsInFront())
+    if (auto* dock = findChild<QDockWidget*>(name); dock && !dock->isHidden() && !size.isEmpty())
+    {
+      dock->raise();
+      docks << dock;
+      widths << std::min(size.width(), width() / 2);
+      heights << size.height();
+    }
+  if (docks.isEmpty())
+    return resizeDocks({front}, {std::min(kPanelWidth, 5 * width() / 12)}, Qt::Horizontal);
+  resizeDocks(docks, widths, Qt::Horizontal);
+  resizeDocks(docks, heights, Qt::Vertical);
+}
+
+// Without a case most of them cannot be chosen.
+void MainWindow::keepPanels()
+{
+  if (!m_model.hasCase() || !m_hasShownPanels)
+    return;
+  std::vector<std::pair<QString, QSize>> front;
+  for (const auto& [entry, panel] : m_panels)
+  {
+    const auto* dock = findChild<QDockWidget*>(entry.name);
+    m_settings->keepPanelShown(entry.name, !dock->isHidden());
+    if (PanelKey::isInFront(*dock))
+      front.emplace_back(entry.name, dock->size());
+  }
+  if (isVisible() && !isMinimized()) // else none is in front
+    m_settings->keepPanelsInFront(front);
 }
 
 // Another case is open, or none is any more.
@@ -1122,7 +1229,7 @@ void MainWindow::caseChanged()
   // The first page asks for no room behind the case: told before it is hidden, or it is not heard.
   m_start->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
   m_pages->setCurrentIndex(1);
-  if (first)
+  if (!std::exchange(m_hasShownPanels, true)) // later they stay as they are
     showPanels();
   m_drill->releaseTool();
   offerBurrs();
@@ -1590,9 +1697,7 @@ void MainWindow::closeEvent(QCloseEvent* event)
   event->setAccepted(m_keeper->mayLeave());
   if (!event->isAccepted())
     return;
-  if (m_model.hasCase())
-    for (const auto& [entry, panel] : m_panels)
-      m_settings->keepPanelShown(entry.name, !findChild<QDockWidget*>(entry.name)->isHidden());
+  keepPanels();
   m_picture->closeSurgeonWindow();
   m_comparison->close();
   finishAll(*this);

@@ -130,6 +130,7 @@ private:
   void addPanels();
   QDockWidget* addDock(const PanelEntry& entry, Panel* panel);
   void showPanels();
+  void keepPanels();
   void tellPanels();
   void fillCaseMenu();
   void addSelectedTo(QMenu& menu);
@@ -199,6 +200,8 @@ private:
   std::vector<std::pair<PanelEntry, Panel*>> m_panels;
   ThicknessController* m_thickness;
   QTimer m_saveLater;
+  QTimer m_keepLater; // panels, once they rest
+  bool m_hasShownPanels = false;
   Bindings m_bound;
 };
 

@@ -14,9 +14,24 @@ QAction* make(QMenu* menu, const QString& text, const QKeySequence& keys, const 
   return action;
 }
 
+QString keysOf(const QAction& action)
+{
+  QStringList keys;
+  for (const QKeySequence& one : action.shortcuts())
+    keys += one.toString(QKeySequence::NativeText);
+  keys.removeAll(QString());
+  return keys.join(QObject::tr(" or "));
+}
+
+void addKey(QAction& action, const QKeySequence& key)
+{
+  action.setShortcuts(action.shortcuts() << key);
+  setTip(action, action.statusTip());
+}
+
 void setTip(QAction& action, const QString& tip)
 {
-  const QString keys = action.shortcut().toString(QKeySequence::NativeText);
+  const QString keys = keysOf(action);
   action.setToolTip(keys.isEmpty() ? tip : tip + " (" + keys + ")");
   action.setStatusTip(tip);
 }

@@ -1,6 +1,9 @@
 #include "Panels.h"
 
+#include <QAbstractSpinBox>
 #include <QCoreApplication>
+#include <QLineEdit>
+#include <QScrollArea>
 
 #include "AppearancePanel.h"
 #include "ApproachPanel.h"
@@ -58,6 +61,20 @@ Panel* approachPanel(const PanelContext& context)
 }
 
 } // namespace
+
+QWidget* Panel::mainControl()
+{
+  const auto isMain = [this](QWidget* widget)
+  {
+    return isAncestorOf(widget) && widget->isVisibleTo(this) && widget->isEnabled() &&
+           (widget->focusPolicy() & Qt::TabFocus) && !qobject_cast<QAbstractSpinBox*>(widget) &&
+           !qobject_cast<QLineEdit*>(widget) && !qobject_cast<QScrollArea*>(widget);
+  };
+  for (QWidget* widget = nextInFocusChain(); widget != this; widget = widget->nextInFocusChain())
+    if (isMain(widget))
+      return widget;
+  return nullptr;
+}
 
 std::vector<PanelEntry> panelEntries()
 {

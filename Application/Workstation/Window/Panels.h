@@ -51,6 +51,9 @@ public:
   /// A burr or an instrument in use, at X_PT; each frame.
   virtual void toolMoved(const presenters::MeasuredTool& /*tool*/, const haptics::Pose& /*pose*/) {}
   virtual void toolGone() {} ///< it was put away
+  /// That has the keyboard when the panel's key is pressed: the first one that takes no text, as
+  /// single keys are the window's; null: the keys stay where they are.
+  virtual QWidget* mainControl();
   /// Whether it shows distances of the tool, and toolMeasured is wanted with all that is near.
   virtual bool showsNear() const { return false; }
   virtual void toolMeasured(const presenters::ToolSurroundings& /*near*/) {}
@@ -78,7 +81,7 @@ struct PanelEntry
 {
   const char* name; ///< object name of the dock: for settings and tests, so it stays
   QString title;    ///< of the dock and in the View menu
-  int key;          ///< shows, raises and hides it
+  int key;          ///< shows and raises it, gives it the keyboard, and hides it
   Qt::DockWidgetArea area;
   bool tabbed;    ///< with the other tabbed panels of that area; otherwise below them
   bool atFirst;   ///< shown with the first case, unless the user has chosen otherwise

@@ -105,11 +105,12 @@ SettingsDialog::SettingsDialog(WindowSettings& settings, const std::filesystem::
   usual->setAutoDefault(false);
   buttons->button(QDialogButtonBox::Close)->setDefault(true);
   usual->setObjectName("usualTheme");
-  usual->setToolTip(tr("Theme and letters as they were before any choice"));
+  usual->setToolTip(tr("Theme, letters and language as they were before any choice"));
   connect(usual, &QPushButton::clicked, this,
           [this]
           {
             m_settings.keepTheme({});
+            m_settings.keepLanguage({});
             apply();
             m_bound.refresh();
           });

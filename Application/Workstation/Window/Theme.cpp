@@ -14,6 +14,7 @@
 #include <QVariant>
 
 #include "DecimalPoint.h"
+#include "TextKeys.h"
 
 namespace petrous::workstation
 {
@@ -198,6 +199,7 @@ void applyTheme(QApplication& application, const Theme& theme)
   {
     application.setProperty(kSystemFont, QApplication::font());
     new DecimalPoint(application);
+    new TextKeys(application);
     QApplication::setStyle(QStyleFactory::create("Fusion"));
   }
   application.setProperty(kScheme, static_cast<int>(theme.scheme));

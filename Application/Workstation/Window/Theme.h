@@ -36,7 +36,8 @@ inline bool operator==(const Theme& a, const Theme& b)
 }
 
 /// Colours and letters of all windows, also of those that are open; numbers with a decimal point
-/// (DecimalPoint.h). Call before the first widget.
+/// (DecimalPoint.h), characters that stay in their field (TextKeys.h). Call before the first
+/// widget.
 void applyTheme(QApplication& application, const Theme& theme = {});
 
 /// Of text in the present theme that tells of something doubtful, or of harm.

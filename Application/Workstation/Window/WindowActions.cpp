@@ -104,6 +104,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
               tr("Take back the last change: a stroke, an appearance, a part"));
   redo = make(edit, tr("&Redo"), Qt::CTRL + Qt::SHIFT + Qt::Key_Z,
               tr("Make the change again that was taken back"));
+  addKey(*redo, Qt::CTRL + Qt::Key_Y);
   edit->addSeparator();
   strokeCamera = make(edit, tr("Undo goes back to the stroke's &view"), {},
                       tr("Turn the patient as they lay when the stroke was drilled"));
@@ -211,6 +212,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                      tr("The next smaller one that is sold"));
   largerBurr =
       make(drill, tr("&Larger burr"), Qt::Key_BracketRight, tr("The next larger one that is sold"));
+  addKey(*smallerBurr, Qt::Key_A);
+  addKey(*largerBurr, Qt::Key_S);
   otherKind = make(drill, tr("Next &kind of burr"), Qt::Key_L,
                    tr("Cutting, diamond, or the next one of your own"));
   QMenu* handpiece = drill->addMenu(tr("Handp&iece"));

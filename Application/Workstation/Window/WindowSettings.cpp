@@ -346,4 +346,22 @@ void WindowSettings::keepPanelShown(const QString& panel, bool shown)
   m_file.setValue("panels/" + panel, shown ? "shown" : "hidden");
 }
 
+std::vector<std::pair<QString, QSize>> WindowSettings::panelsInFront() const
+{
+  std::vector<std::pair<QString, QSize>> panels;
+  const QVariantList list = m_file.value("panels/in_front").toList();
+  for (int n = 0; n + 2 < list.size(); n += 3)
+    panels.emplace_back(list[n].toString(), QSize(list[n + 1].toInt(), list[n + 2].toInt()));
+  return panels;
+}
+
+void WindowSettings::keepPanelsInFront(const std::vector<std::pair<QString, QSize>>& panels)
+{
+  QVariantList list;
+  for (const auto& [name, size] : panels)
+    list << name << size.width() << size.height();
+  m_file.setValue("panels/in_front", list);
+  m_file.sync();
+}
+
 } // namespace petrous::workstation

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <QSettings>
+#include <QSize>
 
 #include "Theme.h"
 #include "petrous/Dissection/Stroke.h"
@@ -48,6 +51,11 @@ public:
   /// Whether a panel is shown while a case is open; `usual` before the user has chosen.
   bool panelShown(const QString& panel, bool usual) const;
   void keepPanelShown(const QString& panel, bool shown);
+  /// The panels that are not behind another one of their place, with their sizes, px; none before
+  /// they were kept.
+  std::vector<std::pair<QString, QSize>> panelsInFront() const;
+  /// At once, with what else was kept: a program that is killed shows them again.
+  void keepPanelsInFront(const std::vector<std::pair<QString, QSize>>& panels);
 
   /// How 3D view and slices are arranged; nothing is enlarged.
   presenters::ViewArrangement arrangement() const;

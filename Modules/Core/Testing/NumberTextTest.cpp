@@ -44,6 +44,12 @@ TEST(NumberText, WritesAPointWhereTheLocaleHasAComma)
   EXPECT_EQ(generalText(0.125), "0.125");
   EXPECT_EQ(generalText(1234567.0), "1.23457e+06");
   EXPECT_EQ(generalText(1e-5, 3), "1e-05");
+  EXPECT_EQ(plainText(17353.2, 4), "17350");
+  EXPECT_EQ(plainText(1234567.0), "1234570");
+  EXPECT_EQ(plainText(1.49012e-8, 3), "0.0000000149");
+  EXPECT_EQ(plainText(-0.125), "-0.125");
+  EXPECT_EQ(plainText(2.5000001, 4), "2.5");
+  EXPECT_EQ(plainText(0.0), "0");
   EXPECT_EQ(exactText(0.1), "0.1");
   EXPECT_EQ(exactText(0.1F), "0.1");
   EXPECT_EQ(fixedText(std::nan(""), 2), "nan");

@@ -56,6 +56,12 @@ std::string generalText(double value, int digits)
   return written(value, std::chars_format::general, digits);
 }
 
+std::string plainText(double value, int digits)
+{
+  const std::string rounded = written(value, std::chars_format::scientific, digits - 1);
+  return written(parseDouble(rounded).value_or(value), std::chars_format::fixed);
+}
+
 std::string exactText(double value)
 {
   return written(value);
@@ -79,15 +85,15 @@ std::optional<float> parseFloat(std::string_view text)
 std::string NumberRange::text() const
 {
   const std::string upperText =
-      generalText(upper) + (*unit == '\0' ? "" : " ") + unit; // no unit: a plain number
-  return isLowerExcluded ? "above " + generalText(lower) + ", up to " + upperText
-                         : generalText(lower) + " to " + upperText;
+      plainText(upper) + (*unit == '\0' ? "" : " ") + unit; // no unit: a plain number
+  return isLowerExcluded ? "above " + plainText(lower) + ", up to " + upperText
+                         : plainText(lower) + " to " + upperText;
 }
 
 std::string NumberRange::refusal(double value, const char* word) const
 {
   return std::string(isLowerExcluded ? "must lie " : "must lie within ") + text() +
-         (word ? ", or be '" + std::string(word) + "'" : "") + ", not " + generalText(value);
+         (word ? ", or be '" + std::string(word) + "'" : "") + ", not " + plainText(value);
 }
 
 namespace

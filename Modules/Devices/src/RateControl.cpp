@@ -21,8 +21,8 @@ void require(double value, double least, double most, const char* name)
   if (value >= least && value <= most)
     return;
   throw core::InvalidParameter(std::string("rate control: ") + name + " is " +
-                               core::generalText(value) + "; it must lie in [" +
-                               core::generalText(least) + ", " + core::generalText(most) + "]");
+                               core::plainText(value) + "; it must lie in [" +
+                               core::plainText(least) + ", " + core::plainText(most) + "]");
 }
 
 } // namespace

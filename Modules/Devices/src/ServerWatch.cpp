@@ -42,8 +42,8 @@ double number(const double& field)
 void check(double value, double most, const char* what, const char* unit, std::string& fault)
 {
   if (fault.empty() && !(value >= 0.0 && value <= most))
-    fault = std::string("describes a device with a ") + what + " of " + core::generalText(value) +
-            " " + unit + "; it must lie between 0 and " + core::generalText(most);
+    fault = std::string("describes a device with a ") + what + " of " + core::plainText(value) +
+            " " + unit + "; it must lie between 0 and " + core::plainText(most);
 }
 
 } // namespace
@@ -107,7 +107,7 @@ constexpr double kUserTime = 120.0; // s to do what a starting server asks for
 
 std::string seconds(double value)
 {
-  return core::generalText(value) + " s";
+  return core::plainText(value) + " s";
 }
 
 } // namespace

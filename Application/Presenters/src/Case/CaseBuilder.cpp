@@ -349,7 +349,7 @@ std::string notTaken(const imaging::ScanResult& scan, const imaging::DicomSeries
     const imaging::SeriesGeometry& geometry = other->geometry;
     std::string one = std::to_string(geometry.slices.size()) + " slices";
     if (geometry.grid)
-      one += " of " + core::generalText(geometry.grid->spacing()[2]) + " mm";
+      one += " of " + core::plainText(geometry.grid->spacing()[2]) + " mm";
     others.push_back(one + (geometry.verdict == imaging::Verdict::Ok           ? ""
                             : geometry.verdict == imaging::Verdict::Repairable ? " (needs --repair)"
                                                                                : " (refused)"));
@@ -555,8 +555,8 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
   const auto& n = part.geometry.dims();
   const auto& h = part.geometry.spacing();
   core::log::info("import: image of " + std::to_string(n[0]) + " x " + std::to_string(n[1]) +
-                  " x " + std::to_string(n[2]) + " voxels of " + core::generalText(h[0]) + " x " +
-                  core::generalText(h[1]) + " x " + core::generalText(h[2]) + " mm, " +
+                  " x " + std::to_string(n[2]) + " voxels of " + core::plainText(h[0]) + " x " +
+                  core::plainText(h[1]) + " x " + core::plainText(h[2]) + " mm, " +
                   std::to_string(part.notes.size()) + " notes");
   return read;
 }
@@ -567,7 +567,7 @@ void judgeContents(const fs::path& path, scene::ImagePart& image, bool roi)
 {
   if (!(image.range.min < image.range.max) && !roi)
     throw core::InvalidParameter(path.string() + ": every voxel that is no padding has the value " +
-                                 core::generalText(image.range.min, 6) +
+                                 core::plainText(image.range.min, 6) +
                                  "; an image of one single value shows nothing");
   constexpr int kFew = 10;
   const int slices = image.geometry.dims()[2];
@@ -584,8 +584,8 @@ void noteBeyondCt(scene::ImagePart& image)
   constexpr double kLowest = -10000.0;
   constexpr double kHighest = 100000.0;
   if (image.range.min < kLowest || image.range.max > kHighest)
-    image.notes.push_back("Its values go from " + core::generalText(image.range.min, 6) + " to " +
-                          core::generalText(image.range.max, 6) +
+    image.notes.push_back("Its values go from " + core::plainText(image.range.min, 6) + " to " +
+                          core::plainText(image.range.max, 6) +
                           ", beyond those of any CT (-10000 to 100000): voxels are damaged, or the "
                           "slope that the file states is wrong.");
 }
@@ -626,7 +626,7 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const ReadImage& r
         "An MR shows no bone: its intensities are not Hounsfield units, and bone is as dark as air "
         "in it. The "
         "surface is where tissue begins, put at " +
-        core::generalText(scale.iso, 4) +
+        core::plainText(scale.iso, 4) +
         " by the image's histogram; what is drilled is this tissue, not bone. 'petrous appearance "
         "--iso' moves the surface.");
     return;
@@ -640,7 +640,7 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const ReadImage& r
     image.notes.push_back(other.why +
                           " It is shown as it is: nothing in it is known to be bone, and the "
                           "surface is put at " +
-                          core::generalText(scale.iso, 4) +
+                          core::plainText(scale.iso, 4) +
                           " by the image's histogram; 'petrous appearance --iso' moves it. Build "
                           "the case with --modality CT if it is a CT in Hounsfield units all the "
                           "same.");
@@ -656,7 +656,7 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const ReadImage& r
     image.notes.push_back(other.why +
                           " Air and soft tissue have in it the values of a CT, so the surface of "
                           "bone is put at " +
-                          core::generalText(scale.iso, 4) +
+                          core::plainText(scale.iso, 4) +
                           ", but no value is called HU. Build the case with --modality CT if it is "
                           "a CT in Hounsfield units.");
     return;
@@ -683,8 +683,8 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const ReadImage& r
                           "--modality MR if it is an MR, --modality CT if it is not.");
   image.notes.push_back(
       "The intensities are not Hounsfield units: the surface of bone is put at " +
-      core::generalText(scale.iso, 4) + ", and dense bone taken for " +
-      core::generalText(scale.dense, 4) +
+      core::plainText(scale.iso, 4) + ", and dense bone taken for " +
+      core::plainText(scale.dense, 4) +
       ", by the image's histogram; 'petrous appearance --iso' moves the surface." +
       (mayBePart(histogram) && !read.whole
            ? " Of a small part of a CT this may be wrong: where its values are Hounsfield units "
@@ -1660,16 +1660,16 @@ std::string unitName(double unit)
   for (const auto& [size, name] : kUnits)
     if (std::abs(unit - size) <= kRounding * size)
       return name;
-  return core::generalText(unit, 3) + " mm";
+  return core::plainText(unit, 3) + " mm";
 }
 
 std::string lengthText(double mm)
 {
   constexpr double kWithDigits = 100.0; // from here on three digits are a whole number
-  constexpr double kFinest = 1e-3;      // below, generalText needs an exponent
+  constexpr double kFinest = 1e-3;
   return mm >= kWithDigits ? core::fixedText(mm, 0)
          : mm < kFinest    ? core::fixedText(mm, 6)
-                           : core::generalText(mm, 3);
+                           : core::plainText(mm, 3);
 }
 
 namespace

@@ -380,7 +380,7 @@ std::string roundingNote(const std::string& name, double error)
 {
   return "the voxels of " + name +
          " are fractions and were written in 16 bits with a rescale slope; they are off by up to " +
-         core::generalText(error);
+         core::plainText(error);
 }
 
 std::string guessedNote(const scene::ImagePart& part)

@@ -159,8 +159,8 @@ std::string gridText(const PlacedLabels& labels)
   const core::GridGeometry& grid = labels.map->voxels->geometry();
   const auto three = [](const Eigen::Vector3d& v, const char* between)
   {
-    return core::generalText(v.x(), 5) + between + core::generalText(v.y(), 5) + between +
-           core::generalText(v.z(), 5);
+    return core::plainText(v.x(), 5) + between + core::plainText(v.y(), 5) + between +
+           core::plainText(v.z(), 5);
   };
   return "'" + labels.structures.front()->name + "' has voxels of " + three(grid.spacing(), " x ") +
          " mm from (" + three(grid.origin(), ", ") + ") on";
@@ -205,11 +205,11 @@ void compareVolumes(const Warn& warn, const PlacedLabels& labels, const volume::
     resampled.push_back({structure->name, before, after});
     if (std::abs(after - before) <= kNoted * before)
       continue;
-    const std::string change = core::generalText(before, 3) + " mm3";
+    const std::string change = core::plainText(before, 3) + " mm3";
     warn("'" + structure->name + "' " +
          (after == 0.0
               ? "has no voxel on the CT's grid, of " + change
-              : "has " + core::generalText(after, 3) + " mm3 on the CT's grid, of " + change) +
+              : "has " + core::plainText(after, 3) + " mm3 on the CT's grid, of " + change) +
          (beyond.count(structure->name) > 0
               ? ": the rest lies outside of it; without --on-ct it is written whole"
               : ": its voxels are finer than the CT's; without --on-ct it keeps its own"));
@@ -530,8 +530,8 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
           ExportSummary::Decimation{before,        *options.triangles, fewer.fromGiven,
                                     fewer.toGiven, fewer.mean,         fewer.selfIntersections};
       decimation = "decimated from " + std::to_string(before) + ", at most " +
-                   core::generalText(fewer.hausdorff(), 3) + " mm from it (mean " +
-                   core::generalText(fewer.mean, 3) + " mm)";
+                   core::plainText(fewer.hausdorff(), 3) + " mm from it (mean " +
+                   core::plainText(fewer.mean, 3) + " mm)";
     }
     const bool closed = mesh.isClosed();
     // Of a mesh from a file, parts may overlap; surfaces that are extracted have none that do.

@@ -51,12 +51,12 @@ bool isPositive(double value)
 void requireWithin(bool holds, const std::string& range, double value)
 {
   if (!holds)
-    throw core::InvalidParameter("must lie " + range + ", it is " + core::generalText(value));
+    throw core::InvalidParameter("must lie " + range + ", it is " + core::plainText(value));
 }
 
 void requireAtMost(double limit, double value)
 {
-  requireWithin(value > 0.0 && value <= limit, "above 0 and at most at " + core::generalText(limit),
+  requireWithin(value > 0.0 && value <= limit, "above 0 and at most at " + core::plainText(limit),
                 value);
 }
 
@@ -71,7 +71,7 @@ void checkNumbers(const CatalogueEditor::Burr& burr)
 {
   if (burr.kind == dissection::Burr::Kind::Diamond)
     return requireAtMost(AbrasiveWear::kMaxWearCoefficient, burr.constant);
-  const std::string steepest = core::generalText(rounded(OrthogonalCutting::kMaxRake / kDegree));
+  const std::string steepest = core::plainText(rounded(OrthogonalCutting::kMaxRake / kDegree));
   requireWithin(std::abs(kDegree * burr.constant) <= OrthogonalCutting::kMaxRake,
                 "within -" + steepest + " to " + steepest + " degrees", burr.constant);
 }
@@ -354,7 +354,7 @@ std::string diametersText(const std::vector<double>& diameters)
 {
   std::string text;
   for (const double diameter : diameters)
-    text += (text.empty() ? "" : ", ") + core::generalText(diameter);
+    text += (text.empty() ? "" : ", ") + core::plainText(diameter);
   return text;
 }
 
@@ -379,7 +379,7 @@ std::vector<double> diametersFrom(const std::string& text)
       const auto diameter = core::parseDouble(number);
       if (!diameter || !(*diameter > 0.0 && *diameter <= dissection::kMaxBurrDiameter))
         throw core::InvalidParameter("'" + word + "' is not a diameter: numbers above 0, up to " +
-                                     core::generalText(dissection::kMaxBurrDiameter) + " mm");
+                                     core::plainText(dissection::kMaxBurrDiameter) + " mm");
       diameters.push_back(*diameter);
       word.clear();
     }

@@ -9,6 +9,7 @@
 #include "NamedOccupancy.h"
 #include "petrous/Core/CsvTable.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/StructureShape.h"
 #include "petrous/Presenters/SurfaceUncertainty.h"
@@ -389,7 +390,7 @@ std::vector<Quantity> quantitiesOf(const scene::Case& value, const Measurement& 
   if (measurement.kind == Kind::Length && !measurement.structure.empty())
   {
     main.uncertainty = spreadOfEnds(value, measurement);
-    main.remark = joined({"along the centre line of '" + measurement.structure + "'" +
+    main.remark = joined({"along the centre line of '" + shownName(measurement.structure) + "'" +
                               (measurement.structureGone ? ", which was removed" : ""),
                           main.remark});
     return {main};
@@ -407,11 +408,11 @@ std::vector<Quantity> quantitiesOf(const scene::Case& value, const Measurement& 
     main.remark = "its points coincide";
   if (measurement.kind != Kind::Thickness)
     return {main};
-  main.remark = joined({measurement.structure.empty()
-                            ? std::string()
-                            : "to '" + measurement.structure + "'" +
-                                  (measurement.structureGone ? ", which was removed" : ""),
-                        main.remark});
+  std::string remark;
+  if (!measurement.structure.empty())
+    remark = "to '" + shownName(measurement.structure) + "'" +
+             (measurement.structureGone ? ", which was removed" : "");
+  main.remark = joined({remark, main.remark});
   // What was drawn on an MR lies as well as that is registered, which the image's voxels do not
   // say.
   const std::string of =

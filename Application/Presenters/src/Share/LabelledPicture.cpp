@@ -97,7 +97,7 @@ void addScaleBar(rendering::Picture& picture, double mmPerPixel, const std::stri
   };
   bar(pixels(1), ink.outline);
   bar(0, ink.color);
-  const std::string text = core::generalText(length) + " mm";
+  const std::string text = core::plainText(length) + " mm";
   const double middle = 0.5 * (left + right);
   if (where.empty())
     rendering::writeText(picture, text, {middle, bottom - 10.0 * magnified, 0.5, 1.0},

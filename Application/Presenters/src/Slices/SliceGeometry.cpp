@@ -58,7 +58,7 @@ SliceGeometry::SliceGeometry(SliceOrientation orientation, const SliceAxes& axes
   if (!(mmPerPixel > 0.0) || width < 1 || height < 1)
     throw core::InvalidParameter("slice: a picture of " + std::to_string(width) + " x " +
                                  std::to_string(height) + " pixels of " +
-                                 core::generalText(mmPerPixel) + " mm; all must be above 0");
+                                 core::plainText(mmPerPixel) + " mm; all must be above 0");
 }
 
 SliceGeometry SliceGeometry::fitting(SliceOrientation orientation, const core::GridGeometry& grid,

@@ -52,7 +52,7 @@ BurrModel modelFrom(const json& entry)
                    [](double d) { return d > 0.0 && d <= kMaxBurrDiameter; }))
     throw core::InvalidParameter("burr '" + name +
                                  "': 'diameters_mm' must list diameters above 0 to " +
-                                 core::generalText(kMaxBurrDiameter) + " mm");
+                                 core::plainText(kMaxBurrDiameter) + " mm");
   model.status = entry.value("status", std::string());
   return model;
 }

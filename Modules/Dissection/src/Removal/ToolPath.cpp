@@ -47,7 +47,7 @@ void ToolPath::play(double rate, const std::function<void(const ToolSample&)>& t
   const double start = m_samples.front().time;
   const double end = m_samples.back().time;
   if (!((end - start) * rate <= kMaxTicks))
-    throw core::InvalidParameter("tool path: lasts " + core::generalText(end - start) +
+    throw core::InvalidParameter("tool path: lasts " + core::plainText(end - start) +
                                  " s, which is more than 1e8 ticks; cut it into parts");
 
   std::size_t segment = 0;

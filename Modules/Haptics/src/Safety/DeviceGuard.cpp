@@ -178,9 +178,9 @@ std::string toString(const DeviceGuard::Judgement& judgement)
            " ms ahead of the computer's.";
   case DeviceVerdict::NotUnit:
     return "The device sent an invalid rotation: its quaternion's length is " +
-           core::generalText(value, 3) + ".";
+           core::plainText(value, 3) + ".";
   case DeviceVerdict::OutOfReach:
-    return "The device sent a position " + core::generalText(value, 3) +
+    return "The device sent a position " + core::plainText(value, 3) +
            " mm away, farther than any hand reaches.";
   default:
     return toString(judgement.verdict);

@@ -27,9 +27,9 @@ void check(const char* what, double value, double least, double most)
 {
   if (value >= least && value <= most)
     return;
-  throw core::InvalidParameter(std::string("burr: ") + what + " is " + core::generalText(value) +
-                               " mm; it must lie between " + core::generalText(least) + " and " +
-                               core::generalText(most) + " mm");
+  throw core::InvalidParameter(std::string("burr: ") + what + " is " + core::plainText(value) +
+                               " mm; it must lie between " + core::plainText(least) + " and " +
+                               core::plainText(most) + " mm");
 }
 
 BurrShape checked(BurrShape shape)

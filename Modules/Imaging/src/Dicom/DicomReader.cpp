@@ -170,7 +170,7 @@ private:
     judgeSigns();
     if (m_contents.rounding > 0.0)
       note("Values were rounded to 32-bit floating point, by up to " +
-           core::generalText(m_contents.rounding) + ".");
+           core::plainText(m_contents.rounding, 3) + ".");
     if (!m_contents.isPadded || m_contents.real.empty())
       return IntensityVolume(std::shared_ptr<const Volume<T>>(voxels));
 

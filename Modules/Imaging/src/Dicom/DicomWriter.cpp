@@ -286,7 +286,7 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
               if (!(stored >= static_cast<double>(std::numeric_limits<S>::lowest()) &&
                     stored <= static_cast<double>(std::numeric_limits<S>::max())))
                 throw core::InvalidParameter(
-                    "DICOM series: the padding value " + core::generalText(*padding) +
+                    "DICOM series: the padding value " + core::plainText(*padding) +
                     " does not fit its 16 bits with this rescale; choose another");
               put(data, 0x0028, 0x0120, static_cast<std::uint16_t>(static_cast<S>(stored)),
                   std::is_signed_v<S> ? "SS" : "US");

@@ -188,7 +188,7 @@ std::filesystem::path detachedFile(const std::filesystem::path& header, const st
 
 std::string roughText(double value)
 {
-  return core::generalText(value, 4);
+  return core::plainText(value, 4);
 }
 
 std::string dimsText(const std::vector<std::uint64_t>& dims)

@@ -201,7 +201,7 @@ LoadedImage readImageFile(const std::filesystem::path& path,
   image.notes = source.notes();
   if (rounding > 0.0)
     image.notes.push_back("Values were rounded to 32-bit floating point, by up to " +
-                          core::generalText(rounding) + ".");
+                          core::plainText(rounding, 3) + ".");
   image.assumedRas = source.assumedRas();
   image.isHounsfield = source.isHounsfield();
   image.volume =

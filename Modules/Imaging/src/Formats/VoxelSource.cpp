@@ -219,15 +219,15 @@ void VoxelSource::scaleTo(double unit, bool isUnitKnown)
 std::string VoxelSource::unitNote() const
 {
   const Eigen::Vector3d& h = m_geometry->spacing();
-  const std::string voxels = core::generalText(h[0], 4) + " x " + core::generalText(h[1], 4) +
-                             " x " + core::generalText(h[2], 4) + " mm";
+  const std::string voxels = core::plainText(h[0], 4) + " x " + core::plainText(h[1], 4) + " x " +
+                             core::plainText(h[2], 4) + " mm";
   if (!m_unitWhy.empty())
   {
     const std::string unitText = m_unit.isUnknown      ? "states a unit of length that is not known"
                                  : !m_unit.isStated    ? "states no unit of length"
                                  : m_unit.name.empty() ? "states mm"
                                                        : "states " + m_unit.name;
-    return unitText + ", but its numbers were taken in units of " + core::generalText(m_taken) +
+    return unitText + ", but its numbers were taken in units of " + core::plainText(m_taken) +
            " mm, " + m_unitWhy + ": its voxels are " + voxels;
   }
   if (m_unit.isUnknown)

@@ -255,7 +255,7 @@ LoadedMesh loadMesh(const std::filesystem::path& path, const std::optional<bool>
     loaded.notes.emplace_back(std::string("states SPACE=") + (saysRas ? "RAS" : "LPS") +
                               ", and was read otherwise, as given");
   if (mm != 1.0F)
-    loaded.notes.emplace_back("has a unit of " + core::generalText(*unit) +
+    loaded.notes.emplace_back("has a unit of " + core::plainText(*unit) +
                               " mm, as given; brought to mm");
   return loaded;
 }

@@ -16,7 +16,7 @@ void require(bool holds, const char* name, double value, const char* range)
   if (holds)
     return;
   throw core::InvalidParameter(std::string("picture quality: ") + name + " is " +
-                               core::generalText(value) + "; it must be " + range);
+                               core::plainText(value) + "; it must be " + range);
 }
 } // namespace
 

@@ -30,8 +30,8 @@ double focalDistance(const core::CameraPose& camera)
 [[noreturn]] void refuse(const std::string& what, double value, double lower, double upper,
                          const std::string& why = {})
 {
-  throw core::InvalidParameter("stereo: " + what + " of " + core::generalText(value) + " mm; " +
-                               core::generalText(lower) + " to " + core::generalText(upper) +
+  throw core::InvalidParameter("stereo: " + what + " of " + core::plainText(value) + " mm; " +
+                               core::plainText(lower) + " to " + core::plainText(upper) +
                                " mm are possible" + why);
 }
 
@@ -70,7 +70,7 @@ StereoGeometry stereoGeometry(const core::CameraPose& camera, const StereoRig& r
   const double widest = separationOf(StereoRig::kWidestAngle, geometry.convergence);
   if (geometry.eyeSeparation > widest)
     refuse("an eye separation", geometry.eyeSeparation, 0.0, widest,
-           " where the eyes converge at " + core::generalText(geometry.convergence) + " mm");
+           " where the eyes converge at " + core::plainText(geometry.convergence) + " mm");
   return geometry;
 }
 

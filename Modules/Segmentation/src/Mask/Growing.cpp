@@ -76,10 +76,9 @@ Mask connectedThreshold(const volume::IntensityVolume& image, const volume::Valu
                         const std::string& unit)
 {
   if (!(range.min <= range.max))
-    throw core::InvalidParameter("threshold: the lower limit (" + core::generalText(range.min) +
-                                 unit + ") is above the upper one (" +
-                                 core::generalText(range.max) + unit +
-                                 "); give them in ascending order");
+    throw core::InvalidParameter("threshold: the lower limit (" + core::plainText(range.min) +
+                                 unit + ") is above the upper one (" + core::plainText(range.max) +
+                                 unit + "); give them in ascending order");
   if (seeds.empty())
     throw core::InvalidParameter("region: give a point inside the structure");
   std::vector<core::Index3> open;
@@ -89,9 +88,9 @@ Mask connectedThreshold(const volume::IntensityVolume& image, const volume::Valu
     const double value = image.at(index[0], index[1], index[2]);
     if (!(value >= range.min && value <= range.max) || value == image.padding())
       throw core::InvalidParameter("the voxel at the seed (" + core::positionText(seed) + ") has " +
-                                   core::generalText(value) + unit + ", which is not between " +
-                                   core::generalText(range.min) + " and " +
-                                   core::generalText(range.max) + unit +
+                                   core::plainText(value) + unit + ", which is not between " +
+                                   core::plainText(range.min) + " and " +
+                                   core::plainText(range.max) + unit +
                                    "; choose a point inside the structure, or other limits");
     open.push_back(index);
   }

@@ -76,7 +76,7 @@ core::GridGeometry commonGrid(const std::vector<LabelPriority>& grids, std::size
   }
   if (dims.prod() < wanted)
   {
-    const auto rough = [](double value) { return core::generalText(value, 3); };
+    const auto rough = [](double value) { return core::plainText(value, 3); };
     const auto toString = [&rough](const Vector3d& s)
     { return rough(s[0]) + " x " + rough(s[1]) + " x " + rough(s[2]) + " mm"; };
     notes.push_back("structures: their common grid of " + toString(finest.spacing()) +

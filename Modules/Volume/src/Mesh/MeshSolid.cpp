@@ -139,7 +139,7 @@ void checkLimits(const MeshSolidLimits& limits)
 
 std::string tooLargeText(double thickness, double bytes, double maxBytes)
 {
-  return "it is " + core::generalText(thickness, 3) + " mm thick in places and would take " +
+  return "it is " + core::plainText(thickness, 3) + " mm thick in places and would take " +
          core::fixedText(std::ceil(bytes / (1 << 20)), 0) +
          " MB as voxels to stay whole; a mesh may take " +
          core::fixedText(std::floor(maxBytes / (1 << 20)), 0) + " MB";

@@ -5674,6 +5674,10 @@
         <translation>nennt %1</translation>
     </message>
     <message>
+        <source>%~1, which was taken, %~2: its voxels are %3</source>
+        <translation>%~1, was gilt, %~2: Die Voxel sind %3</translation>
+    </message>
+    <message>
         <source>%~1, but its numbers were taken in units of %#2 mm, %~3: its voxels are %4</source>
         <translation>%~1, aber die Zahlen gelten in Einheiten von %#2 mm, %~3: Die Voxel sind %4</translation>
     </message>

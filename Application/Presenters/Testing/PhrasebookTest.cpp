@@ -250,6 +250,11 @@ TEST(DecimalCommas, AreThoseOfNumbersAlone)
       {"scan 1.5.nii in /data/2.5/ct", "scan 1.5.nii in /data/2.5/ct"},
       {"MR \u201eT1 2.0\u201c of 2.0 mm", "MR \u201eT1 2.0\u201c of 2,0 mm"},
       {"T2-0.5", "T2-0.5"},
+      {"/data/InnerEar 0.6 Hr69/a.dcm: 0.5 mm", "/data/InnerEar 0.6 Hr69/a.dcm: 0,5 mm"},
+      {"InnerEar 0.6 Hr69/a.dcm: 0.5 mm", "InnerEar 0.6 Hr69/a.dcm: 0,5 mm"},
+      {"1.5 mm: in /data/CT 0.6 mm/x.nii", "1,5 mm: in /data/CT 0.6 mm/x.nii"},
+      {"0.5 mm / 1.5 mm: both", "0,5 mm / 1,5 mm: both"},
+      {"needs TLS 1.2 and 1.5 s", "needs TLS 1.2 and 1,5 s"},
   };
   for (const auto& [text, german] : texts)
     EXPECT_EQ(withDecimalCommas(text), german);

@@ -324,7 +324,7 @@ void CatalogueDialog::burrEntered(int row, int column)
         const bool isCutting = one.kind == dissection::Burr::Kind::Cutting;
         one.constant = numberIn(*m_burrs, row, isCutting ? Rake : Wear, one.constant);
         const std::string diameters = bytes(m_burrs->item(row, Diameters)->text().trimmed());
-        if (diameters != presenters::diametersText(one.diameters))
+        if (diameters != bytes(numberText(presenters::diametersText(one.diameters))))
           one.diameters = presenters::diametersFrom(diameters);
         one.source = textIn(*m_burrs, row, BurrSource, one.source);
         m_editor.setBurr(at, one);

@@ -274,6 +274,29 @@ TEST_F(CatalogueDialogs, NumbersKeepTheDigitsThatAreNotShown)
             std::vector<double>{2.12345678});
 }
 
+TEST_F(CatalogueDialogs, DiametersKeepTheirDigitsWhereTheyHaveAComma)
+{
+  if (!hasLanguage("de"))
+    GTEST_SKIP() << "built without lrelease";
+  saveBall("ball");
+  {
+    presenters::CatalogueEditor editor(folder() / "library");
+    auto cutting = editor.burrs()[0];
+    cutting.diameters = {1.984375, 3.0};
+    editor.setBurr(0, cutting);
+    editor.save();
+  }
+  openWindow("ball");
+  const GermanTexts german;
+  ASSERT_TRUE(german.isThere());
+  auto& edit = dialog();
+  EXPECT_TRUE(table(edit, "burrs").item(0, 4)->text().startsWith("1,98"));
+  table(edit, "burrs").item(0, 2)->setText("-12");
+  edit.findChild<QPushButton*>("catalogueSave")->click();
+  EXPECT_EQ(read().burrs.model(dissection::Burr::Kind::Cutting).diameters,
+            (std::vector<double>{1.984375, 3.0}));
+}
+
 TEST_F(CatalogueDialogs, RemoveIsOfferedForTheRowThatIsThenSelected)
 {
   saveBall("ball");

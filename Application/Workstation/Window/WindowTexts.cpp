@@ -193,6 +193,7 @@ const std::vector<Hint>& hints()
       {", needs --repair\\)", ", needs repair)"},
       {"begin a case with it \\(petrous new --ct\\)", "begin a case with it (File > Open DICOM)"},
       {" \\((--replace|--roi|--bits stored|--bits allocated)\\)", ""},
+      {"\\(--(mask-face|roi); (?:in the window|im Fenster): ([^)]*)\\)", "(\\2)"},
       {"\\bmm3\\b", "mm³"},
   };
   static const std::vector<Hint> kHints = []

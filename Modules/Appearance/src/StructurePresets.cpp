@@ -339,6 +339,11 @@ std::string StructurePresets::knownWordsOfPart(const std::string& part) const
   return knownIn(part).text;
 }
 
+bool StructurePresets::isQualifier(const std::string& word) const
+{
+  return std::find(m_qualifiers.begin(), m_qualifiers.end(), folded(word)) != m_qualifiers.end();
+}
+
 StructurePresets::KnownWords StructurePresets::knownIn(const std::string& name) const
 {
   // A catalogue word may be a stem ("cerebell" of "cerebellum"), followed by one of these endings
@@ -367,8 +372,7 @@ StructurePresets::KnownWords StructurePresets::knownIn(const std::string& name) 
   {
     const std::string plain = folded(word);
     const bool isBeside =
-        (isNeutral(plain) && !(plain == kSideOrName && hasSide)) ||
-        std::find(m_qualifiers.begin(), m_qualifiers.end(), plain) != m_qualifiers.end();
+        (isNeutral(plain) && !(plain == kSideOrName && hasSide)) || isQualifier(word);
     bool isOfStructure = false;
     for (const Words& entry : m_words)
       for (const Phrase& phrase : entry.phrases)

@@ -338,6 +338,8 @@ TEST(ImageFile, SaysInWhichUnitAFileWasRead)
   EXPECT_EQ(notesOf(1, {}), "is in m; converted, its voxels are 0.5 x 0.5 x 0.5 mm\n");
   EXPECT_EQ(notesOf(1, 10.0), "states m, but its numbers were taken in units of 10 mm, as "
                               "asked: its voxels are 0.005 x 0.005 x 0.005 mm\n");
+  EXPECT_EQ(notesOf(1, 1000.0),
+            "states m, which was taken, as asked: its voxels are 0.5 x 0.5 x 0.5 mm\n");
   EXPECT_EQ(notesOf(0, 1000.0), "states no unit of length, but its numbers were taken in units of "
                                 "1000 mm, as asked: its voxels are 0.5 x 0.5 x 0.5 mm\n");
   EXPECT_EQ(notesOf(2, {}), "");

@@ -238,7 +238,10 @@ bool IdentityText::isOfField(const std::string& text) const
 
 bool IdentityText::isKnownWord(const std::string& word) const
 {
-  return library::isDescriptorWord(word) || isClinical(word) ||
+  if (library::isDescriptorWord(word) || isClinical(word))
+    return true;
+  // Some are surnames, too: "Anna Post".
+  return !(isCapital(word) && m_presets.isQualifier(word)) &&
          appearance::letterBytes(m_presets.knownWordsOfPart(word)) == appearance::letterBytes(word);
 }
 

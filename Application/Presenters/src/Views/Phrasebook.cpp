@@ -395,6 +395,34 @@ bool isDecimal(std::string_view text, std::size_t begin, std::size_t end) noexce
          !(at(end) == '.' && isOfWord(at(end + 1)));
 }
 
+/// Whether the word before `at` says that a version follows: "TLS 1.2".
+bool isVersionBehind(std::string_view text, std::size_t at) noexcept
+{
+  constexpr std::string_view kNames[] = {"TLS", "OpenGL", "GLSL", "Version", "version"};
+  return std::any_of(std::begin(kNames), std::end(kNames),
+                     [before = text.substr(0, at)](std::string_view name)
+                     {
+                       const std::size_t all = name.size() + 1;
+                       return before.size() >= all && before.back() == ' ' &&
+                              before.substr(before.size() - all, name.size()) == name &&
+                              (before.size() == all || !isOfWord(before[before.size() - all - 1]));
+                     });
+}
+
+/// The end of the path that begins there, which may hold blanks: before the next ": ", or of the
+/// text. `at` itself if none does. A relative path is known at the beginning of the text only.
+std::size_t pathEnd(std::string_view text, std::size_t at) noexcept
+{
+  const std::string_view rest = text.substr(at);
+  const std::size_t end = std::min(rest.find(": "), rest.size());
+  const bool begins = at == 0 || text[at - 1] == ' ' || text[at - 1] == '(';
+  const bool isAbsolute = begins && rest.size() > 1 && rest[0] == '/' && rest[1] != ' ';
+  const bool isRelative = at == 0 && end < rest.size() &&
+                          rest.substr(0, end).find('/') != std::string_view::npos &&
+                          rest.substr(0, end).find(" / ") == std::string_view::npos;
+  return isAbsolute || isRelative ? at + end : at;
+}
+
 } // namespace
 
 std::string withDecimalCommas(std::string text)
@@ -403,6 +431,10 @@ std::string withDecimalCommas(std::string text)
   bool isQuoted = false;
   for (std::size_t n = 0; n < text.size(); ++n)
   {
+    if (!isQuoted)
+      n = pathEnd(text, n);
+    if (n >= text.size())
+      break;
     if (text.compare(n, kOpening.size(), kOpening) == 0)
       isQuoted = true;
     else if (text.compare(n, kClosing.size(), kClosing) == 0)
@@ -414,7 +446,7 @@ std::string withDecimalCommas(std::string text)
     std::size_t end = std::min(text.find_first_not_of("0123456789.", n), text.size());
     while (text[end - 1] == '.')
       --end;
-    if (isDecimal(text, n, end))
+    if (isDecimal(text, n, end) && !isVersionBehind(text, n))
     {
       text[text.find('.', n)] = ',';
       const char next = end + 2 < text.size() ? text[end + 2] : ' ';

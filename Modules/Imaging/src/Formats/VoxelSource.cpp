@@ -227,8 +227,12 @@ std::string VoxelSource::unitNote() const
                                  : !m_unit.isStated    ? "states no unit of length"
                                  : m_unit.name.empty() ? "states mm"
                                                        : "states " + m_unit.name;
-    return unitText + ", but its numbers were taken in units of " + core::plainText(m_taken) +
-           " mm, " + m_unitWhy + ": its voxels are " + voxels;
+    const bool isOwn = m_unit.isStated && !m_unit.isUnknown && m_taken == m_unit.mm;
+    return unitText +
+           (isOwn
+                ? ", which was taken"
+                : ", but its numbers were taken in units of " + core::plainText(m_taken) + " mm") +
+           ", " + m_unitWhy + ": its voxels are " + voxels;
   }
   if (m_unit.isUnknown)
     return "states a unit of length that is not known; taken as mm";

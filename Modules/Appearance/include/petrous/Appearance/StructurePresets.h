@@ -49,6 +49,9 @@ public:
   /// The same of a part of a name, which need not denote a structure by itself: "Left" -> "left".
   std::string knownWordsOfPart(const std::string& part) const;
 
+  /// Whether a name would mean something else without this word ("not", "resected", "post").
+  bool isQualifier(const std::string& word) const;
+
   /// The preset of this name, or the one that a structure of this name would get, e.g. "vessel" ->
   /// artery. Throws InvalidParameter listing the presets.
   StructureAppearance preset(const std::string& name) const;

@@ -6509,10 +6509,6 @@
         <translation>„%1“ ist beschädigt</translation>
     </message>
     <message>
-        <source>checking a file</source>
-        <translation>Datei wird geprüft</translation>
-    </message>
-    <message>
         <source>an object</source>
         <translation>ein Objekt</translation>
     </message>
@@ -7669,6 +7665,10 @@
         <translation>%1: %~2 fehlt%~3</translation>
     </message>
     <message>
+        <source>checking a file</source>
+        <translation>Datei wird geprüft</translation>
+    </message>
+    <message>
         <source>%1: the disk does not confirm what was written; check the disk</source>
         <translation>%1: der Datenträger bestätigt nicht, was geschrieben wurde; prüfen Sie ihn</translation>
     </message>
@@ -8621,8 +8621,28 @@
         <translation>Verlauf: die Nummer eines Bohrzugs ist ungültig</translation>
     </message>
     <message>
+        <source>camera: %~1</source>
+        <translation>Kamera: %~1</translation>
+    </message>
+    <message>
         <source>history: not the text that was written</source>
         <translation>Verlauf: nicht der Text, der geschrieben wurde</translation>
+    </message>
+    <message>
+        <source>%1 must lie within 10 km</source>
+        <translation>%1 muss innerhalb von 10 km liegen</translation>
+    </message>
+    <message>
+        <source>view_up must be a direction</source>
+        <translation>view_up muss eine Richtung sein</translation>
+    </message>
+    <message>
+        <source>parallel_scale_mm must be above 0 mm, to 10 km</source>
+        <translation>parallel_scale_mm muss über 0 mm bis 10 km sein</translation>
+    </message>
+    <message>
+        <source>view_angle_deg must lie between 0 and 180 degrees</source>
+        <translation>view_angle_deg muss zwischen 0 und 180 Grad liegen</translation>
     </message>
     <message>
         <source>measuring what was laid open</source>
@@ -8939,26 +8959,6 @@
     <message>
         <source>the video has no bookmark '%1'%2</source>
         <translation>das Video hat kein Lesezeichen „%1“%2</translation>
-    </message>
-    <message>
-        <source>camera: %~1</source>
-        <translation>Kamera: %~1</translation>
-    </message>
-    <message>
-        <source>%1 must lie within 10 km</source>
-        <translation>%1 muss innerhalb von 10 km liegen</translation>
-    </message>
-    <message>
-        <source>view_up must be a direction</source>
-        <translation>view_up muss eine Richtung sein</translation>
-    </message>
-    <message>
-        <source>parallel_scale_mm must be above 0 mm, to 10 km</source>
-        <translation>parallel_scale_mm muss über 0 mm bis 10 km sein</translation>
-    </message>
-    <message>
-        <source>view_angle_deg must lie between 0 and 180 degrees</source>
-        <translation>view_angle_deg muss zwischen 0 und 180 Grad liegen</translation>
     </message>
     <message>
         <source>view: %~1</source>

@@ -418,10 +418,12 @@ TEST_F(Archives, ThatAreDamagedAreRefusedWhereEverythingIsThere)
            !m_library.contains("spoilt");
   };
   for (const TestZip::Entry& entry : sound.entries)
-    if (entry.name != "petrous.json" && entry.name != "case.json")
-      for (const std::size_t byte :
-           {std::size_t{7}, entry.bytes.size() / 2, entry.bytes.size() - 1})
-        EXPECT_TRUE(isRefused(entry.name, byte)) << entry.name << ", byte " << byte;
+  {
+    if (entry.name == "petrous.json" || entry.name == "case.json")
+      continue;
+    for (const std::size_t byte : {std::size_t{7}, entry.bytes.size() / 2, entry.bytes.size() - 1})
+      EXPECT_TRUE(isRefused(entry.name, byte)) << entry.name << ", byte " << byte;
+  }
   EXPECT_TRUE(m_library.verify().damaged.empty());
 }
 

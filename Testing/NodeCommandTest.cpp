@@ -347,6 +347,43 @@ TEST_F(NodeCommand, WithholdsANameThatIsNotKnownToBeNobodys)
   json("new \"Ng ear\" --ct " + quoted(m_folder / "patient/ct") + " --labels " +
        quoted(m_folder / "patient/labels.seg.nrrd"));
   EXPECT_TRUE(isHidden(sent("Ng ear")));
+
+  // Its files state a name, but of nobody.
+  namePatient("Phantom^Petrous");
+  json("new sample --ct " + quoted(m_folder / "patient/ct") + " --labels " +
+       quoted(m_folder / "patient/labels.seg.nrrd"));
+  const auto ofPhantom = sent("sample");
+  EXPECT_TRUE(isHidden(ofPhantom));
+  const std::string notes = ofPhantom["notes"].dump();
+  EXPECT_NE(notes.find("no word with which to compare it"), notes.npos) << notes;
+  EXPECT_EQ(notes.find("nothing is known"), notes.npos) << notes;
+}
+
+// Whoever has the report alone can receive the case; what the scanner made is not in it.
+TEST_F(NodeCommand, ABatchNamesTheStudyByWhichACaseIsReceived)
+{
+  if (!servers::Orthanc::installed())
+    GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  start(false);
+  json("library copy ear \"Kowalczyk left\"");
+  const auto table = m_folder / "table.csv";
+  std::ofstream(table) << "name,folder,send\nKowalczyk left,,pacs\nbad,patient,\n";
+  // Two series of one kind in a folder: each is named by its UID.
+  const Outcome outcome = run("--json batch " + quoted(table));
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  const auto answer = nlohmann::json::parse(outcome.out);
+  const std::string notes = answer["rows"][0]["notes"].dump();
+  const std::string words = "receives the study ";
+  const std::size_t at = notes.find(words);
+  ASSERT_NE(at, notes.npos) << notes;
+  const std::size_t from = at + words.size();
+  const std::string study = notes.substr(from, notes.find(',', from) - from);
+  EXPECT_EQ(study.rfind("2.25.", 0), 0U) << study;
+  EXPECT_EQ(notes.find("petrous scan"), notes.npos) << notes;
+  EXPECT_EQ(json("receive --from pacs --study " + study + " --as back" + other())["scene"], true);
+  const std::string error = answer["rows"][1]["error"];
+  EXPECT_NE(error.find("UID 1"), error.npos) << error;
+  EXPECT_EQ(error.find("2.25."), error.npos) << "of the source's files: " << error;
 }
 
 // A study that states the hash of a case's name need not be that case's; and what a node answers

@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -33,6 +34,7 @@
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Network/NodeList.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/CaseRegistration.h"
 #include "petrous/Presenters/CaseStamp.h"
 #include "petrous/Presenters/CaseTransfer.h"
@@ -228,6 +230,7 @@ struct RowResult
   std::string error;
   std::vector<std::string> notes;
   double seconds = 0.0;
+  std::set<std::string> ownUids; ///< which this program made; they stay in the texts
 };
 
 json rowJson(const RowResult& row)
@@ -257,9 +260,10 @@ std::string rowText(const RowResult& row)
   return text + (row.error.empty() ? "" : ": " + row.error);
 }
 
-/// UIDs name patients to whoever has them, and a report is handed on: "UID 1" and so on, in the
-/// order of the text, in their place.
-std::string withoutUids(const std::string& text)
+/// UIDs of a scanner name patients to whoever has them, and a report is handed on: "UID 1" and so
+/// on, in the order of the text, in their place. `own`: those that this program made name nobody,
+/// and by that of its study a case is received.
+std::string withoutUids(const std::string& text, const std::set<std::string>& own)
 {
   constexpr const char* kOfUid = "0123456789.";
   constexpr std::ptrdiff_t kLeastDots = 3; // or of a UUID, "2.25." and up to 39 digits
@@ -287,7 +291,7 @@ std::string withoutUids(const std::string& text)
         from > 0 && (std::isalnum(static_cast<unsigned char>(text[from - 1])) != 0 ||
                      text[from - 1] == '.'); // a number's end
     const auto dots = std::count(word.begin(), word.end(), '.');
-    if (isWithin || word.size() < 2 || word[1] != '.' || isAddress(word) ||
+    if (isWithin || word.size() < 2 || word[1] != '.' || own.count(word) > 0 || isAddress(word) ||
         (dots < kLeastDots && (dots < 2 || word.size() < kLongNumber)))
     {
       result += word;
@@ -328,7 +332,8 @@ public:
                      [](const auto& a, const auto& b) { return a.first.size() > b.first.size(); });
   }
 
-  std::string in(std::string text) const
+  /// `own`: UIDs that stay.
+  std::string in(std::string text, const std::set<std::string>& own) const
   {
     for (const auto& [path, name] : m_names)
       for (std::size_t at = text.find(path); at != text.npos; at = text.find(path, at))
@@ -346,7 +351,7 @@ public:
         text.replace(at, end - at, words);
         at += words.size();
       }
-    return withoutUids(text);
+    return withoutUids(text, own);
   }
 
 private:
@@ -374,20 +379,21 @@ public:
   {
   }
 
-  /// Of a step of the row with this index, which covers `first` to `last` of the row.
+  /// Of a step of the row with this index, which covers `first` to `last` of the row and which must
+  /// outlive it.
   core::Progress of(std::size_t index, const RowResult& row, const SourceNames& sources, Step step,
                     double first, double last)
   {
     return m_context.progress(
-        [this, index, line = row.line, name = row.name, sources, step, first, last,
+        [this, index, &row, sources, step, first, last,
          shown = std::make_shared<int>(-1)](double fraction, const std::string& whole)
         {
-          const std::string text = sources.in(whole);
+          const std::string text = sources.in(whole, row.ownUids);
           const double total =
               (static_cast<double>(index) + first + fraction * (last - first)) / m_rows;
           if (!m_asJson)
           {
-            m_bar.report(total, "'" + name + "': " + text);
+            m_bar.report(total, "'" + row.name + "': " + text);
             return;
           }
           const std::lock_guard<std::mutex> lock(m_mutex);
@@ -395,8 +401,8 @@ public:
           {
             *shown = percent;
             print({{"event", "progress"},
-                   {"line", line},
-                   {"case", name},
+                   {"line", row.line},
+                   {"case", row.name},
                    {"step", nameOf(step)},
                    {"fraction", fraction},
                    {"total", total},
@@ -497,11 +503,11 @@ public:
     const auto finish = [&](const std::string& status, const std::string& error)
     {
       result.status = status;
-      result.error = sources.in(error);
+      result.error = sources.in(error, result.ownUids);
       for (StepResult& step : result.steps)
-        step.text = sources.in(step.text);
+        step.text = sources.in(step.text, result.ownUids);
       for (std::string& note : result.notes)
-        note = sources.in(note);
+        note = sources.in(note, result.ownUids);
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
       result.seconds = seconds.count();
     };
@@ -838,6 +844,8 @@ private:
     parts.videos = row.withVideos;
     parts.documents = row.withDocuments;
     parts.mask.face = row.masksFace;
+    const presenters::CaseIdentifiers identifiers(value);
+    result.ownUids = {identifiers.study(), identifiers.formerStudy()};
     noteIdentities(presenters::identityReport(value, parts, nullptr, &library), result);
     if (m_options.dryRun)
       return true;

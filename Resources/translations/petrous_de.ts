@@ -4246,6 +4246,14 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
         <source>The search reads the notes of the cases, too</source>
         <translation>Die Suche liest auch die Notizen der Fälle</translation>
     </message>
+    <message>
+        <source>More</source>
+        <translation>Mehr</translation>
+    </message>
+    <message>
+        <source>Archives, DICOM nodes, and the check of the library&apos;s files</source>
+        <translation>Archive, DICOM-Knoten und die Prüfung der Dateien der Bibliothek</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::MainWindow</name>

@@ -576,6 +576,10 @@
         <translation>das Salt der Bibliothek ging verloren, daher lässt er sich nicht mit dem Patientennamen vergleichen; er geht mit, wenn dieses Salt aus einer Kopie wiederhergestellt ist oder die Bilder neu importiert sind</translation>
     </message>
     <message>
+        <source>the patient's name in its files has no word with which to compare it, as that of a phantom or a number has none (of images that an older version imported, none was kept); it goes along where the images are imported again, of files with a person's name</source>
+        <translation>der Patientenname in seinen Dateien hat kein Wort, mit dem er sich vergleichen ließe, wie der eines Phantoms oder eine Zahl keines hat (von Bildern, die eine ältere Version importierte, wurde keines behalten); er geht mit, wenn die Bilder neu importiert sind, aus Dateien mit dem Namen einer Person</translation>
+    </message>
+    <message>
         <source>nothing is known of the patient's name with which to compare it; it goes along where the case was made of DICOM files that state the patient's name, in this library</source>
         <translation>vom Namen des Patienten, mit dem er verglichen werden könnte, ist nichts bekannt; er geht mit, wenn der Fall in dieser Bibliothek aus DICOM-Dateien entstand, die den Patientennamen angeben</translation>
     </message>
@@ -6557,10 +6561,6 @@
         <translation>„%1“ ist beschädigt</translation>
     </message>
     <message>
-        <source>checking a file</source>
-        <translation>Datei wird geprüft</translation>
-    </message>
-    <message>
         <source>an object</source>
         <translation>ein Objekt</translation>
     </message>
@@ -7717,6 +7717,10 @@
         <translation>%1: %~2 fehlt%~3</translation>
     </message>
     <message>
+        <source>checking a file</source>
+        <translation>Datei wird geprüft</translation>
+    </message>
+    <message>
         <source>%1: the disk does not confirm what was written; check the disk</source>
         <translation>%1: der Datenträger bestätigt nicht, was geschrieben wurde; prüfen Sie ihn</translation>
     </message>
@@ -8669,8 +8673,28 @@
         <translation>Verlauf: die Nummer eines Bohrzugs ist ungültig</translation>
     </message>
     <message>
+        <source>camera: %~1</source>
+        <translation>Kamera: %~1</translation>
+    </message>
+    <message>
         <source>history: not the text that was written</source>
         <translation>Verlauf: nicht der Text, der geschrieben wurde</translation>
+    </message>
+    <message>
+        <source>%1 must lie within 10 km</source>
+        <translation>%1 muss innerhalb von 10 km liegen</translation>
+    </message>
+    <message>
+        <source>view_up must be a direction</source>
+        <translation>view_up muss eine Richtung sein</translation>
+    </message>
+    <message>
+        <source>parallel_scale_mm must be above 0 mm, to 10 km</source>
+        <translation>parallel_scale_mm muss über 0 mm bis 10 km sein</translation>
+    </message>
+    <message>
+        <source>view_angle_deg must lie between 0 and 180 degrees</source>
+        <translation>view_angle_deg muss zwischen 0 und 180 Grad liegen</translation>
     </message>
     <message>
         <source>measuring what was laid open</source>
@@ -8997,16 +9021,24 @@
         <translation>Ansicht: %~1</translation>
     </message>
     <message>
-        <source>the grey window of the slices must be wider than 0</source>
-        <translation>das Graufenster der Schichten muss breiter als 0 sein</translation>
+        <source>window_width, of the slices' grey window, must be above 0, to 1e9</source>
+        <translation>window_width, vom Graufenster der Schichten, muss über 0 bis 1e9 sein</translation>
     </message>
     <message>
-        <source>crosshair and grey window must be finite numbers</source>
-        <translation>Fadenkreuz und Graufenster müssen endliche Zahlen sein</translation>
+        <source>window_level, of the slices' grey window, must be -1e9 to 1e9</source>
+        <translation>window_level, vom Graufenster der Schichten, muss -1e9 bis 1e9 sein</translation>
+    </message>
+    <message>
+        <source>crosshair_mm must lie within 10 km</source>
+        <translation>crosshair_mm muss innerhalb von 10 km liegen</translation>
     </message>
     <message>
         <source>the zoom of a slice must be 1 to 1000</source>
         <translation>der Zoom einer Schicht muss 1 bis 1000 sein</translation>
+    </message>
+    <message>
+        <source>offset_mm of a slice must lie within 10 km</source>
+        <translation>offset_mm einer Schicht muss innerhalb von 10 km liegen</translation>
     </message>
     <message>
         <source>planes that were turned must be petrous, tool-axial, tool-coronal, tool-sagittal or free</source>
@@ -9033,12 +9065,12 @@
         <translation>es gibt höchstens %#1 gespeicherte Ansichten</translation>
     </message>
     <message>
-        <source>the light's falloff must be 0 to 10000 mm, the wetness 0 to 1</source>
-        <translation>der Lichtabfall muss 0 bis 10000 mm sein, die Nässe 0 bis 1</translation>
+        <source>the light's falloff_mm must be 0 to 10000 mm, the wetness 0 to 1</source>
+        <translation>der Lichtabfall (falloff_mm) muss 0 bis 10000 mm sein, die Nässe 0 bis 1</translation>
     </message>
     <message>
-        <source>the exposure must be -4 to 4 EV</source>
-        <translation>die Belichtung muss -4 bis 4 EV sein</translation>
+        <source>the exposure_ev must be -4 to 4 EV</source>
+        <translation>die Belichtung (exposure_ev) muss -4 bis 4 EV sein</translation>
     </message>
     <message>
         <source>the edges' emphasis must be 0 to 1</source>
@@ -9057,8 +9089,8 @@
         <translation>es gibt höchstens %#1 Schnittebenen</translation>
     </message>
     <message>
-        <source>the normal of a clipping plane must have length 1</source>
-        <translation>die Normale einer Schnittebene muss die Länge 1 haben</translation>
+        <source>point_mm of a clipping plane must lie within 10 km, and its normal have length 1</source>
+        <translation>point_mm einer Schnittebene muss innerhalb von 10 km liegen, und ihre Normale die Länge 1 haben</translation>
     </message>
     <message>
         <source>the box of voxels that are shown must not be empty</source>

@@ -69,6 +69,7 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   , m_to(new QDateEdit(QDate::currentDate().addMonths(1)))
   , m_list(new QTreeView)
   , m_count(new QLabel)
+  , m_more(new QMenu(this))
   , m_deleted(new QMenu(this))
   , m_undelete(new QToolButton)
 {
@@ -219,9 +220,17 @@ void LibraryPanel::listTags(const std::set<std::string>& tags)
   m_tag->setCurrentIndex(chosen.isEmpty() ? 0 : std::max(m_tag->findData(chosen), 0));
 }
 
-// Each is a button, an entry of the list's context menu and a key of the list.
+// Each is a button or an entry of the menu below the last button, an entry of the list's context
+// menu, and some a key of the list.
 void LibraryPanel::addButtons(QGridLayout& layout)
 {
+  const auto place = [&layout](QToolButton& button, const char* name)
+  {
+    button.setObjectName(name);
+    button.setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    const int at = layout.count();
+    layout.addWidget(&button, at / kButtonsInRow, at % kButtonsInRow);
+  };
   const auto add = [&](const char* name, const QString& text, const QKeySequence& key,
                        const QString& tip, Asked asked, bool ofDamaged)
   {
@@ -240,14 +249,14 @@ void LibraryPanel::addButtons(QGridLayout& layout)
     m_list->addAction(action);
     (ofDamaged ? m_needEntry : m_needCase) += action;
     if (!name)
+    {
+      m_more->addAction(action);
       return action;
+    }
     auto* button = new QToolButton;
     button->setDefaultAction(action);
     button->setText(QString(text).remove('&').remove(QString::fromUtf8("…")));
-    button->setObjectName(name);
-    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    const int place = layout.count();
-    layout.addWidget(button, place / kButtonsInRow, place % kButtonsInRow);
+    place(*button, name);
     return action;
   };
   auto* open = add("openThisCase", tr("&Open"), Qt::Key_Return, tr("Opens the case"),
@@ -270,6 +279,20 @@ void LibraryPanel::addButtons(QGridLayout& layout)
       &LibraryPanel::archiveAsked, false);
   add(nullptr, tr("&Send the case…"), {}, tr("The case to a DICOM node"), &LibraryPanel::sendAsked,
       false);
+  m_more->setObjectName("moreOfLibraryMenu");
+  m_more->setToolTipsVisible(true);
+  auto* more = new QToolButton;
+  more->setText(tr("More"));
+  more->setToolTip(tr("Archives, DICOM nodes, and the check of the library's files"));
+  more->setMenu(m_more);
+  more->setPopupMode(QToolButton::InstantPopup);
+  place(*more, "moreOfLibrary");
+}
+
+void LibraryPanel::addToMore(const QList<QAction*>& actions)
+{
+  m_more->addSeparator();
+  m_more->addActions(actions);
 }
 
 void LibraryPanel::showEvent(QShowEvent* event)

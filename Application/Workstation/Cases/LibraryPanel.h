@@ -51,6 +51,8 @@ public:
   void pictureDrawn(const std::string& id);
   /// Hears which cases of the list are seen.
   void onSeen(std::function<void(const library::CaseSummary&)> seen);
+  /// To the menu *More*: what the window's menus do with the library as a whole.
+  void addToMore(const QList<QAction*>& actions);
   void select(const std::string& name); ///< also where the search hides it
   void focusList();
   QWidget* mainControl() override;
@@ -103,6 +105,7 @@ private:
   QDateEdit* m_to;
   QTreeView* m_list;
   QLabel* m_count;
+  QMenu* m_more;
   QMenu* m_deleted;
   QToolButton* m_undelete;
   QList<QAction*> m_needCase;  ///< that can be opened

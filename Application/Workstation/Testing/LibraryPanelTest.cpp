@@ -428,6 +428,53 @@ TEST_F(LibraryWindow, AnArchiveIsWrittenAsTheDialogSays)
 }
 
 // It can be renamed and deleted, not opened.
+// By the keyboard as by the mouse, and with the very actions of the menus.
+TEST_F(LibraryWindow, ThePanelHasArchivesNodesAndVerify)
+{
+  saveBall("ear");
+  openWindow("ear");
+  showPanel();
+  ASSERT_TRUE(select("ear"));
+  auto* more = panel().findChild<QToolButton*>("moreOfLibrary");
+  ASSERT_NE(more, nullptr);
+  EXPECT_TRUE((more->focusPolicy() & Qt::TabFocus) != 0);
+  EXPECT_TRUE(more->isVisible());
+  const QList<QAction*> entries = more->menu()->actions();
+  const auto entry = [&entries](const QString& text) -> QAction*
+  {
+    for (QAction* one : entries)
+      if (one->text().remove('&') == text)
+        return one;
+    return nullptr;
+  };
+  EXPECT_EQ(entry("Restore…"), action("Restore…"));
+  EXPECT_EQ(entry("Receive from a node…"), window().findChild<QAction*>("receiveCase"));
+  EXPECT_EQ(entry("Verify…"), window().findChild<QAction*>("verifyLibrary"));
+  for (const char* ofCase : {"Make the picture", "Archive the case…", "Send the case…"})
+  {
+    ASSERT_NE(entry(ofCase), nullptr) << ofCase;
+    EXPECT_TRUE(list().actions().contains(entry(ofCase))) << ofCase;
+    EXPECT_TRUE(entry(ofCase)->isEnabled()) << ofCase;
+  }
+  list().setCurrentIndex({});
+  EXPECT_FALSE(entry("Archive the case…")->isEnabled()) << "no case is selected";
+  EXPECT_TRUE(entry("Restore…")->isEnabled());
+
+  // The space key opens the menu.
+  ASSERT_TRUE(select("ear"));
+  bool isOpened = false;
+  QObject::connect(more->menu(), &QMenu::aboutToShow, more->menu(),
+                   [&isOpened, menu = more->menu()]
+                   {
+                     isOpened = true;
+                     QTimer::singleShot(0, menu, &QMenu::close);
+                   });
+  more->setFocus();
+  QTest::keyClick(more, Qt::Key_Space);
+  EXPECT_TRUE(isOpened);
+  EXPECT_TRUE(waitFor([more] { return !more->menu()->isVisible(); }));
+}
+
 TEST_F(LibraryWindow, ADamagedCaseIsListed)
 {
   saveBall("ball");

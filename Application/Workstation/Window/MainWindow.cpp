@@ -419,6 +419,9 @@ void MainWindow::layOut()
   menuBar()->insertMenu(menuBar()->actions().last(), m_measure->menu());
   menuBar()->insertMenu(menuBar()->actions().last(), m_video->menu());
   menuBar()->insertMenu(menuBar()->actions().last(), m_library->menu());
+  m_library->panel()->addToMore({m_actions->restore,
+                                 m_library->menu()->findChild<QAction*>("receiveCase"),
+                                 m_library->menu()->findChild<QAction*>("verifyLibrary")});
 
   m_sum->setObjectName("dim");
   m_sum->setToolTip(tr("What was drilled so far"));

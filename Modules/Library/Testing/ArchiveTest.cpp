@@ -401,6 +401,53 @@ TEST_F(Archives, ThatAreDamagedAreRefusedWhereEverythingIsThere)
   EXPECT_GE(refusals, kPlaces * 2 / 3) << "of headers some bits mean nothing";
   write(whole);
   EXPECT_EQ(restoreCase(m_library, m_file, {"sound", ""}).newParts, 0U);
+
+  // By a program that computes each entry's checksum anew, so that the hash alone can tell.
+  const TestZip sound = unpacked();
+  if (sound.entries.empty())
+    GTEST_SKIP() << "no python3 to unpack the archive with";
+  write(sound.bytes());
+  EXPECT_EQ(restoreCase(m_library, m_file, {"packed again", ""}).newParts, 0U);
+  const auto isRefused = [&](const std::string& entry, std::size_t byte)
+  {
+    TestZip zip = sound;
+    find(zip, entry).bytes.at(byte) ^= 1;
+    write(zip.bytes());
+    const auto [reason, text] = refusal([&] { restoreCase(m_library, m_file, {"spoilt", ""}); });
+    return reason == Reason::Damaged && text.find("'" + entry + "'") != text.npos &&
+           !m_library.contains("spoilt");
+  };
+  for (const TestZip::Entry& entry : sound.entries)
+  {
+    if (entry.name == "petrous.json" || entry.name == "case.json")
+      continue;
+    for (const std::size_t byte : {std::size_t{7}, entry.bytes.size() / 2, entry.bytes.size() - 1})
+      EXPECT_TRUE(isRefused(entry.name, byte)) << entry.name << ", byte " << byte;
+  }
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+}
+
+TEST_F(Archives, OfAPlanUseNoDamagedPartOfTheLibrary)
+{
+  archiveCase(m_library, "ear", m_file, {true});
+  RestoreOptions options;
+  options.ct = "ear";
+  options.name = "plan";
+  const fs::path object =
+      m_library.folder() / "objects" / m_library.open("ear").meshes.front().object;
+  const std::string whole = bytesOf(object);
+  std::string spoilt = whole;
+  const std::size_t digit = spoilt.find_first_of("0123456789");
+  ASSERT_NE(digit, spoilt.npos);
+  spoilt[digit] = spoilt[digit] == '1' ? '2' : '1'; // still a mesh
+  fs::permissions(object, fs::perms::owner_write, fs::perm_options::add);
+  std::ofstream(object, std::ios::binary) << spoilt;
+  const auto [reason, text] = refusal([&] { restoreCase(m_library, m_file, options); });
+  EXPECT_EQ(reason, Reason::Damaged);
+  EXPECT_NE(text.find("mesh"), text.npos) << text;
+  EXPECT_FALSE(m_library.contains("plan"));
+  std::ofstream(object, std::ios::binary) << whole;
+  EXPECT_EQ(restoreCase(m_library, m_file, options).name, "plan");
 }
 
 TEST_F(Archives, ATakenNameIsRefused)

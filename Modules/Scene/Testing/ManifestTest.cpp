@@ -327,6 +327,59 @@ TEST(Manifest, RefusesANumberOfAStructureThatIsOutOfItsRange)
   }
 }
 
+TEST(Manifest, RefusesANumberOfTheViewThatIsOutOfItsRangeAndNamesIt)
+{
+  using nlohmann::json;
+  scene::Case value = fullCase();
+  value.camera = core::CameraPose{};
+  value.view.branchCameras["zweiter Zugang ü"].parallelScale = 12.0;
+  value.view.slices.emplace();
+  value.view.slices->width = 4000.0;
+  value.view.slices->planes.emplace();
+  value.view.light.emplace();
+  value.view.stereo.emplace();
+  value.view.stereo->eyeSeparation = 12.0;
+  value.view.stereo->convergence = 300.0;
+  value.view.clipping.planes = {{{1.0, 2.0, 3.0}, {0.0, 0.0, 1.0}}};
+  value.view.saved["Nische"].camera = core::CameraPose{};
+  const json good = json::parse(scene::toManifest(value));
+  EXPECT_TRUE(scene::fromManifest(good.dump(), "m").camera);
+  const auto refused = [&good](const std::string& place, const json& wrong, const char* words)
+  {
+    json j = good;
+    const json::json_pointer pointer(place);
+    ASSERT_TRUE(j.contains(pointer)) << place;
+    j[pointer] = wrong;
+    const std::string text = refusalOf(j);
+    EXPECT_NE(text.find(words), text.npos) << place << ": " << text;
+  };
+  for (const char* camera :
+       {"/camera", "/view/saved/Nische/camera", "/dissection/strokes/0/camera"})
+  {
+    const std::string of = camera;
+    for (const double wrong : {1e308, 180.0, 0.0, -30.0})
+      refused(of + "/view_angle_deg", wrong, "view_angle_deg");
+    refused(of + "/position_mm/1", 1e308, "position_mm");
+    refused(of + "/focal_point_mm/2", -1e308, "focal_point_mm");
+    refused(of + "/view_up", {0.0, 0.0, 0.0}, "view_up");
+    refused(of + "/view_up/0", 1e200, "view_up");
+  }
+  for (const double wrong : {1e308, 0.0, -1.0})
+    refused("/view/branches/zweiter Zugang ü/parallel_scale_mm", wrong, "parallel_scale_mm");
+  for (const double wrong : {1e308, 0.0, -1.0})
+    refused("/view/slices/window_width", wrong, "window_width");
+  for (const double wrong : {1e308, -1e308})
+    refused("/view/slices/window_level", wrong, "window_level");
+  refused("/view/slices/crosshair_mm/0", 1e308, "crosshair_mm");
+  refused("/view/slices/planes/axial/offset_mm/0", 1e308, "offset_mm");
+  refused("/view/slices/planes/axial/zoom", 1e308, "zoom");
+  refused("/view/light/falloff_mm", 1e308, "falloff_mm");
+  refused("/view/light/wetness", 1e308, "wetness");
+  refused("/view/stereo/eye_separation_mm", 1e308, "eyes");
+  refused("/view/stereo/convergence_mm", 1e308, "converge");
+  refused("/view/clipping/planes/0/point_mm/0", 1e308, "point_mm");
+}
+
 // Not as what is left of it in the bits of its type.
 TEST(Manifest, RefusesAnIntegerThatIsTooLarge)
 {

@@ -1,5 +1,6 @@
 #include "DissectionJson.h"
 
+#include "PlaceRange.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/HistoryText.h"
@@ -26,6 +27,12 @@ std::size_t stateOf(const json& number)
   if (!number.is_number_unsigned())
     throw core::InvalidParameter("history: a stroke's number is invalid");
   return number.get<std::size_t>() - 1;
+}
+
+void requireOfCamera(bool holds, const std::string& what)
+{
+  if (!holds)
+    throw core::InvalidParameter("camera: " + what);
 }
 
 template <class Parse>
@@ -75,13 +82,27 @@ json cameraOut(const core::CameraPose& camera)
 core::CameraPose cameraIn(const json& j)
 {
   core::CameraPose camera;
-  camera.position = vectorIn(j.at("position_mm"));
-  camera.focalPoint = vectorIn(j.at("focal_point_mm"));
+  for (const auto& [key, place] : {std::pair("position_mm", &core::CameraPose::position),
+                                   std::pair("focal_point_mm", &core::CameraPose::focalPoint)})
+  {
+    camera.*place = vectorIn(j.at(key));
+    requireOfCamera(isPlace(camera.*place), std::string(key) + " must lie within 10 km");
+  }
   camera.viewUp = vectorIn(j.at("view_up"));
+  const double up = camera.viewUp.norm();
+  requireOfCamera(up > 0.0 && up <= kFarthestPlace, "view_up must be a direction");
   if (j.contains("parallel_scale_mm"))
+  {
     camera.parallelScale = j.at("parallel_scale_mm").get<double>();
+    requireOfCamera(*camera.parallelScale > 0.0 && *camera.parallelScale <= kFarthestPlace,
+                    "parallel_scale_mm must be above 0 mm, to 10 km");
+  }
   else
+  {
     camera.viewAngle = j.at("view_angle_deg").get<double>();
+    requireOfCamera(camera.viewAngle > 0.0 && camera.viewAngle < 180.0,
+                    "view_angle_deg must lie between 0 and 180 degrees");
+  }
   return camera;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "PlaceRange.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Scene/PlainText.h"
@@ -37,13 +38,18 @@ bool isWithin(double value, double lower, double upper)
 
 void checkSlices(const Slices& slices)
 {
-  require(slices.width > 0.0, "the grey window of the slices must be wider than 0");
-  require(slices.crosshair.allFinite() && std::isfinite(slices.level),
-          "crosshair and grey window must be finite numbers");
+  constexpr double kLargest = 1e9; // of intensities
+  require(slices.width > 0.0 && slices.width <= kLargest,
+          "window_width, of the slices' grey window, must be above 0, to 1e9");
+  require(isWithin(slices.level, -kLargest, kLargest),
+          "window_level, of the slices' grey window, must be -1e9 to 1e9");
+  require(isPlace(slices.crosshair), "crosshair_mm must lie within 10 km");
   if (slices.planes)
     for (const Slices::Plane& plane : *slices.planes)
-      require(isWithin(plane.zoom, 1.0, 1000.0) && plane.offset.allFinite(),
-              "the zoom of a slice must be 1 to 1000");
+    {
+      require(isWithin(plane.zoom, 1.0, 1000.0), "the zoom of a slice must be 1 to 1000");
+      require(isPlace(plane.offset), "offset_mm of a slice must lie within 10 km");
+    }
   if (slices.turned)
   {
     constexpr std::string_view kKinds[] = {"petrous", "tool-axial", "tool-coronal", "tool-sagittal",
@@ -169,11 +175,11 @@ void checkView(const ViewState& view)
     checkSlices(*view.slices);
   if (view.light)
     require(isWithin(view.light->falloff, 0.0, 1e4) && isWithin(view.light->wetness, 0.0, 1.0),
-            "the light's falloff must be 0 to 10000 mm, the wetness 0 to 1");
+            "the light's falloff_mm must be 0 to 10000 mm, the wetness 0 to 1");
   constexpr double kMaxExposure = ViewState::Light::kMaxExposure;
   if (view.light)
     require(isWithin(view.light->exposure, -kMaxExposure, kMaxExposure),
-            "the exposure must be -4 to 4 EV");
+            "the exposure_ev must be -4 to 4 EV");
   if (view.light)
     require(isWithin(view.light->edges, 0.0, 1.0), "the edges' emphasis must be 0 to 1");
   if (view.stereo)
@@ -190,8 +196,8 @@ void checkView(const ViewState& view)
           "there are at most " + std::to_string(ViewState::kMaxClippingPlanes) +
               " clipping planes");
   for (const ViewState::Clipping::Plane& plane : clipping.planes)
-    require(plane.point.allFinite() && std::abs(plane.normal.norm() - 1.0) < 1e-6,
-            "the normal of a clipping plane must have length 1");
+    require(isPlace(plane.point) && std::abs(plane.normal.norm() - 1.0) < 1e-6,
+            "point_mm of a clipping plane must lie within 10 km, and its normal have length 1");
   if (clipping.crop)
     for (std::size_t a = 0; a < 3; ++a)
       require(clipping.crop->lower[a] >= 0 && clipping.crop->lower[a] < clipping.crop->upper[a],

@@ -150,6 +150,13 @@ std::string whyNameHidden(const scene::Case& value, const library::Library& libr
   if (identity.isSaltLost())
     return "the library's salt was lost, so it cannot be compared with the patient's name; it goes "
            "along where that salt is restored from a copy, or the images are imported again";
+  if (const scene::PatientHash& patient = value.ct.patient;
+      !patient.name.empty() && patient.nameParts.empty() &&
+      scene::isComparable(value.ct, library::frameSalter(library)))
+    return "the patient's name in its files has no word with which to compare it, as that of a "
+           "phantom or a number has none (of images that an older version imported, none was "
+           "kept); it goes along where the images are imported again, of files with a person's "
+           "name";
   if (!identity.knowsName())
     return "nothing is known of the patient's name with which to compare it; it goes along where "
            "the case was made of DICOM files that state the patient's name, in this library";

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <future>
 #include <map>
 #include <numeric>
@@ -271,27 +272,33 @@ struct Archive
   std::uint64_t bytes = 0; ///< of all objects, unpacked
 };
 
-/// Writes an entry as it is, at most `bytes` bytes: what is stated may be less than what it unpacks
-/// to, and its checksum is known only at its end.
-void copyEntry(ZipReader::Stream& in, core::OutputFile& out, std::uint64_t bytes,
-               const fs::path& file, const std::string& entry, const core::Progress& progress)
+/// Gets the bytes of an object, piece by piece.
+using Take = std::function<void(const char* bytes, std::size_t count)>;
+
+/// Gives an entry as it is to `take`, at most `bytes` bytes: what is stated may be less than what
+/// it unpacks to, and its checksum is known only at its end. Returns their SHA-256.
+std::string readEntry(ZipReader::Stream& in, const Take& take, std::uint64_t bytes,
+                      const fs::path& file, const std::string& entry,
+                      const core::Progress& progress)
 {
   std::vector<char> block(kBlock);
-  std::uint64_t written = 0;
-  for (std::size_t got = block.size(); got == block.size();)
+  Sha256 hash;
+  std::uint64_t done = 0;
+  for (std::size_t got = block.size(); got == block.size(); done += got)
   {
     progress.check("restoring");
     got = in.read(block.data(), block.size());
-    if (got > bytes - written)
+    if (got > bytes - done)
       throwUnsound(file, "'" + entry + "' is larger than stated");
-    out.write(block.data(), got);
-    written += got;
+    hash.add(block.data(), got);
+    take(block.data(), got);
   }
+  return hash.hexadecimal();
 }
 
-/// Writes the NRRD that was packed (PackedImage in ArchiveWriter.cpp). At most `bytes` bytes are
-/// written; the hash, which is returned, tells whether they are the right ones.
-std::string unpackImage(ZipReader::Stream& in, core::OutputFile& out, std::uint64_t bytes,
+/// The same of the NRRD that was packed (PackedImage in ArchiveWriter.cpp). `take` may be called in
+/// another thread.
+std::string unpackImage(ZipReader::Stream& in, const Take& take, std::uint64_t bytes,
                         const fs::path& file, const std::string& entry,
                         const core::Progress& progress)
 {
@@ -316,10 +323,9 @@ std::string unpackImage(ZipReader::Stream& in, core::OutputFile& out, std::uint6
   head.replace(encoding, kGzip.size(), "\nencoding: raw\n");
   Sha256 hash;
   std::uint64_t written = 0;
-  const auto write = [&out, &hash](const char* from, std::size_t count)
+  const auto write = [&take, &hash](const char* from, std::size_t count)
   {
-    out.write(from, count);
-    out.startSync();
+    take(from, count);
     hash.add(from, count);
   };
   write(head.data(), head.size());
@@ -381,24 +387,9 @@ std::string unpackImage(ZipReader::Stream& in, core::OutputFile& out, std::uint6
   return hash.hexadecimal();
 }
 
-/// Reads an entry to its end, where its checksum is: what the library has already is told to be
-/// damaged in the archive, too, from which another library may be restored.
-void readThrough(ZipReader::Stream& in, std::uint64_t bytes, const fs::path& file,
-                 const std::string& entry, const core::Progress& progress)
-{
-  constexpr std::uint64_t kPacking = std::uint64_t{1} << 20; // that it may add
-  std::vector<char> block(kBlock);
-  std::uint64_t done = 0;
-  for (std::size_t got = block.size(); got == block.size(); done += got)
-  {
-    progress.check("checking a file");
-    got = in.read(block.data(), block.size());
-    if (got > bytes + bytes / 64 + kPacking - done)
-      throwUnsound(file, "'" + entry + "' is larger than stated");
-  }
-}
-
-/// Adds the objects that the store lacks; returns their number.
+/// Adds the objects that the store lacks; returns their number. Each is read and hashed, those that
+/// the store has too: a damaged archive is told of where it was made, and not first where it is
+/// the only copy.
 std::size_t addObjects(const Archive& archive, ObjectStore& store, const core::Progress& progress)
 {
   std::size_t added = 0;
@@ -422,30 +413,32 @@ std::size_t addObjects(const Archive& archive, ObjectStore& store, const core::P
       catch (const LibraryError&)
       {
       }
-    if (isSound)
+    const auto read = [&, one = one](const Take& take)
     {
       ZipReader::Stream in = archive.zip.open(one->file);
-      readThrough(in, one->bytes, archive.file, one->file, part);
-      continue;
-    }
-    constexpr std::size_t kDot = 65;
+      return one->packed ? unpackImage(in, take, one->bytes, archive.file, one->file, part)
+                         : readEntry(in, take, one->bytes, archive.file, one->file, part);
+    };
+    constexpr std::size_t kDigits = 64;
+    const std::string ending = object.substr(kDigits); // with its dot
     const std::string name =
-        store.addHashed(object.substr(kDot),
-                        [&, one = one](const fs::path& path)
-                        {
-                          ZipReader::Stream in = archive.zip.open(one->file);
-                          core::OutputFile out(path);
-                          std::string hash;
-                          if (one->packed)
-                            hash = unpackImage(in, out, one->bytes, archive.file, one->file, part);
-                          else
-                            copyEntry(in, out, one->bytes, archive.file, one->file, part);
-                          out.commit();
-                          return one->packed ? hash : sha256OfFile(path);
-                        });
+        isSound ? read([](const char*, std::size_t) {}) + ending
+                : store.addHashed(ending.substr(1),
+                                  [&read](const fs::path& path)
+                                  {
+                                    core::OutputFile out(path);
+                                    std::string hash = read(
+                                        [&out](const char* bytes, std::size_t count)
+                                        {
+                                          out.write(bytes, count);
+                                          out.startSync();
+                                        });
+                                    out.commit();
+                                    return hash;
+                                  });
     if (name != object)
       throwUnsound(archive.file, "'" + one->file + "' is not what its hash says");
-    ++added;
+    added += isSound ? 0 : 1;
   }
   return added;
 }
@@ -849,6 +842,9 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
           const auto notes = leaveOutMissing(next, store);
           summary.notes.insert(summary.notes.end(), notes.begin(), notes.end());
           scene::forgetGoneReferences(next);
+          for (const ObjectUse& use : objectsOf(next)) // of this library, beside the CT
+            if (use.object != next.ct.object && archive.objects.count(use.object) == 0)
+              checkObject(store.path(use.object, use.what), use.what, progress.part(0.5, 0.5));
         }
         summary.newParts = addObjects(archive, store, progress);
         checkImages(next, store, file, progress);

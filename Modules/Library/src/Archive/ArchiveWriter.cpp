@@ -42,7 +42,7 @@ namespace
 {
 
 constexpr std::size_t kLongestHeader = 1U << 20;
-constexpr std::size_t kBatch = 12; // members packed at once, 48 MiB
+constexpr std::size_t kBatch = MemberLevels::kCycle; // members packed at once, 48 MiB
 
 /// The parts of a producer's bytes that do not fit the reader's buffer wait here.
 Produce fromMemory(std::vector<std::uint8_t> bytes)
@@ -67,7 +67,7 @@ public:
   PackedImage(fs::path path, ObjectText what, std::optional<int> level)
     : m_file(path)
     , m_what(std::move(what))
-    , m_level(level)
+    , m_levels(level ? MemberLevels{level} : levelsFor(samples()))
   {
     std::string head = next(std::min<std::uintmax_t>(kLongestHeader, m_file.size()));
     const std::size_t end = head.find("\n\n");
@@ -117,17 +117,39 @@ private:
           const std::size_t wanted = kBatch * kMemberBytes;
           if (raw.size() < wanted)
             raw += next(std::min<std::uintmax_t>(wanted - raw.size(), m_file.size() - m_read));
-          return packMembers(raw, m_level);
+          return packMembers(raw, m_levels);
         });
   }
 
+  /// Of the whole file, from the middle of each part.
+  std::vector<std::string> samples() const
+  {
+    constexpr std::uintmax_t kParts = 8;
+    std::vector<std::string> all;
+    for (std::uintmax_t n = 0; n < kParts; ++n)
+    {
+      const std::uintmax_t middle = (2 * n + 1) * m_file.size() / (2 * kParts);
+      const std::uintmax_t from = middle - std::min<std::uintmax_t>(middle, kSampleBytes / 2);
+      all.push_back(bytesAt(from, std::min<std::uintmax_t>(kSampleBytes, m_file.size() - from)));
+    }
+    return all;
+  }
+
   std::string next(std::uintmax_t count)
+  {
+    std::string bytes = bytesAt(m_read, count);
+    m_hash.add(bytes.data(), bytes.size());
+    m_read += count;
+    return bytes;
+  }
+
+  std::string bytesAt(std::uintmax_t from, std::uintmax_t count) const
   {
     std::string bytes(count, '\0');
     for (std::size_t done = 0; done < bytes.size();)
     {
       const ssize_t got = ::pread(m_file.descriptor(), bytes.data() + done, bytes.size() - done,
-                                  static_cast<off_t>(m_read + done));
+                                  static_cast<off_t>(from + done));
       if (got < 0 && errno == EINTR)
         continue;
       if (got <= 0)
@@ -135,8 +157,6 @@ private:
                            core::printable(m_file.path()) + ": cannot be read to its end");
       done += static_cast<std::size_t>(got);
     }
-    m_hash.add(bytes.data(), bytes.size());
-    m_read += count;
     return bytes;
   }
 
@@ -154,7 +174,7 @@ private:
 
   core::InputFile m_file;
   ObjectText m_what;
-  std::optional<int> m_level;
+  MemberLevels m_levels;
   Sha256 m_hash;
   std::uintmax_t m_read = 0;
   std::string m_carried; ///< read, not packed

@@ -105,7 +105,9 @@ TEST_F(ThemeTest, ALightOneIsSeenAtOnceAndInTheNextWindowAndPicturesStayDark)
   again.findChild<QPushButton*>("usualTheme")->click();
   EXPECT_EQ(again.findChild<QComboBox*>("colorScheme")->currentText(), "Dark");
   if (language)
+  {
     EXPECT_EQ(language->currentIndex(), 0) << "the system's";
+  }
   EXPECT_FALSE(light());
   again.close();
 }

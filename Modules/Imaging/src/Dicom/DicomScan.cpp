@@ -1436,12 +1436,20 @@ std::string selectorOf(const DicomSeries& series)
   return series.volume.empty() ? series.uid : series.uid + "#" + series.volume;
 }
 
+std::size_t imageCount(const DicomSeries& series)
+{
+  const SeriesGeometry& geometry = series.geometry;
+  if (!geometry.slices.empty() || series.kind != SeriesKind::Image || geometry.findings.empty())
+    return geometry.slices.size();
+  return hasFinding(geometry, {FindingKind::NotAnImage}) ? 0 : series.files;
+}
+
 std::vector<const DicomSeries*> otherImages(const ScanResult& result, const DicomSeries& series)
 {
   std::vector<const DicomSeries*> others;
   for (const DicomSeries& other : result.series)
     if (&other != &series && (other.modality == "CT" || other.modality == "MR") &&
-        other.geometry.slices.size() > kScout)
+        imageCount(other) > kScout)
       others.push_back(&other);
   return others;
 }

@@ -4558,6 +4558,10 @@
         <translation>%~1, so viele, wie der Header nennt.</translation>
     </message>
     <message>
+        <source>%~1, and with what else is in the series as many as the header states.</source>
+        <translation>%~1, und mit dem, was sonst in der Serie ist, so viele, wie der Header nennt.</translation>
+    </message>
+    <message>
         <source>%~1. If it was a slice beyond that, the volume ends %#2 mm too early.</source>
         <translation>%~1. War sie eine Schicht jenseits davon, endet das Volumen %#2 mm zu früh.</translation>
     </message>
@@ -6386,6 +6390,30 @@
         <translation>beschreibt die Konturen einer Struktur zweimal (ROI Contour Sequence), was zwei Strukturen sein können; exportieren Sie sie neu</translation>
     </message>
     <message>
+        <source>left of it</source>
+        <translation>links davon</translation>
+    </message>
+    <message>
+        <source>right of it</source>
+        <translation>rechts davon</translation>
+    </message>
+    <message>
+        <source>posterior to it</source>
+        <translation>posterior davon</translation>
+    </message>
+    <message>
+        <source>anterior to it</source>
+        <translation>anterior davon</translation>
+    </message>
+    <message>
+        <source>superior to it</source>
+        <translation>superior davon</translation>
+    </message>
+    <message>
+        <source>inferior to it</source>
+        <translation>inferior davon</translation>
+    </message>
+    <message>
         <source>'%1': %#2 contour that is there twice in one plane was taken once</source>
         <translation>„%1“: %#2 Kontur, die in einer Ebene zweimal da ist, wurde einmal genommen</translation>
     </message>
@@ -6432,6 +6460,10 @@
     <message>
         <source>was drawn on planes oblique to this image's slices; resample the image or the contours where they were drawn, or export the structures as a segmentation</source>
         <translation>wurde auf Ebenen schräg zu den Schichten dieses Bildes gezeichnet; rechnen Sie Bild oder Konturen dort um, wo gezeichnet wurde, oder exportieren Sie die Strukturen als Segmentierung</translation>
+    </message>
+    <message>
+        <source>lies wholly outside this image, its nearest contour %#1 mm %2; take the image on which it was drawn, or export it again with the contours of this one</source>
+        <translation>liegt ganz außerhalb dieses Bildes, die nächste Kontur %#1 mm %2; nehmen Sie das Bild, auf dem gezeichnet wurde, oder exportieren Sie neu, mit den Konturen dieses Bildes</translation>
     </message>
     <message>
         <source>%~1 left out: drawn on planes oblique to this image's slices</source>

@@ -267,6 +267,40 @@ TEST_F(SourceContent, SeriesAreToldApartByTheirPlaces)
   EXPECT_EQ(foldersOf(), (std::set<std::string>{"001", "002"}));
 }
 
+TEST_F(SourceContent, ASeriesThatNothingPlacesIsListedWithTheReason)
+{
+  namespace imagingTest = imaging::test;
+  imagingTest::writeSeries(m_folder / "sound", 5);
+  imagingTest::writeSeries(m_folder / "unplaced", 4,
+                           [](int, imagingTest::TestSlice& slice)
+                           {
+                             slice.seriesUid = "1.2.3.5";
+                             slice.orientation.clear();
+                           });
+  imagingTest::writeSeries(m_folder / "report", 4,
+                           [](int, imagingTest::TestSlice& slice)
+                           {
+                             slice.seriesUid = "1.2.3.6";
+                             slice.modality = "SR";
+                             slice.sopClass = "1.2.840.10008.5.1.4.1.1.88.11";
+                             slice.pixels = false;
+                             slice.rows = slice.columns = 0;
+                           });
+  const auto found = presenters::lookAt(m_folder, {});
+  ASSERT_EQ(found.series.size(), 2u);
+  EXPECT_EQ(found.series[0].selector, "1.2.3.4");
+  EXPECT_EQ(found.series[0].verdict, imaging::Verdict::Ok);
+  EXPECT_EQ(found.series[0].folder, "sound");
+  const presenters::SeriesContent& unplaced = found.series[1];
+  EXPECT_EQ(unplaced.selector, "1.2.3.5");
+  EXPECT_EQ(unplaced.content, Content::Ct);
+  EXPECT_EQ(unplaced.slices, 4u);
+  EXPECT_EQ(unplaced.verdict, imaging::Verdict::Refused);
+  EXPECT_EQ(unplaced.folder, "");
+  ASSERT_FALSE(unplaced.findings.empty());
+  EXPECT_EQ(unplaced.findings.front().kind, imaging::FindingKind::NoGeometry);
+}
+
 // The elements of an RT structure set that tell what it is (PS3.3 A.19), explicit little endian.
 TEST_F(SourceContent, OffersTheStructureSetsOfAFolder)
 {

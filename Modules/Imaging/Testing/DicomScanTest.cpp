@@ -236,6 +236,85 @@ TEST(DicomScan, CallsAnObjectWithoutPixelsNoImage)
   EXPECT_TRUE(has(result.series.front().geometry, FindingKind::NotAnImage));
 }
 
+/// A slice across a stack, which is taken for a scout of it.
+TestSlice scoutOf(const std::string& modality)
+{
+  TestSlice scout;
+  scout.modality = modality;
+  scout.orientation = "1\\0\\0\\0\\0\\-1";
+  return scout;
+}
+
+void leaveOutPixels(TestSlice& slice)
+{
+  slice.sopClass = "1.2.840.10008.5.1.4.1.1.88.11"; // a report
+  slice.pixels = false;
+  slice.rows = slice.columns = 0;
+}
+
+// Files are heard in the order of their names.
+TEST(DicomScan, WhatIsNoSliceSaysNothingOfTheSeries)
+{
+  for (const char* modality : {"SR", "PR", "OT"})
+    for (const char* name : {"a.dcm", "z.dcm"})
+    {
+      const TemporaryFolder folder;
+      writeSeries(folder.path(), 8);
+      TestSlice other = scoutOf(modality);
+      if (modality != std::string("OT"))
+        leaveOutPixels(other);
+      std::string bytes = other.bytes();
+      const std::size_t at = bytes.find("EAR ");
+      ASSERT_NE(at, std::string::npos);
+      writeText(folder.path() / name, bytes.replace(at, 3, "XXX"));
+      const ScanResult result = scanDicom(folder.path(), {});
+      ASSERT_EQ(result.series.size(), 1U) << modality << name;
+      const DicomSeries& series = result.series.front();
+      EXPECT_EQ(series.modality, "CT") << modality << name;
+      EXPECT_EQ(series.description.find("EAR"), 0U) << modality << name;
+      EXPECT_EQ(series.geometry.verdict, Verdict::Ok) << modality << name;
+      EXPECT_EQ(series.geometry.slices.size(), 8U) << modality << name;
+    }
+  const TemporaryFolder folder;
+  TestSlice report;
+  report.modality = "SR";
+  leaveOutPixels(report);
+  report.write(folder.path() / "a.dcm");
+  const ScanResult alone = scanDicom(folder.path(), {});
+  ASSERT_EQ(alone.series.size(), 1U);
+  EXPECT_EQ(alone.series.front().modality, "SR");
+}
+
+TEST(DicomScan, SlicesOfTwoModalitiesAreTwoVolumesOrNone)
+{
+  const auto scan = [](double z)
+  {
+    const TemporaryFolder folder;
+    for (int k = 0; k < 12; ++k)
+    {
+      TestSlice slice;
+      slice.modality = k % 2 == 0 ? "CT" : "MR";
+      slice.z = 0.5 * (k / 2) + (k % 2 == 0 ? 0.0 : z);
+      slice.write(folder.path() / ("s" + std::to_string(100 + k) + ".dcm"));
+    }
+    return scanDicom(folder.path(), {});
+  };
+  const ScanResult alike = scan(0.0);
+  ASSERT_EQ(alike.series.size(), 2U);
+  for (const std::size_t n : {0U, 1U})
+  {
+    const std::string modality = n == 0 ? "CT" : "MR";
+    EXPECT_EQ(alike.series[n].modality, modality);
+    EXPECT_EQ(alike.series[n].volume, "modality " + modality);
+    EXPECT_EQ(alike.series[n].geometry.verdict, Verdict::Ok);
+    EXPECT_EQ(alike.series[n].geometry.slices.size(), 6U);
+  }
+  const ScanResult behind = scan(3.0); // one stack without a gap
+  ASSERT_EQ(behind.series.size(), 1U);
+  EXPECT_EQ(behind.series.front().geometry.verdict, Verdict::Refused);
+  EXPECT_TRUE(has(behind.series.front().geometry, FindingKind::MixedAcquisitions));
+}
+
 TEST(DicomScan, TellsSeriesApartAndChoosesTheOneNamed)
 {
   const TemporaryFolder folder;
@@ -759,6 +838,7 @@ TEST(DicomScan, SplitsTiltsIntoStacksAndSetsTheRestAside)
       EXPECT_NE(series.volume.find("set aside"), std::string::npos) << series.volume;
       continue;
     }
+    EXPECT_EQ(series.volume, n == 0 ? "axial, tilt -10.0" : "axial, tilt 12.0");
     EXPECT_EQ(series.geometry.verdict, Verdict::Repairable);
     ASSERT_EQ(series.geometry.findings.size(), 1U);
     EXPECT_EQ(series.geometry.findings[0].kind, FindingKind::GantryTilt);
@@ -1360,6 +1440,79 @@ TEST(DicomScan, SetsABrokenOrForeignFileBesideAWholeStackAside)
       ASSERT_EQ(result.notes.size(), 1U);
       EXPECT_EQ(result.notes.front().find("s8.dcm "), 0U);
     }
+}
+
+// A localizer may be counted with the slices or not.
+TEST(DicomScan, ALocalizerBesideABrokenFileLeavesTheNumbersOfTheSlicesTheirs)
+{
+  const auto scan = [](int first, int ofScout, int declared)
+  {
+    return scanNumbered(
+        [&](const fs::path& folder)
+        {
+          cutHeader(folder);
+          TestSlice scout = scoutOf("CT");
+          putNumber(scout, ofScout, declared);
+          scout.write(folder / "a.dcm");
+        },
+        first);
+  };
+  struct Case
+  {
+    int first = 1;
+    int ofScout = 0;
+    int declared = 0;
+    const char* note = nullptr; // no note: refused
+  };
+  const Case cases[] = {{1, 9, 0, "numbered 1 to 8."},
+                        {1, 100, 0, "numbered 1 to 8."},
+                        {1, 1, 0, "numbered 1 to 8."},
+                        {2, 1, 0, "numbered 2 to 9."},
+                        {1, 9, 8, "numbered 1 to 8, as many as the header states."},
+                        {1, 9, 9, "numbered 1 to 8, and with what else is in the series as many"},
+                        {2, 100, 0},
+                        {2, 2, 0},
+                        {1, 9, 10}};
+  for (const Case& one : cases)
+  {
+    const ScanResult result = scan(one.first, one.ofScout, one.declared);
+    const SeriesGeometry& geometry = result.series.front().geometry;
+    const std::string what = std::to_string(one.first) + ", " + std::to_string(one.ofScout) + ", " +
+                             std::to_string(one.declared);
+    EXPECT_EQ(geometry.slices.size(), 8U) << what;
+    EXPECT_TRUE(has(geometry, FindingKind::LocalizerMixedIn)) << what;
+    EXPECT_EQ(geometry.verdict, one.note ? Verdict::Ok : Verdict::Refused) << what;
+    EXPECT_EQ(has(geometry, FindingKind::Unreadable), !one.note) << what;
+    const auto says = [&one](const std::string& note)
+    { return one.note && note.find(one.note) != std::string::npos; };
+    EXPECT_EQ(std::any_of(geometry.notes.begin(), geometry.notes.end(), says), one.note != nullptr)
+        << what;
+  }
+}
+
+// The numbers of one echo say nothing of the other's.
+TEST(DicomScan, ABrokenFileMayBeTheFirstSliceOfOneOfTwoVolumes)
+{
+  const TemporaryFolder folder;
+  for (int k = 0; k < 16; ++k)
+    if (k != 0)
+    {
+      TestSlice slice;
+      slice.modality = "MR";
+      slice.z = 0.5 * (k / 2);
+      slice.element(slice.extra, 0x00180086, "IS", std::to_string(k % 2 + 1));
+      putNumber(slice, k / 2 + 1);
+      slice.write(folder.path() / ("s" + std::to_string(100 + k) + ".dcm"));
+    }
+  writeText(folder.path() / "s100.dcm", "");
+  const ScanResult result = scanDicom(folder.path(), {});
+  ASSERT_EQ(result.series.size(), 2U);
+  for (const DicomSeries& series : result.series)
+  {
+    const bool isWhole = series.geometry.slices.size() == 8;
+    EXPECT_EQ(series.volume, isWhole ? "echo 2" : "echo 1");
+    EXPECT_EQ(series.geometry.verdict, isWhole ? Verdict::Ok : Verdict::Refused) << series.volume;
+  }
 }
 
 TEST(DicomScan, HoldsABrokenFileAgainstAStackThatItsNumbersDoNotShowToBeWhole)

@@ -553,6 +553,43 @@ TEST(StructureSet, WhatLiesOutsideTheImageIsNoted)
   EXPECT_NE(loaded.notes[1].find("'half': 91 %"), std::string::npos) << loaded.notes[1];
 }
 
+// The image ends half a voxel beyond the centres of its outermost voxels.
+TEST(StructureSet, OneWhollyOutsideTheImageIsRefusedWithTheWayToIt)
+{
+  struct Case
+  {
+    Vector3d center;
+    const char* way; // to the nearest point of a circle of 4 mm
+  };
+  const Case cases[] = {{{0.0, 0.0, 80.0}, "35.5 mm superior to it"}, // the last slice is at 44
+                        {{0.0, 0.0, -5.5}, "10.0 mm inferior to it"},
+                        {{100.15, 0.0, 20.0}, "66.4 mm left of it"}, // the last column at 29.5
+                        {{-50.05, 0.0, 20.0}, "35.8 mm right of it"},
+                        {{0.0, 30.05, 20.0}, "6.3 mm posterior to it"}, // the last row at 19.5
+                        {{0.0, -30.05, 20.0}, "5.8 mm anterior to it"}};
+  for (const Case& one : cases)
+    for (const bool hasEmpty : {false, true})
+    {
+      StructureSet set;
+      set.rois = {named("nearer", {circle(one.center, 4.0)}),
+                  named("far", {circle(one.center + 5.0 * (one.center - grid().center()), 4.0)})};
+      if (hasEmpty)
+        set.rois.push_back(named("empty", {}));
+      std::string text;
+      try
+      {
+        imaging::labelsOf(set, grid(), "set.dcm");
+      }
+      catch (const FileError& error)
+      {
+        EXPECT_EQ(error.reason, Reason::Unsupported);
+        text = error.what();
+      }
+      EXPECT_NE(text.find(std::string("nearest contour ") + one.way), std::string::npos)
+          << text << " instead of " << one.way;
+    }
+}
+
 TEST(StructureSet, IsReadInEveryEncoding)
 {
   const TemporaryFolder folder;

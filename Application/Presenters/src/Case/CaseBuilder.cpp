@@ -327,7 +327,7 @@ void refuseMrBesideCt(const imaging::ScanResult& scan, const fs::path& path)
 {
   constexpr std::size_t kScouts = 2; // slices
   for (const imaging::DicomSeries& series : scan.series)
-    if (series.modality == "CT" && series.geometry.slices.size() > kScouts)
+    if (series.modality == "CT" && imaging::imageCount(series) > kScouts)
       throw imaging::DicomError(
           imaging::DicomError::Reason::Ambiguous,
           path.string() + ": its CT cannot be used" +
@@ -347,7 +347,7 @@ std::string notTaken(const imaging::ScanResult& scan, const imaging::DicomSeries
     if (other->modality != series.modality)
       continue;
     const imaging::SeriesGeometry& geometry = other->geometry;
-    std::string one = std::to_string(geometry.slices.size()) + " slices";
+    std::string one = std::to_string(imaging::imageCount(*other)) + " slices";
     if (geometry.grid)
       one += " of " + core::plainText(geometry.grid->spacing()[2]) + " mm";
     others.push_back(one + (geometry.verdict == imaging::Verdict::Ok           ? ""

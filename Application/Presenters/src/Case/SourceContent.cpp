@@ -116,7 +116,6 @@ std::string whyOf(const std::string& modality)
 
 SeriesContent contentOf(const imaging::DicomSeries& series)
 {
-  const imaging::SliceHeader& first = series.geometry.slices.front();
   SeriesContent result;
   result.selector = imaging::selectorOf(series);
   result.content = contentOf(series.modality);
@@ -125,14 +124,18 @@ SeriesContent contentOf(const imaging::DicomSeries& series)
   result.name = sequenceName(series.description + " " + series.volume);
   if (!series.volume.empty())
     result.description += (result.description.empty() ? "" : ", ") + series.volume;
-  result.slices = series.geometry.slices.size();
+  result.slices = imaging::imageCount(series);
   if (series.geometry.grid)
     result.spacing = series.geometry.grid->spacing();
-  result.taken = first.taken;
-  result.patientPosition = first.patientPosition;
-  result.kernel = first.kernel;
-  result.place = first.file.parent_path();
-  result.first = first.file.filename();
+  if (!series.geometry.slices.empty())
+  {
+    const imaging::SliceHeader& first = series.geometry.slices.front();
+    result.taken = first.taken;
+    result.patientPosition = first.patientPosition;
+    result.kernel = first.kernel;
+    result.place = first.file.parent_path();
+    result.first = first.file.filename();
+  }
   result.verdict = series.geometry.grid ? series.geometry.verdict : imaging::Verdict::Refused;
   result.findings = series.geometry.findings;
   return result;
@@ -213,12 +216,16 @@ fs::path wholePath(const fs::path& path)
 // Names folders so that different ones differ.
 void nameFolders(std::vector<SeriesContent>& series)
 {
+  const auto isPlaced = [](const SeriesContent& one) // else none of its slices can be used
+  { return !one.first.empty() || !one.files.empty(); };
   std::vector<fs::path> places;
   for (const SeriesContent& one : series)
-    places.push_back(wholePath(one.place).lexically_normal());
+    places.push_back(isPlaced(one) ? wholePath(one.place).lexically_normal() : fs::path());
   const std::set<fs::path> all(places.begin(), places.end());
   for (std::size_t n = 0; n < series.size(); ++n)
   {
+    if (!isPlaced(series[n]))
+      continue;
     const auto depth = std::distance(places[n].begin(), places[n].end());
     std::ptrdiff_t count = 1;
     const auto isShared = [&](const fs::path& other)
@@ -283,7 +290,7 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
                               [](const SeriesContent& one) { return !one.isBeside; }))
   {
     for (const imaging::DicomSeries& series : scan.series)
-      if (!series.geometry.slices.empty() && series.kind == imaging::SeriesKind::Image)
+      if (imaging::imageCount(series) > 0 && series.kind == imaging::SeriesKind::Image)
         result.series.push_back(contentOf(series));
     result.series.insert(result.series.end(), segmentations.begin(), segmentations.end());
     result.series.insert(result.series.end(), parts.begin(), parts.end());

@@ -13,6 +13,7 @@
 #include <new>
 #include <optional>
 #include <set>
+#include <unordered_map>
 #include <utility>
 
 #include <sys/stat.h>
@@ -321,6 +322,48 @@ std::string firstNotEmpty(const std::vector<FileHeader*>& members, std::string F
   return found == members.end() ? std::string() : (*found)->*field;
 }
 
+/// What a series says of itself. Reports, presentation states and the like may lie in it and say
+/// other things: of a volume only the slices that it is read from are heard; where there are none,
+/// the images of the series, or where it has none, all of its objects.
+class Statements
+{
+public:
+  explicit Statements(const std::vector<FileHeader*>& members)
+  {
+    std::vector<FileHeader*> images;
+    std::copy_if(members.begin(), members.end(), std::back_inserter(images),
+                 [](const FileHeader* m) { return m->slice.isImage && m->slice.damage.empty(); });
+    const std::vector<FileHeader*>& heard = images.empty() ? members : images;
+    m_modality = firstNotEmpty(heard, &FileHeader::modality);
+    m_description = firstNotEmpty(heard, &FileHeader::description);
+    const bool isOne =
+        std::all_of(members.begin(), members.end(),
+                    [this](const FileHeader* m) { return m->description == m_description; });
+    for (const FileHeader* member : isOne ? std::vector<FileHeader*>() : members)
+      m_descriptions.emplace(member->slice.file.native(), member->description);
+  }
+
+  /// `series`: whose slices are those that are read.
+  void apply(DicomSeries& series) const
+  {
+    const std::vector<SliceHeader>& slices = series.geometry.slices;
+    series.modality = slices.empty() ? m_modality : std::string();
+    series.description = slices.empty() || m_descriptions.empty() ? m_description : std::string();
+    for (auto slice = slices.begin(); slice != slices.end() && series.modality.empty(); ++slice)
+      series.modality = slice->modality;
+    if (m_descriptions.empty())
+      return;
+    for (auto slice = slices.begin(); slice != slices.end() && series.description.empty(); ++slice)
+      if (const auto own = m_descriptions.find(slice->file.native()); own != m_descriptions.end())
+        series.description = own->second;
+  }
+
+private:
+  std::string m_modality;
+  std::string m_description;
+  std::unordered_map<std::string, std::string> m_descriptions; ///< by file; empty: all are alike
+};
+
 /// nullopt: that could not be read.
 std::optional<bool> sameBytes(const fs::path& one, const fs::path& other,
                               const core::Progress& progress)
@@ -465,39 +508,61 @@ std::size_t dropReplaced(std::vector<SliceHeader>& slices)
   return before - slices.size();
 }
 
-/// What the instance numbers of a series say.
-struct Numbering
+/// The instance numbers of all objects of a series, localizers and reports, too.
+struct SeriesNumbers
 {
-  bool isComplete = false; ///< from 0 or 1 without a gap, up to the count that the header states
-  bool isCounted = false;  ///< it states one
-  int count = 0;           ///< of the slices
-  int declared = 0;        ///< as the header states; 0: not
-  int first = 0;           ///< first and last are 0 unless all numbers differ
-  int last = 0;
+  std::set<int> all;
+  int count = 0;    ///< of the objects
+  int declared = 0; ///< as their headers state; 0: not
+
+  explicit SeriesNumbers(const std::vector<SliceHeader>& slices)
+    : count(static_cast<int>(slices.size()))
+  {
+    for (const SliceHeader& slice : slices)
+    {
+      all.insert(slice.instanceNumber);
+      declared = std::max(declared, slice.declaredCount.value_or(0));
+    }
+  }
 };
 
-Numbering numberingOf(const std::vector<SliceHeader>& slices)
+/// What the instance numbers of the slices of a volume say.
+struct Numbering
 {
-  Numbering result;
-  std::set<int> numbers;
-  int declared = 0;
-  for (const SliceHeader& slice : slices)
+  /// From 0 or 1 to the last without a gap, up to the count that the header states. Where no number
+  /// of the series is there twice, those of the other objects close gaps: they were counted with
+  /// the slices.
+  bool isComplete = false;
+  bool isBegun = true;    ///< likewise up to the first, whether or not numbers are there twice
+  bool isCounted = false; ///< the slices are as many as the header states
+  bool isCountedWithOthers = false; ///< or all objects of the series are
+  int first = 0;                    ///< first and last are 0 unless all numbers differ
+  int last = 0;
+
+  Numbering(const SeriesNumbers& series, const std::vector<SliceHeader>& slices)
   {
-    numbers.insert(slice.instanceNumber);
-    declared = std::max(declared, slice.declaredCount.value_or(0));
+    std::set<int> own;
+    for (const SliceHeader& slice : slices)
+      own.insert(slice.instanceNumber);
+    if (own.empty() || own.size() != slices.size())
+      return;
+    first = *own.begin();
+    last = *own.rbegin();
+    const auto count = static_cast<int>(slices.size());
+    const auto isWhole = [](const std::set<int>& numbers, int to)
+    {
+      const auto from = numbers.lower_bound(0);
+      return from != numbers.end() && *from <= 1 && *numbers.begin() >= 0 &&
+             std::distance(from, numbers.upper_bound(to)) == to - *from + 1;
+    };
+    const bool isOneSequence = static_cast<int>(series.all.size()) == series.count;
+    isBegun = first <= 1 || isWhole(series.all, first);
+    isCounted = series.declared == count;
+    isCountedWithOthers = series.declared == series.count;
+    isComplete = (isWhole(own, last) || (isOneSequence && isWhole(series.all, last))) &&
+                 (series.declared <= count || isCountedWithOthers);
   }
-  const auto count = static_cast<int>(slices.size());
-  result.count = count;
-  result.declared = declared;
-  if (numbers.empty() || numbers.size() != slices.size())
-    return result;
-  result.first = *numbers.begin();
-  result.last = *numbers.rbegin();
-  result.isComplete = (result.first == 0 || result.first == 1) &&
-                      result.last - result.first + 1 == count && declared <= count;
-  result.isCounted = declared == count;
-  return result;
-}
+};
 
 bool hasFinding(const SeriesGeometry& geometry, std::initializer_list<FindingKind> kinds)
 {
@@ -574,7 +639,8 @@ bool isWholeWithout(std::size_t files, const SeriesGeometry& geometry, const Num
 
 /// What the header and the numbers of the slices say of ends that are not there: an export that
 /// broke off leaves a stack without a gap. Empty: nothing.
-std::string missingEnds(const SeriesGeometry& geometry, const Numbering& numbering)
+std::string missingEnds(const SeriesGeometry& geometry, const SeriesNumbers& series,
+                        const Numbering& numbering)
 {
   if (geometry.verdict == Verdict::Refused || !geometry.grid ||
       geometry.slices.front().pixels.frameCount > 1 || // which numbers files
@@ -583,10 +649,10 @@ std::string missingEnds(const SeriesGeometry& geometry, const Numbering& numberi
     return {};
   const bool isNumbered = numbering.last > numbering.first;
   std::string text;
-  if (numbering.declared > numbering.count)
-    text = "The header states " + std::to_string(numbering.declared) + " images, and " +
-           std::to_string(numbering.count) + " are there";
-  if (isNumbered && numbering.first > 1 && numbering.declared != numbering.count)
+  if (series.declared > series.count)
+    text = "The header states " + std::to_string(series.declared) + " images, and " +
+           std::to_string(series.count) + " are there";
+  if (isNumbered && !numbering.isBegun && series.declared != series.count)
     text += (text.empty() ? "The slices are numbered " : ", numbered ") +
             ("from " + std::to_string(numbering.first)) + " to " + std::to_string(numbering.last);
   if (text.empty())
@@ -712,7 +778,7 @@ std::string shorterThan(const SeriesGeometry& geometry, const std::vector<DicomS
 }
 
 /// The ends that may be missing from the volumes of a divided series.
-void compareEnds(std::vector<DicomSeries>& volumes, const Numbering& numbering)
+void compareEnds(std::vector<DicomSeries>& volumes, const SeriesNumbers& numbers)
 {
   if (volumes.size() < 2)
     return;
@@ -728,15 +794,15 @@ void compareEnds(std::vector<DicomSeries>& volumes, const Numbering& numbering)
   const auto isOfManyFrames = [](const DicomSeries& volume) {
     return !volume.geometry.slices.empty() && volume.geometry.slices.front().pixels.frameCount > 1;
   };
-  if (isExplained || numbering.declared <= numbering.count ||
+  if (isExplained || numbers.declared <= numbers.count ||
       std::any_of(volumes.begin(), volumes.end(), isOfManyFrames))
     return;
   for (DicomSeries& volume : volumes)
     if (volume.geometry.verdict != Verdict::Refused)
       volume.geometry.findings.push_back(
           {FindingKind::MissingEnd,
-           "The header states " + std::to_string(numbering.declared) +
-               " images of the series, and " + std::to_string(numbering.count) +
+           "The header states " + std::to_string(numbers.declared) + " images of the series, and " +
+               std::to_string(numbers.count) +
                " are there in all its volumes, which are equally long; a volume or the ends of all "
                "may be missing. Look whether all of the skull base that is needed is there.",
            0.0});
@@ -860,6 +926,8 @@ std::string setAsideNote(std::size_t files, const SeriesGeometry& geometry,
                      std::to_string(numbering.first) + " to " + std::to_string(numbering.last);
   if (numbering.isCounted)
     return text + ", as many as the header states.";
+  if (numbering.isCountedWithOthers)
+    return text + ", and with what else is in the series as many as the header states.";
   return text + ". If " + (files == 1 ? "it was a slice" : "they were slices") +
          " beyond that, the volume ends " +
          decimals(static_cast<double>(files) * geometry.grid->spacing()[2], 1) + " mm too early.";
@@ -906,8 +974,7 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
 {
   DicomSeries series;
   series.uid = firstNotEmpty(members, &FileHeader::seriesUid);
-  series.modality = firstNotEmpty(members, &FileHeader::modality);
-  series.description = firstNotEmpty(members, &FileHeader::description);
+  const Statements statements(members); // of slices that are moved below
   series.files = members.size() + doubts.own;
   series.kind = kindOf(members);
   for (const FileHeader* member : members)
@@ -923,7 +990,7 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
       std::move(member->frames.begin(), member->frames.end(), std::back_inserter(slices));
   const std::size_t copies = dropCopies(slices, comparisons);
   const std::size_t replaced = dropReplaced(slices);
-  const Numbering numbering = numberingOf(slices);
+  const SeriesNumbers numbers(slices);
   MadeSeries made;
   bool isSetAside = !doubts.files.empty();
   for (auto& [name, geometry] : assessVolumes(std::move(slices), progress))
@@ -931,6 +998,8 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
     DicomSeries one = series;
     one.volume = name;
     one.geometry = std::move(geometry);
+    statements.apply(one);
+    const Numbering numbering(numbers, one.geometry.slices);
     if (copies > 0)
       one.geometry.notes.push_back(std::to_string(copies) +
                                    (copies == 1 ? " file is a copy" : " files are copies") +
@@ -968,7 +1037,8 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
       findings.push_back({FindingKind::MissingBetween, std::move(between), 0.0});
     else if (std::string gaps = unmeasuredBetween(one.geometry); !gaps.empty())
       one.geometry.notes.push_back(std::move(gaps));
-    if (std::string ends = missingEnds(one.geometry, numbering); name.empty() && !ends.empty())
+    if (std::string ends = missingEnds(one.geometry, numbers, numbering);
+        name.empty() && !ends.empty())
       findings.push_back({FindingKind::MissingEnd, std::move(ends), 0.0});
     const std::size_t lost = doubts.files.size();
     if (lost > 0 && isWholeWithout(lost, one.geometry, numbering))
@@ -987,7 +1057,7 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
       one.frameOfReferenceUid = one.geometry.slices.front().frameOfReferenceUid;
     made.volumes.push_back(std::move(one));
   }
-  compareEnds(made.volumes, numbering);
+  compareEnds(made.volumes, numbers);
   for (std::size_t n = 0; isSetAside && doubts.own == doubts.files.size() && n < doubts.own; ++n)
     made.notes.push_back(doubts.files[n].text +
                          " It was set aside: the slices beside it are whole without it.");
@@ -1366,12 +1436,20 @@ std::string selectorOf(const DicomSeries& series)
   return series.volume.empty() ? series.uid : series.uid + "#" + series.volume;
 }
 
+std::size_t imageCount(const DicomSeries& series)
+{
+  const SeriesGeometry& geometry = series.geometry;
+  if (!geometry.slices.empty() || series.kind != SeriesKind::Image || geometry.findings.empty())
+    return geometry.slices.size();
+  return hasFinding(geometry, {FindingKind::NotAnImage}) ? 0 : series.files;
+}
+
 std::vector<const DicomSeries*> otherImages(const ScanResult& result, const DicomSeries& series)
 {
   std::vector<const DicomSeries*> others;
   for (const DicomSeries& other : result.series)
     if (&other != &series && (other.modality == "CT" || other.modality == "MR") &&
-        other.geometry.slices.size() > kScout)
+        imageCount(other) > kScout)
       others.push_back(&other);
   return others;
 }

@@ -45,6 +45,7 @@ std::string listOf(const std::vector<std::string>& words)
 const std::vector<Trait>& traits()
 {
   static const std::vector<Trait> kTraits = {
+      {"modality", [](const SliceHeader& s) { return s.modality; }},
       {"stack", [](const SliceHeader& s) { return s.traits.stack; }},
       {"b", [](const SliceHeader& s) { return textOf(s.traits.bValue); }},
       {"gradient", [](const SliceHeader& s) { return s.traits.gradient; }},
@@ -328,6 +329,54 @@ Groups byColumn(const NamedSlices& from)
   return groups;
 }
 
+/// "tilt 20.0", "tilt -12.5": angles, degrees, of leans (SliceStack::lean), with their signs along
+/// the axis in which they differ.
+std::vector<std::string> tiltTexts(const std::vector<Eigen::Vector2d>& leans)
+{
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& lean : leans)
+    box.extend(lean);
+  Eigen::Index axis = 0;
+  box.sizes().maxCoeff(&axis);
+  std::vector<std::string> texts;
+  for (const Eigen::Vector2d& lean : leans)
+  {
+    const std::string degrees = decimals(std::atan(lean.norm()) * 180.0 / M_PI, 1);
+    texts.push_back((lean[axis] < 0.0 && degrees != "0.0" ? "tilt -" : "tilt ") + degrees);
+  }
+  return texts;
+}
+
+/// The lean of slices that follow each other along the axis of the patient nearest to their normal.
+Eigen::Vector2d leanOf(const SliceHeader& slice)
+{
+  const Eigen::Vector3d normal = slice.rowDirection->cross(*slice.columnDirection);
+  Eigen::Index axis = 0;
+  normal.cwiseAbs().maxCoeff(&axis);
+  return Eigen::Vector2d((*slice.rowDirection)[axis], (*slice.columnDirection)[axis]) /
+         normal[axis];
+}
+
+/// Tells stacks of one plane apart by their tilts against it, where these differ.
+void nameByTilt(Groups& groups)
+{
+  std::map<std::string, std::vector<NamedSlices*>> alike;
+  for (NamedSlices& group : groups)
+    if (!group.isSetAside)
+      alike[group.name].push_back(&group);
+  for (const auto& [name, stacks] : alike)
+  {
+    std::vector<Eigen::Vector2d> leans;
+    for (const NamedSlices* stack : stacks)
+      leans.push_back(leanOf(stack->slices.front()));
+    const std::vector<std::string> texts = tiltTexts(leans);
+    if (stacks.size() < 2 || std::set<std::string>(texts.begin(), texts.end()).size() < 2)
+      continue;
+    for (std::size_t n = 0; n < stacks.size(); ++n)
+      stacks[n]->name = joined(stacks[n]->name, texts[n]);
+  }
+}
+
 /// Stretches of one tilt each, of slices that are parallel and as a whole make no volume, even
 /// repaired.
 Groups byTilt(const NamedSlices& from)
@@ -340,24 +389,17 @@ Groups byTilt(const NamedSlices& from)
   if (changes.size() < 2 || assess(from.slices).verdict != Verdict::Refused)
     return {from};
   std::vector<Eigen::Vector2d> leans;
-  Eigen::AlignedBox2d box;
   Groups groups;
   for (std::size_t n = 0; n < changes.size(); ++n)
   {
     const std::size_t end = n + 1 < changes.size() ? changes[n + 1] : sorted.size();
     leans.push_back(stack.lean(changes[n], end));
-    box.extend(leans.back());
     groups.push_back({from.name, Headers(sorted.begin() + static_cast<std::ptrdiff_t>(changes[n]),
                                          sorted.begin() + static_cast<std::ptrdiff_t>(end))});
   }
-  Eigen::Index axis = 0; // in which they differ
-  box.sizes().maxCoeff(&axis);
+  const std::vector<std::string> texts = tiltTexts(leans);
   for (std::size_t n = 0; n < groups.size(); ++n)
-  {
-    const std::string degrees = decimals(std::atan(leans[n].norm()) * 180.0 / M_PI, 1);
-    const bool isNegative = leans[n][axis] < 0.0 && degrees != "0.0";
-    groups[n].name = joined(groups[n].name, (isNegative ? "tilt -" : "tilt ") + degrees);
-  }
+    groups[n].name = joined(groups[n].name, texts[n]);
   return groups;
 }
 
@@ -416,6 +458,7 @@ std::vector<NamedSlices> splitVolumes(const std::vector<SliceHeader>& slices)
                    [](const SliceHeader& a, const SliceHeader& b)
                    { return a.instanceNumber < b.instanceNumber; });
   Groups turned = byLikeness(all, sameTurn, planeOf);
+  nameByTilt(turned);
   Groups groups;
   for (const NamedSlices& part : turned)
     if (part.isSetAside)

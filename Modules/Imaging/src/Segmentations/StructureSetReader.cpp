@@ -1013,6 +1013,46 @@ double contourVolume(const StructureSet::Roi& roi, const core::GridGeometry& gri
   return placed ? volumeOf(*placed) * grid.voxelVolume() : 0.0;
 }
 
+namespace
+{
+
+/// From the nearest point of the image to a point of the patient, LPS mm; 0 within the image.
+Eigen::Vector3d beyond(const core::GridGeometry& grid, const Eigen::Vector3d& patient)
+{
+  const auto& dims = grid.dims();
+  const Eigen::Vector3d last = Eigen::Vector3d(dims[0], dims[1], dims[2]).array() - 0.5;
+  const Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
+  const Eigen::Vector3d nearest = voxel.cwiseMax(Eigen::Vector3d::Constant(-0.5)).cwiseMin(last);
+  return voxel == nearest ? Eigen::Vector3d::Zero().eval()
+                          : (patient - grid.patientFromVoxel(nearest)).eval();
+}
+
+/// Of a direction, LPS.
+const char* sideOf(const Eigen::Vector3d& direction)
+{
+  Eigen::Index axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  const bool isPositive = direction[axis] > 0.0;
+  return axis == 0   ? (isPositive ? "left of it" : "right of it")
+         : axis == 1 ? (isPositive ? "posterior to it" : "anterior to it")
+                     : (isPositive ? "superior to it" : "inferior to it");
+}
+
+/// The shortest way from the image to a contour (beyond).
+Eigen::Vector3d nearestContour(const StructureSet& set, const core::GridGeometry& grid)
+{
+  std::optional<Eigen::Vector3d> shortest;
+  for (const StructureSet::Roi& roi : set.rois)
+    for (const auto& contour : roi.contours)
+      for (const Eigen::Vector3d& point : contour)
+        if (const Eigen::Vector3d way = beyond(grid, point);
+            !shortest || way.squaredNorm() < shortest->squaredNorm())
+          shortest = way;
+  return shortest.value_or(Eigen::Vector3d::Zero());
+}
+
+} // namespace
+
 LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
                       const std::filesystem::path& path, const core::Progress& progress,
                       std::uint64_t memory)
@@ -1035,6 +1075,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
   std::vector<std::string> crossed;
   std::size_t others = 0;
   std::size_t drawn = 0;
+  bool hasVoxels = false;
   UniqueNames unique;
   for (const StructureSet::Roi& roi : set.rois)
     unique.reserve(roi.name);
@@ -1147,6 +1188,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
             [&](int i, int j, int k)
             {
               layers[layer]->at(i, j, k) = label;
+              hasVoxels = true;
               return true;
             });
       }
@@ -1169,6 +1211,14 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
     fail(Reason::Unsupported, path,
          "was drawn on planes oblique to this image's slices; resample the image or the contours "
          "where they were drawn, or export the structures as a segmentation");
+  if (const Eigen::Vector3d way =
+          hasVoxels ? Eigen::Vector3d(0.0, 0.0, 0.0) : nearestContour(set, grid);
+      way.norm() > 0.0)
+    fail(Reason::Unsupported, path,
+         "lies wholly outside this image, its nearest contour " + core::fixedText(way.norm(), 1) +
+             " mm " + sideOf(way) +
+             "; take the image on which it was drawn, or export it again with the contours of this "
+             "one");
   if (!oblique.empty())
     loaded.notes.push_back(list(oblique) + " left out: drawn on planes oblique to this image's "
                                            "slices");

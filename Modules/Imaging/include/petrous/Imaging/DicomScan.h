@@ -116,6 +116,10 @@ const DicomSeries& chooseSeries(const ScanResult& result, const std::filesystem:
 /// meant instead of `series`, of any verdict.
 std::vector<const DicomSeries*> otherImages(const ScanResult& result, const DicomSeries& series);
 
+/// The slices of a series; of an image that cannot be used, as nothing places it, its files; 0: it
+/// is no image.
+std::size_t imageCount(const DicomSeries& series);
+
 /// What chooseSeries selects this one by.
 std::string selectorOf(const DicomSeries& series);
 

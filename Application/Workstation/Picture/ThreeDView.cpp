@@ -407,6 +407,20 @@ void ThreeDView::followClick(const QMouseEvent& event)
   }
 }
 
+namespace
+{
+
+// Alt alone opens the menu bar when it is released. QMenuBar forgets that after a click or a motion
+// of the mouse, but not after a turn of its wheel.
+void altWasUsed()
+{
+  QObject nobody;
+  QMouseEvent moved(QEvent::MouseMove, QPointF(), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(&nobody, &moved);
+}
+
+} // namespace
+
 void ThreeDView::sendWheel(const QWheelEvent& event)
 {
   // With Shift, some systems report horizontal scrolling.
@@ -418,6 +432,7 @@ void ThreeDView::sendWheel(const QWheelEvent& event)
       (m_tool->GetDrillMode() || m_tool->GetProbeMode()))
   {
     const double degrees = kDegreesPerNotch * notches;
+    altWasUsed();
     return event.modifiers() & Qt::ShiftModifier ? emit handpieceTurned(0.0, degrees)
                                                  : emit handpieceTurned(degrees, 0.0);
   }

@@ -1,4 +1,5 @@
 #include <QComboBox>
+#include <QMenuBar>
 #include <QWheelEvent>
 
 #include "DrillController.h"
@@ -73,6 +74,27 @@ TEST_F(Handpiece, TurnsByAltAndTheWheel)
   }
   EXPECT_TRUE(shaftComesTo([](const auto& to) { return to.x() > 0.1 && to.y() > 0.1; }))
       << shaft().transpose();
+}
+
+TEST_F(Handpiece, AltWithTheWheelLeavesTheMenuBarAlone)
+{
+  takeBurr();
+  const QPointF at = view().rect().center();
+  const auto opens = [&](bool turns)
+  {
+    QTest::keyPress(&view(), Qt::Key_Alt, Qt::AltModifier);
+    QWheelEvent turn(at, view().mapToGlobal(at.toPoint()), {}, {0, 120}, Qt::NoButton,
+                     Qt::AltModifier, Qt::NoScrollPhase, false);
+    if (turns)
+      QApplication::sendEvent(&view(), &turn);
+    QTest::keyRelease(&view(), Qt::Key_Alt);
+    return window().menuBar()->activeAction() != nullptr;
+  };
+  EXPECT_FALSE(opens(true));
+  if (!opens(false))
+    GTEST_SKIP() << "the style's menu bar knows no Alt";
+  QTest::keyClick(window().menuBar(), Qt::Key_Escape);
+  EXPECT_FALSE(opens(true));
 }
 
 TEST_F(Handpiece, ChangesTheHandAndRemembersIt)

@@ -5277,6 +5277,14 @@ Verletzt: %1, %2</translation>
         <source>Bac&amp;kground</source>
         <translation>Hinte&amp;rgrund</translation>
     </message>
+    <message>
+        <source>Other colour</source>
+        <translation>Andere Farbe</translation>
+    </message>
+    <message>
+        <source>Any colour, of a dialog</source>
+        <translation>Eine beliebige Farbe, aus einem Dialog</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::PreviewBar</name>

@@ -154,7 +154,9 @@ void AttachmentsController::attachScreenshot()
   guarded(
       [&]
       {
-        QImage picture = m_view.grabFramebuffer().convertToFormat(QImage::Format_RGB32);
+        QImage picture;
+        m_view.display().withoutHandles([&] { picture = m_view.grabFramebuffer(); });
+        picture = picture.convertToFormat(QImage::Format_RGB32);
         drawStamp(picture, stampText(presenters::leavingStampOf(m_model.value())),
                   m_view.display().stereo() == rendering::StereoMode::SideBySide,
                   presenters::backdropOf(m_view.display().background()));

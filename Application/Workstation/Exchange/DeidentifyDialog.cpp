@@ -66,8 +66,7 @@ DeidentifyDialog::DeidentifyDialog(QWidget* parent)
   m_dates->addItem(tr("kept"), static_cast<int>(Dates::Keep));
   m_advice->setObjectName("deidentifyAdvice");
   m_advice->setTextFormat(Qt::PlainText);
-  wrapWords(*m_advice);
-  m_advice->setMinimumHeight(2 * m_advice->fontMetrics().lineSpacing());
+  wrapWords(*m_advice, 2);
 
   auto* form = new QFormLayout;
   form->addRow(tr("&From:"), m_input);

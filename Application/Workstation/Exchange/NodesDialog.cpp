@@ -119,8 +119,7 @@ void NodesDialog::layOut()
   m_key->setPlaceholder(tr("PEM, without a passphrase"));
   m_outcome->setObjectName("nodeOutcome");
   m_outcome->setTextFormat(Qt::PlainText);
-  wrapWords(*m_outcome);
-  m_outcome->setMinimumHeight(3 * m_outcome->fontMetrics().lineSpacing());
+  wrapWords(*m_outcome, 3);
   m_outcome->setAlignment(Qt::AlignTop);
   m_outcome->setTextInteractionFlags(Qt::TextSelectableByMouse);
 

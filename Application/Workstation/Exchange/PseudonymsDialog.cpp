@@ -97,8 +97,7 @@ PseudonymsDialog::PseudonymsDialog(std::chrono::milliseconds lockAfter, QWidget*
   m_found->setFilterKeyColumn(-1);
   m_outcome->setObjectName("pseudonymsOutcome");
   m_outcome->setTextFormat(Qt::PlainText);
-  wrapWords(*m_outcome);
-  m_outcome->setMinimumHeight(2 * m_outcome->fontMetrics().lineSpacing());
+  wrapWords(*m_outcome, 2);
   m_pages->addWidget(lockedPage());
   m_pages->addWidget(openPage());
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);

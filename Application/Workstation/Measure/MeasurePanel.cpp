@@ -129,9 +129,8 @@ MeasurePanel::MeasurePanel(presenters::WorkstationModel& model,
     grid->addWidget(tool, static_cast<int>(n) / kToolsInRow, static_cast<int>(n) % kToolsInRow);
   }
   m_hint->setObjectName("measureHint");
-  wrapWords(*m_hint);
+  wrapWords(*m_hint, 2);
   m_hint->setTextFormat(Qt::PlainText);
-  m_hint->setMinimumHeight(2 * fontMetrics().lineSpacing());
   m_hint->setAlignment(Qt::AlignLeft | Qt::AlignTop);
 
   m_list->setObjectName("measurements");

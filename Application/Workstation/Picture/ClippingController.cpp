@@ -33,8 +33,8 @@ constexpr double kClick = 3.0; // px, that a click may move
 constexpr double kStep = 0.5;  // mm, of a key
 constexpr double kArrow = 8.0; // mm, of a plane's arrow, at whose tip it is dragged
 
-// The edges of a box, and a handle at the middle of each face.
-std::vector<DrawnMeasure> drawn(const HandledBox& box)
+// The edges of a box, and a handle, if it has any, at the middle of each face.
+std::vector<DrawnMeasure> drawn(const HandledBox& box, bool hasHandles)
 {
   using Box = Eigen::AlignedBox3d;
   const auto corner = [&box](int n) -> Eigen::Vector3d
@@ -54,8 +54,9 @@ std::vector<DrawnMeasure> drawn(const HandledBox& box)
     for (const int along : {1, 2, 4})
       if (!(from & along))
         add({corner(from), corner(from | along)}, {});
-  for (const FaceHandle& handle : presenters::faceHandles(box))
-    add({handle.at}, {0});
+  if (hasHandles)
+    for (const FaceHandle& handle : presenters::faceHandles(box))
+      add({handle.at}, {0});
   return parts;
 }
 
@@ -117,6 +118,11 @@ bool ClippingController::toolHasView() const
   return m_view.tool().GetDrillMode() || m_view.tool().GetProbeMode();
 }
 
+bool ClippingController::hasHandles() const
+{
+  return !toolHasView() && !(viewTaken && viewTaken());
+}
+
 bool ClippingController::showsBox() const
 {
   return m_model.hasCase() && m_actions.cropBox->isChecked() && !toolHasView();
@@ -139,8 +145,9 @@ void ClippingController::refresh()
   const HandledBox box = frame.box(m_model.value().view.clipping.crop);
   const bool isShown = showsBox();
   m_slices.setBox(isShown ? std::optional(SliceBox{box}) : std::nullopt);
-  std::vector<DrawnMeasure> parts = isShown ? drawn(box) : std::vector<DrawnMeasure>();
-  if (!toolHasView())
+  std::vector<DrawnMeasure> parts =
+      isShown ? drawn(box, hasHandles()) : std::vector<DrawnMeasure>();
+  if (hasHandles())
     for (const Clipping::Plane& plane : m_model.value().view.clipping.planes)
     {
       const Eigen::Vector3d center = presenters::planeCenter(plane, m_model.value().ct.geometry);
@@ -291,7 +298,7 @@ void ClippingController::tellSize()
 std::vector<ClippingController::Handle> ClippingController::handles() const
 {
   std::vector<Handle> all;
-  if (!m_model.hasCase() || toolHasView())
+  if (!m_model.hasCase() || !hasHandles())
     return all;
   const core::GridGeometry& grid = m_model.value().ct.geometry;
   const Clipping before = m_model.value().view.clipping;
@@ -329,13 +336,13 @@ std::vector<ClippingController::Handle> ClippingController::handles() const
   return all;
 }
 
-bool ClippingController::takeHandle(const QPointF& position)
+std::optional<ClippingController::Handle>
+ClippingController::handleAt(const QPointF& position) const
 {
-  const std::vector<Handle> all = handles();
   const double ratio = m_view.devicePixelRatioF();
-  const Handle* found = nullptr;
+  std::optional<Handle> found;
   double best = kReach;
-  for (const Handle& handle : all)
+  for (const Handle& handle : handles())
     if (const auto at = m_view.display().pixelOf(handle.at))
     {
       const double away =
@@ -343,8 +350,14 @@ bool ClippingController::takeHandle(const QPointF& position)
       if (away >= best)
         continue;
       best = away;
-      found = &handle;
+      found = handle;
     }
+  return found;
+}
+
+bool ClippingController::takeHandle(const QPointF& position)
+{
+  const std::optional<Handle> found = handleAt(position);
   if (!found)
     return false;
   const auto grabbed =
@@ -386,6 +399,9 @@ bool ClippingController::handleMouse(const QMouseEvent& event)
   {
   case QEvent::MouseButtonPress:
     return isLeft && event.modifiers() == Qt::NoModifier && takeHandle(event.localPos());
+  case QEvent::MouseButtonDblClick: // the second press of who drags it again, and enlarges nothing
+    return isLeft && event.modifiers() == Qt::NoModifier &&
+           (takeHandle(event.localPos()) || handleAt(event.localPos()));
   case QEvent::MouseMove:
     if (!m_line)
       return false;

@@ -35,7 +35,11 @@ public:
   ~ClippingController() override;
 
   void caseChanged(); ///< or closed
-  void refresh();     ///< the clipping may have changed
+  void refresh();     ///< the clipping, or whether the view is taken, may have changed
+
+  /// Whether a tool other than the drill's has the clicks in the 3D view, which then has no
+  /// handles.
+  std::function<bool()> viewTaken;
 
 signals:
   void statusMessage(const QString& line);
@@ -66,8 +70,10 @@ private:
     std::function<Clipping(double millimetres)> dragged;
   };
   std::vector<Handle> handles() const;
+  std::optional<Handle> handleAt(const QPointF& position) const;
   bool takeHandle(const QPointF& position);
   bool toolHasView() const;
+  bool hasHandles() const; ///< in the 3D view
   bool showsBox() const;
 
   presenters::WorkstationModel& m_model;

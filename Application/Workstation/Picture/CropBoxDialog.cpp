@@ -38,6 +38,8 @@ CropBoxDialog::CropBoxDialog(QWidget* parent)
 void CropBoxDialog::show(const presenters::CropFrame& frame, const Eigen::AlignedBox3d& box)
 {
   m_numbers->setBounds(frame.bounds());
+  // Faces lie at voxel centres: less than a voxel may be no step.
+  m_numbers->setSteps(frame.box(core::IndexBox{{0, 0, 0}, {2, 2, 2}}).box.sizes());
   m_numbers->setBox(box);
   m_size->setText(boxSizeText(box.sizes()));
   QDialog::show();

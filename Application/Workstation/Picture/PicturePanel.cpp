@@ -9,7 +9,9 @@
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPushButton>
 #include <QSlider>
+#include <QStandardItemModel>
 
 #include "WindowTexts.h"
 #include "petrous/Presenters/Background.h"
@@ -139,7 +141,9 @@ void PicturePanel::addBackground(QFormLayout* form)
                                          "are"));
   for (const QString& name : {tr("Black"), tr("Dark grey"), tr("Light grey"), tr("White")})
     box->addItem(name);
-  box->addItem(tr("Other colour…"));
+  box->addItem(tr("Other colour"));
+  // Shown where it is one, and chosen by the button: a step by key must open no dialog.
+  qobject_cast<QStandardItemModel*>(box->model())->item(box->count() - 1)->setEnabled(false);
   const auto row = [this]
   {
     const auto found =
@@ -152,15 +156,22 @@ void PicturePanel::addBackground(QFormLayout* form)
   {
     if (const auto index = static_cast<std::size_t>(chosen);
         index < presenters::kBackgrounds.size())
-      return m_settings.setBackground(presenters::kBackgrounds[index].color);
-    const rendering::BackgroundColor& now = m_settings.background();
-    const QColor color =
-        QColorDialog::getColor(QColor::fromRgbF(now[0], now[1], now[2]), this,
-                               tr("Background of the 3D view"), QColorDialog::DontUseNativeDialog);
-    if (color.isValid())
-      m_settings.setBackground({color.redF(), color.greenF(), color.blueF()});
+      m_settings.setBackground(presenters::kBackgrounds[index].color);
   };
   form->addRow(tr("Bac&kground"), m_bound.add(box, row, set));
+  auto* other = button(tr("Other colour…"), "otherBackground", tr("Any colour, of a dialog"));
+  connect(other, &QPushButton::clicked, this, &PicturePanel::askBackground);
+  form->addRow(QString(), other);
+}
+
+void PicturePanel::askBackground()
+{
+  const rendering::BackgroundColor& now = m_settings.background();
+  const QColor color =
+      QColorDialog::getColor(QColor::fromRgbF(now[0], now[1], now[2]), this,
+                             tr("Background of the 3D view"), QColorDialog::DontUseNativeDialog);
+  if (color.isValid())
+    m_settings.setBackground({color.redF(), color.greenF(), color.blueF()});
 }
 
 void PicturePanel::addStereo(QFormLayout* form, bool quadBuffer)

@@ -31,6 +31,7 @@ private:
                 const Bindings::Get<bool>& get, const Bindings::Set<bool>& set);
   void addPercent(QFormLayout* form, const QString& name, QSlider* slider);
   void addBackground(QFormLayout* form);
+  void askBackground();
   void addStereo(QFormLayout* form, bool quadBuffer);
   void setBoneOpacity(double opacity);
 

@@ -208,6 +208,17 @@ void SceneDisplay::setHandles(const std::vector<DrawnMeasure>& handles)
     redraw(m_moving);
 }
 
+void SceneDisplay::withoutHandles(const std::function<void()>& grab)
+{
+  if (!m_handles || m_handles->measures().empty())
+    return grab();
+  const std::vector<DrawnMeasure> handles = m_handles->measures();
+  m_handles->set({});
+  drawNow();
+  grab();
+  setHandles(handles);
+}
+
 void SceneDisplay::setGhost(const std::optional<rendering::ToolPose>& ghost)
 {
   if (m_follower)

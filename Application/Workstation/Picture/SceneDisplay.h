@@ -78,6 +78,8 @@ public:
   void setMeasures(const std::vector<DrawnMeasure>& measures);
   /// Outlines and handles over the scene that are dragged; not in the follower.
   void setHandles(const std::vector<DrawnMeasure>& handles);
+  /// Calls `grab`, which must not throw, while the picture is drawn without them.
+  void withoutHandles(const std::function<void()>& grab);
   /// Pixels from the upper left of the renderer's viewport, as drawn last; none behind the camera.
   std::optional<std::array<double, 2>> pixelOf(const Eigen::Vector3d& patient) const;
   /// A recorded tool beside the one in use; none: no ghost.

@@ -191,7 +191,7 @@ ReportDialog::ReportDialog(const scene::Case& value, const rendering::Background
     label->setObjectName("reportWithout");
     label->setStyleSheet(kWarningStyle);
     label->setTextFormat(Qt::PlainText);
-    label->setWordWrap(true);
+    wrapWords(*label);
     label->setToolTip(tr("The report says so, too"));
     m_form->addRow(tr("Without:"), label);
   }

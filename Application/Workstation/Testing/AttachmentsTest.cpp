@@ -113,3 +113,32 @@ TEST_F(AttachmentsPanels, TakeTheWindowsPictureAndTheLastRecordingWithOneClick)
   EXPECT_GT(differentPixels(stamped, shown, 60), 50) << "the stamp can be read";
   EXPECT_EQ(png.find("tEXt"), std::string::npos);
 }
+
+TEST_F(AttachmentsPanels, AScreenshotShowsNoHandlesOfTheCropBox)
+{
+  scene::Case ball = ballCase("ball");
+  ball.view.clipping.crop = core::IndexBox{{16, 16, 16}, {48, 48, 48}};
+  library().save(ball);
+  openWindow("ball");
+  const auto screenshot = [this](std::size_t count)
+  {
+    buttonOf("attachScreenshot").click();
+    QImage kept;
+    if (!has(count))
+      return kept;
+    const std::string png = extracted(value().attachments[count - 1].name);
+    kept.loadFromData(reinterpret_cast<const uchar*>(png.data()), static_cast<int>(png.size()),
+                      "PNG");
+    return kept.convertToFormat(QImage::Format_RGB32);
+  };
+  const QImage plain = picture();
+  const QImage before = screenshot(1);
+  ASSERT_EQ(before.size(), plain.size());
+  action("Crop box")->trigger();
+  const QImage handled = picture();
+  ASSERT_GT(differentPixels(handled, plain, 30), 100) << "they are in the view";
+  const QImage kept = screenshot(2);
+  ASSERT_EQ(kept.size(), before.size());
+  EXPECT_LT(differentPixels(kept, before, 30), 20);
+  EXPECT_GT(differentPixels(picture(), plain, 30), 100) << "where they stay";
+}

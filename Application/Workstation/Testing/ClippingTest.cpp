@@ -1,13 +1,18 @@
 // The crop box and the clipping plane of the open case, moved by mouse, numbers and keys.
 #include "GuiTest.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include <QApplication>
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QLineF>
 #include <QMouseEvent>
 #include <QPushButton>
+#include <QSignalSpy>
 
+#include "MeasureController.h"
 #include "SceneDisplay.h"
 #include "SliceView.h"
 #include "ThreeDView.h"
@@ -203,6 +208,160 @@ TEST_F(ClippingBox, APlaneIsMovedByKeysAndUndone)
   redo();
   ASSERT_EQ(clipping().planes.size(), 1U);
   EXPECT_EQ(clipping().planes.front().point, plane.point);
+}
+
+TEST_F(ClippingBox, AKeyThatIsHeldDownMovesThePlaneInOneStepOfUndo)
+{
+  saveBall("ball");
+  openWindow("ball");
+  action("Cut away to the crosshair")->trigger();
+  ASSERT_EQ(clipping().planes.size(), 1U);
+  const scene::ViewState::Clipping::Plane plane = clipping().planes.front();
+  const auto edits = [this]() -> presenters::EditHistory&
+  { return const_cast<presenters::WorkstationModel&>(window().model()).edits(); };
+  {
+    const presenters::EditHistory::Hold hold(edits()); // as fast as the keyboard repeats
+    for (int n = 0; n < 4; ++n)
+      action("Cut deeper")->trigger();
+  }
+  EXPECT_LT((clipping().planes.front().point - plane.point - 2.0 * plane.normal).norm(), 1e-9);
+  undo();
+  ASSERT_EQ(clipping().planes.size(), 1U);
+  EXPECT_EQ(clipping().planes.front().point, plane.point);
+  redo();
+  EXPECT_LT((clipping().planes.front().point - plane.point - 2.0 * plane.normal).norm(), 1e-9);
+  undo();
+  undo();
+  EXPECT_TRUE(clipping().empty());
+}
+
+TEST_F(ClippingBox, KeysOfThePlaneAreThoseOfTheViewsOnly)
+{
+  saveBall("ball");
+  openWindow("ball");
+  ASSERT_TRUE(settled());
+  action("Cut away to the crosshair")->trigger();
+  ASSERT_EQ(clipping().planes.size(), 1U);
+  const scene::ViewState::Clipping::Plane plane = clipping().planes.front();
+  QApplication::setActiveWindow(&window());
+  for (const char* name : {"structures", "axialView"})
+  {
+    auto* widget = window().findChild<QWidget*>(name);
+    ASSERT_TRUE(widget) << name;
+    for (QWidget* one = widget; one; one = one->parentWidget())
+      if (auto* dock = qobject_cast<QDockWidget*>(one))
+      {
+        dock->show();
+        dock->raise();
+      }
+    ASSERT_TRUE(waitFor([widget] { return widget->isVisible(); })) << name;
+    widget->setFocus();
+    ASSERT_TRUE(widget->hasFocus()) << name;
+    const Vector3d before = clipping().planes.front().point;
+    QTest::keyClick(widget, Qt::Key_PageDown, Qt::ShiftModifier);
+    const bool isView = widget == &axial();
+    EXPECT_EQ(clipping().planes.front().point != before, isView) << name;
+    QTest::keyClick(widget, Qt::Key_PageUp, Qt::ShiftModifier);
+    EXPECT_LT((clipping().planes.front().point - plane.point).norm(), 1e-9) << name;
+  }
+}
+
+TEST_F(ClippingBox, HandlesGiveWayToAMeasuringTool)
+{
+  saveBall("ball");
+  openWindow("ball");
+  ASSERT_TRUE(waitFor([this] { return window().model().ready(); }));
+  action("Cut away to the crosshair")->trigger();
+  ASSERT_EQ(clipping().planes.size(), 1U);
+  const scene::ViewState::Clipping before = clipping();
+  action("Anterior")->trigger();
+  picture();
+  const Vector3d normal = before.planes.front().normal;
+  const Vector3d tip = before.planes.front().point + 8.0 * normal; // the ball is behind it
+  const QPoint from = inView(tip);
+  const QPoint to = inView(tip + 3.0 * normal);
+  const auto drag = [&]
+  {
+    QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, from);
+    moveTo(view(), (from + to) / 2);
+    moveTo(view(), to);
+    QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, to);
+  };
+  action("Distance")->trigger();
+  auto* measure = window().findChild<MeasureController*>();
+  ASSERT_TRUE(measure && measure->active());
+  QTest::mouseMove(&view(), from);
+  QTest::mouseClick(&view(), Qt::LeftButton, Qt::NoModifier, from);
+  EXPECT_TRUE(measure->hasPoints()) << "the click is the tool's";
+  drag();
+  EXPECT_EQ(clipping(), before);
+
+  measure->leaveTool();
+  action("Anterior")->trigger();
+  picture();
+  drag();
+  EXPECT_FALSE(clipping() == before) << "they come back";
+}
+
+TEST_F(ClippingBox, ADoubleClickOnAHandleEnlargesNothing)
+{
+  saveBall("ball");
+  openWindow("ball");
+  action("Cut away to the crosshair")->trigger();
+  ASSERT_EQ(clipping().planes.size(), 1U);
+  const scene::ViewState::Clipping before = clipping();
+  action("Anterior")->trigger();
+  picture();
+  const Vector3d normal = before.planes.front().normal;
+  const QPoint tip = inView(before.planes.front().point + 8.0 * normal);
+  QSignalSpy enlarged(&view(), &ThreeDView::enlargeAsked);
+  QTest::mouseDClick(&view(), Qt::LeftButton, Qt::NoModifier, tip);
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, tip);
+  EXPECT_EQ(enlarged.count(), 0);
+  EXPECT_EQ(clipping(), before);
+  // Elsewhere it does.
+  QTest::mouseDClick(&view(), Qt::LeftButton, Qt::NoModifier, tip + QPoint(0, 40));
+  EXPECT_EQ(enlarged.count(), 1);
+}
+
+TEST_F(ClippingBox, NumbersStepByAVoxelWhereThatIsMoreThanAMillimetre)
+{
+  scene::Case thick = ballCase("thick");
+  thick.labels.clear();
+  // Every fifth slice: 13 of 2.5 mm.
+  const core::GridGeometry& fine = thick.ct.geometry;
+  const core::GridGeometry coarse({64, 64, 13}, {0.5, 0.5, 2.5}, fine.origin());
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(coarse);
+  for (int k = 0; k < 13; ++k)
+    for (int j = 0; j < 64; ++j)
+      for (int i = 0; i < 64; ++i)
+      {
+        const Vector3d at = coarse.patientFromVoxel(Vector3d(i, j, k));
+        const double depth = kBallRadius - (at - kBallCenter).norm(); // mm
+        ct->at(i, j, k) =
+            static_cast<std::int16_t>(std::clamp(300.0 + 1000.0 * depth, -1000.0, 1600.0));
+      }
+  thick.ct.geometry = coarse;
+  thick.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+  library().save(thick);
+  openWindow("thick");
+  action("Crop box in numbers…")->trigger();
+  auto* dialog = window().findChild<QDialog*>("cropBoxDialog");
+  ASSERT_TRUE(dialog);
+  auto* z0 = dialog->findChild<QDoubleSpinBox*>("z0");
+  ASSERT_TRUE(z0);
+  z0->stepUp();
+  EXPECT_EQ(clipping().crop, (core::IndexBox{{0, 0, 1}, {64, 64, 13}}));
+  z0->stepUp();
+  EXPECT_EQ(clipping().crop, (core::IndexBox{{0, 0, 2}, {64, 64, 13}}));
+  z0->stepDown();
+  EXPECT_EQ(clipping().crop, (core::IndexBox{{0, 0, 1}, {64, 64, 13}}));
+  auto* x0 = dialog->findChild<QDoubleSpinBox*>("x0");
+  ASSERT_TRUE(x0);
+  x0->stepUp(); // two voxels of 0.5 mm
+  EXPECT_EQ(clipping().crop, (core::IndexBox{{2, 0, 1}, {64, 64, 13}}));
+  dialog->close();
 }
 
 TEST_F(ClippingBox, APlaneIsDraggedByItsArrow)

@@ -124,7 +124,8 @@ TEST_F(ShareWindow, TheReportIsSaidToLieWhereItIsAlsoWhereNothingShowsIt)
 TEST_F(ShareWindow, TheReportsDialogSaysWhichStructureIsLeftOutAndWhy)
 {
   openBall();
-  const auto said = [this]
+  bool isWhole = false;
+  const auto said = [this, &isWhole]
   {
     QString text;
     onDialog(
@@ -132,8 +133,12 @@ TEST_F(ShareWindow, TheReportsDialogSaysWhichStructureIsLeftOutAndWhy)
         {
           if (dialog.objectName() != "planReport")
             return false;
-          if (const auto* label = dialog.findChild<QLabel*>("reportWithout"))
+          if (auto* label = dialog.findChild<QLabel*>("reportWithout"))
+          {
+            label->repaint();
             text = label->text();
+            isWhole = label->minimumHeight() >= label->heightForWidth(label->width());
+          }
           dialog.reject();
           return true;
         });
@@ -159,6 +164,7 @@ TEST_F(ShareWindow, TheReportsDialogSaysWhichStructureIsLeftOutAndWhy)
   EXPECT_TRUE(text.contains("nerve")) << text.toStdString();
   EXPECT_TRUE(text.contains("nowhere on the CT")) << text.toStdString();
   EXPECT_TRUE(text.contains(QString::fromStdString(why))) << text.toStdString();
+  EXPECT_TRUE(isWhole) << "no line is cut off";
 }
 
 TEST_F(ShareWindow, DrawsThePictureOfTheViewForPrint)

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <QAbstractButton>
+#include <QApplication>
+#include <QColorDialog>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -303,6 +305,53 @@ TEST_F(ViewStates, TheBackgroundIsTheUsersAndCanBeUndone)
   openWindow("plain");
   EXPECT_EQ(widget<QComboBox>("background").currentText(), "White");
   EXPECT_EQ(view().display().background(), white);
+}
+
+TEST_F(ViewStates, OneColourAfterAnotherIsChosenForTheBackgroundAndKeysOpenNoDialog)
+{
+  saveBall("ball");
+  openWindow("ball");
+  auto& box = widget<QComboBox>("background");
+  const auto choose = [this](const QColor& color)
+  {
+    bool isAsked = false;
+    onDialog(
+        [&isAsked, color](QDialog& dialog)
+        {
+          auto* colors = qobject_cast<QColorDialog*>(&dialog);
+          if (!colors)
+            return false;
+          isAsked = true;
+          colors->setCurrentColor(color);
+          dialog.accept();
+          return true;
+        });
+    widget<QAbstractButton>("otherBackground").click();
+    return isAsked;
+  };
+  const auto isShown = [this](const QColor& color)
+  {
+    const rendering::BackgroundColor& shown = view().display().background();
+    return QColor::fromRgbF(shown[0], shown[1], shown[2]).rgb() == color.rgb();
+  };
+  const QColor green(0, 96, 32);
+  const QColor blue(16, 32, 128);
+  ASSERT_TRUE(choose(green));
+  EXPECT_TRUE(isShown(green));
+  EXPECT_EQ(box.currentText(), "Other colour");
+  ASSERT_TRUE(choose(blue)) << "a second one";
+  EXPECT_TRUE(isShown(blue));
+  EXPECT_EQ(box.currentText(), "Other colour");
+
+  // Past the last name no key goes; a dialog would not come back from here.
+  QTest::keyClick(&box, Qt::Key_Up);
+  EXPECT_EQ(box.currentText(), "White");
+  EXPECT_TRUE(isShown(Qt::white));
+  QTest::keyClick(&box, Qt::Key_Down);
+  QTest::keyClick(&box, Qt::Key_End);
+  EXPECT_EQ(box.currentText(), "White");
+  EXPECT_TRUE(isShown(Qt::white));
+  EXPECT_FALSE(QApplication::activeModalWidget());
 }
 
 // In a narrow view it lies below the letter at the top and the case's name.

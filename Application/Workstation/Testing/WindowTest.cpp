@@ -315,6 +315,53 @@ TEST_F(Window, ALabelOfSeveralLinesIsAsHighAsTheyNeed)
   EXPECT_TRUE(waitFor([&] { return label->minimumHeight() <= line; })) << "it gives the room back";
 }
 
+TEST_F(Window, ALabelThatMayBeEmptyKeepsRoomForSoManyLines)
+{
+  QWidget panel;
+  QVBoxLayout layout(&panel);
+  auto* label = new QLabel;
+  wrapWords(*label, 3);
+  auto* below = new QWidget;
+  layout.addWidget(label);
+  layout.addWidget(below, 1);
+  panel.resize(400, 300);
+  panel.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&panel));
+  const int three = 3 * label->fontMetrics().lineSpacing();
+  label->setText("short");
+  label->repaint();
+  EXPECT_EQ(label->minimumHeight(), three);
+  label->clear();
+  label->repaint();
+  EXPECT_EQ(label->minimumHeight(), three);
+  const QPoint place = below->pos();
+  label->setText("two\nlines");
+  label->repaint();
+  EXPECT_EQ(label->minimumHeight(), three);
+  EXPECT_EQ(below->pos(), place);
+  label->setText(QString("a warning of many words ").repeated(20));
+  EXPECT_TRUE(waitFor([&] { return label->minimumHeight() > three; }));
+  EXPECT_EQ(label->minimumHeight(), label->heightForWidth(label->width()));
+  label->setText("short");
+  EXPECT_TRUE(waitFor([&] { return label->minimumHeight() == three; }));
+}
+
+// What they say appears in room that is there, and moves nothing.
+TEST_F(Window, TheHintOfMeasuringHasRoomForTwoLines)
+{
+  openWindow();
+  auto* hint = window().findChild<QLabel*>("measureHint");
+  ASSERT_TRUE(hint);
+  auto* dock = window().findChild<QDockWidget*>("measureDock");
+  ASSERT_TRUE(dock);
+  dock->show();
+  dock->raise();
+  ASSERT_TRUE(waitFor([hint] { return hint->isVisible(); }));
+  hint->setText("short");
+  hint->repaint();
+  EXPECT_TRUE(waitFor([hint] { return hint->height() >= 2 * hint->fontMetrics().lineSpacing(); }));
+}
+
 TEST_F(Window, ABannerThatAKeyDismissesLeavesTheKeysToAView)
 {
   saveBall("ball");

@@ -1,5 +1,7 @@
 #include "BoxNumbers.h"
 
+#include <algorithm>
+
 #include <QDoubleSpinBox>
 #include <QGridLayout>
 #include <QLabel>
@@ -9,6 +11,11 @@
 
 namespace petrous::workstation
 {
+
+namespace
+{
+constexpr double kUsualStep = 1.0; // mm
+}
 
 BoxNumbers::BoxNumbers(QWidget* parent)
   : QWidget(parent)
@@ -25,7 +32,7 @@ BoxNumbers::BoxNumbers(QWidget* parent)
     {
       const QByteArray name = QString("%1%2").arg("xyz"[axis]).arg(end).toLatin1();
       QDoubleSpinBox* number =
-          numberBox(name.constData(), tips[end], {0.0, 99.9, tr(" mm"), 1, 1.0});
+          numberBox(name.constData(), tips[end], {0.0, 99.9, tr(" mm"), 1, kUsualStep});
       number->setEnabled(false);
       m_numbers[static_cast<std::size_t>(2 * axis + end)] = number;
       grid->addWidget(number, axis, 1 + end);
@@ -52,6 +59,12 @@ void BoxNumbers::setBounds(const core::PatientBox& bounds)
     m_numbers[n]->setRange(bounds.min()[axis] - 0.05, bounds.max()[axis] + 0.05);
     m_numbers[n]->setEnabled(true);
   }
+}
+
+void BoxNumbers::setSteps(const Eigen::Vector3d& least)
+{
+  for (std::size_t n = 0; n < m_numbers.size(); ++n)
+    m_numbers[n]->setSingleStep(std::max(kUsualStep, least[static_cast<Eigen::Index>(n / 2)]));
 }
 
 void BoxNumbers::setBox(const core::PatientBox& box)

@@ -20,6 +20,8 @@ public:
   explicit BoxNumbers(QWidget* parent = nullptr);
 
   void setBounds(const core::PatientBox& bounds);
+  /// Of a key or the wheel along each axis: 1 mm, or `least` mm where that is more.
+  void setSteps(const Eigen::Vector3d& least);
   void setBox(const core::PatientBox& box); ///< emits nothing
   const core::PatientBox& box() const noexcept { return m_box; }
 

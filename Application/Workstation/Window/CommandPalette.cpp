@@ -53,8 +53,7 @@ CommandPalette::CommandPalette(std::vector<Command> commands, QWidget* parent)
   m_list->setAllColumnsShowFocus(true);
   m_tip->setObjectName("dim");
   m_tip->setTextFormat(Qt::PlainText);
-  wrapWords(*m_tip);
-  m_tip->setMinimumHeight(2 * m_tip->fontMetrics().lineSpacing());
+  wrapWords(*m_tip, 2);
   connect(m_search, &QLineEdit::textChanged, this, &CommandPalette::search);
   connect(m_list, &QTreeWidget::currentItemChanged, this, &CommandPalette::tell);
   connect(m_list, &QTreeWidget::itemActivated, this, &CommandPalette::run);

@@ -956,6 +956,7 @@ void MainWindow::connectViews()
   connect(m_actions->layouts, &QActionGroup::triggered, m_area,
           [this](QAction* action)
           { m_area->setLayout(static_cast<presenters::ViewLayout>(action->data().toInt())); });
+  m_area->addActions({m_actions->clipDeeper, m_actions->clipLess});
   connect(m_actions->enlargeView, &QAction::triggered, m_area,
           [this] { m_area->toggleEnlarged(m_area->focusedPane()); });
   connect(m_view, &ThreeDView::enlargeAsked, m_area,
@@ -1022,6 +1023,9 @@ void MainWindow::connectMeasure()
           });
   m_measure->viewTaken = [this]
   { return m_view->tool().GetDrillMode() || m_view->tool().GetProbeMode(); };
+  m_clipping->viewTaken = [this] { return m_measure->active() || m_segment->active(); };
+  connect(m_measure, &MeasureController::stateChanged, m_clipping, &ClippingController::refresh);
+  connect(m_segment, &SegmentController::stateChanged, m_clipping, &ClippingController::refresh);
   connect(m_measure, &MeasureController::stateChanged, this, &MainWindow::showUndo);
   connect(m_measure, &MeasureController::changed, m_saver, &CaseSaver::save);
   connect(m_clipping, &ClippingController::statusMessage, this,

@@ -106,11 +106,14 @@ public:
 class WholeLines : public QObject
 {
 public:
-  explicit WholeLines(QLabel& label)
+  WholeLines(QLabel& label, int least)
     : QObject(&label)
     , m_label(label)
+    , m_least(least)
   {
     label.installEventFilter(this);
+    if (least > 0)
+      label.setMinimumHeight(floor()); // its width is not known yet
   }
 
   bool eventFilter(QObject* watched, QEvent* event) override
@@ -119,7 +122,8 @@ public:
                          event->type() == QEvent::Paint;
     if (isShown && watched == &m_label && m_label.isVisible())
     {
-      const int needed = m_label.text().isEmpty() ? 0 : m_label.heightForWidth(m_label.width());
+      const int lines = m_label.text().isEmpty() ? 0 : m_label.heightForWidth(m_label.width());
+      const int needed = std::max(lines, floor());
       if (m_label.minimumHeight() != needed)
         m_label.setMinimumHeight(needed);
     }
@@ -127,7 +131,10 @@ public:
   }
 
 private:
+  int floor() const { return m_least * m_label.fontMetrics().lineSpacing(); }
+
   QLabel& m_label;
+  int m_least; // lines
 };
 
 } // namespace
@@ -170,10 +177,10 @@ void resizeOnScreen(QWidget& window, const QSize& wanted)
   window.resize(wanted.boundedTo(roomFor(parent ? *parent : window) - QSize(0, kTitleBar)));
 }
 
-void wrapWords(QLabel& label)
+void wrapWords(QLabel& label, int least)
 {
   label.setWordWrap(true);
-  new WholeLines(label);
+  new WholeLines(label, least);
 }
 
 } // namespace petrous::workstation

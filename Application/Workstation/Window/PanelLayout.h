@@ -27,7 +27,8 @@ QSize leastOfScreen(const QWidget& widget, const QSize& wanted);
 void resizeOnScreen(QWidget& window, const QSize& wanted);
 
 /// Breaks the label's lines between words, and keeps it as high as its lines need at its width: the
-/// layouts of docks and dialogs know no height for a width, and would cut the last line.
-void wrapWords(QLabel& label);
+/// layouts of docks and dialogs know no height for a width, and would cut the last line. It is
+/// never lower than `least` lines, so that what is below it stays where it is.
+void wrapWords(QLabel& label, int least = 0);
 
 } // namespace petrous::workstation

@@ -170,6 +170,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                     tr("Moves the plane that cuts the picture by 0.5 mm"));
   clipLess = make(m_view, tr("Cut l&ess deep"), Qt::SHIFT + Qt::Key_PageUp,
                   tr("Moves the plane that cuts the picture back by 0.5 mm"));
+  for (QAction* action : {clipDeeper, clipLess}) // of the views: lists and numbers have these keys
+    action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
   cropBox = make(m_view, tr("Crop bo&x"), Qt::SHIFT + Qt::Key_V,
                  tr("A box whose edges are dragged in the slices, and its faces in the 3D view: "
                     "only what is in it is shown, until a tool is taken up. A double click on an "

@@ -50,6 +50,8 @@ TEST(NumberText, WritesAPointWhereTheLocaleHasAComma)
   EXPECT_EQ(plainText(-0.125), "-0.125");
   EXPECT_EQ(plainText(2.5000001, 4), "2.5");
   EXPECT_EQ(plainText(0.0), "0");
+  EXPECT_EQ(plainText(-1e30), "-1e+30");
+  EXPECT_EQ(plainText(1e-300, 3), "1e-300");
   EXPECT_EQ(exactText(0.1), "0.1");
   EXPECT_EQ(exactText(0.1F), "0.1");
   EXPECT_EQ(fixedText(std::nan(""), 2), "nan");

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace petrous::core
 {
@@ -58,6 +59,10 @@ std::string generalText(double value, int digits)
 
 std::string plainText(double value, int digits)
 {
+  constexpr double kMost = 1e15, kLeast = 1e-9;
+  const double size = std::abs(value);
+  if (size >= kMost || (size > 0.0 && size < kLeast))
+    return generalText(value, digits);
   const std::string rounded = written(value, std::chars_format::scientific, digits - 1);
   return written(parseDouble(rounded).value_or(value), std::chars_format::fixed);
 }

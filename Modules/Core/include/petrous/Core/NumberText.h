@@ -18,7 +18,8 @@ namespace petrous::core
 std::string fixedText(double value, int decimals);
 /// `digits` significant digits, as "%.*g" in the C locale; 6 is the default of a stream.
 std::string generalText(double value, int digits = 6);
-/// The same digits without an exponent, for texts that people read: "17350", "0.0000000149".
+/// The same digits without an exponent, for texts that people read: "17350", "0.0000000149"; with
+/// one from 1e15 on and below 1e-9, which only damaged files have.
 std::string plainText(double value, int digits = 6);
 /// The shortest representation that round-trips.
 std::string exactText(double value);

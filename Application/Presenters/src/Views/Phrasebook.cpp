@@ -314,8 +314,8 @@ std::optional<Phrasebook::Found> Phrasebook::matched(const Entry& entry, std::st
       if (!isPlain(value) || (isFew && !isShort(value, isName ? kLongestName : 3)) ||
           (pieces[n].isPhrase && isFew && pieces.size() > 2 && !value.empty() &&
            !isNumber(value)) ||
-          (entry.letters < kFewestLetters && isSeveral) ||
-          (entry.letters < kFewestLetters - 1 && !isNumber(value)))
+          (entry.letters < kFewestLetters && isSeveral && !isQuoted) ||
+          (entry.letters < kFewestLetters - 1 && !isNumber(value) && !isQuoted))
         return std::nullopt;
       isWhole = isWhole && !(pieces[n].isPhrase && isSeveral);
       values[pieces[n].place] = other ? other->text : std::string(value);

@@ -362,7 +362,8 @@ void nameByTilt(Groups& groups)
 {
   std::map<std::string, std::vector<NamedSlices*>> alike;
   for (NamedSlices& group : groups)
-    if (!group.isSetAside)
+    if (const SliceHeader& first = group.slices.front();
+        !group.isSetAside && first.rowDirection && first.columnDirection)
       alike[group.name].push_back(&group);
   for (const auto& [name, stacks] : alike)
   {

@@ -362,8 +362,7 @@ void nameByTilt(Groups& groups)
 {
   std::map<std::string, std::vector<NamedSlices*>> alike;
   for (NamedSlices& group : groups)
-    if (const SliceHeader& first = group.slices.front();
-        !group.isSetAside && first.rowDirection && first.columnDirection)
+    if (!group.isSetAside && !group.slices.empty()) // empty: nothing of the series is placed
       alike[group.name].push_back(&group);
   for (const auto& [name, stacks] : alike)
   {

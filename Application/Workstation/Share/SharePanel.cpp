@@ -85,7 +85,7 @@ SharePanel::SharePanel(presenters::WorkstationModel& model, QWidget* parent)
       new QLabel(tr("Before the case leaves, a report says what is in it, what stays here, "
                     "and what may tell who the patient is."));
   note->setObjectName("dim");
-  note->setWordWrap(true); // the group keeps room for it
+  wrapWords(*note);
   auto* whole = group(tr("The whole case"), {archive, send});
   static_cast<QVBoxLayout*>(whole->layout())->addWidget(note);
 

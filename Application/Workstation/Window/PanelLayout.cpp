@@ -1,6 +1,7 @@
 #include "PanelLayout.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <QEvent>
 #include <QHeaderView>
@@ -9,6 +10,7 @@
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QStyle>
+#include <QTextDocument>
 #include <QTreeView>
 #include <QVBoxLayout>
 
@@ -101,6 +103,34 @@ public:
   QSize sizeHint() const override { return widget()->sizeHint().expandedTo(least()); }
 };
 
+// What the text takes at the label's width. QLabel::heightForWidth is no less than the height that
+// was reserved before.
+int heightOfLines(const QLabel& label)
+{
+  if (label.text().isEmpty())
+    return 0;
+  const QMargins beside = label.contentsMargins();
+  const int around = 2 * label.margin();
+  const int width = std::max(1, label.width() - beside.left() - beside.right() - around);
+  const bool isRich = label.textFormat() == Qt::RichText ||
+                      (label.textFormat() == Qt::AutoText && Qt::mightBeRichText(label.text()));
+  int lines = 0;
+  if (isRich)
+  {
+    QTextDocument text;
+    text.setDefaultFont(label.font());
+    text.setDocumentMargin(0.0);
+    text.setHtml(label.text());
+    text.setTextWidth(width);
+    lines = static_cast<int>(std::ceil(text.size().height()));
+  }
+  else
+    lines = label.fontMetrics()
+                .boundingRect(QRect(0, 0, width, QWIDGETSIZE_MAX), Qt::TextWordWrap, label.text())
+                .height();
+  return lines + beside.top() + beside.bottom() + around;
+}
+
 // Of a label whose lines are broken: when its width, its letters or (as it is drawn anew) its text
 // is another.
 class WholeLines : public QObject
@@ -122,8 +152,7 @@ public:
                          event->type() == QEvent::Paint;
     if (isShown && watched == &m_label && m_label.isVisible())
     {
-      const int lines = m_label.text().isEmpty() ? 0 : m_label.heightForWidth(m_label.width());
-      const int needed = std::max(lines, floor());
+      const int needed = std::max(heightOfLines(m_label), floor());
       if (m_label.minimumHeight() != needed)
         m_label.setMinimumHeight(needed);
     }

@@ -5246,8 +5246,8 @@ Verletzt: %1, %2</translation>
         <translation>Durchscheinende Oberflächen sind dort, wo man sie von der Seite sieht, deckender, wie eine Schale, sodass sie ihre Form behalten</translation>
     </message>
     <message>
-        <source>Of the 3D view: what is beside the patient. The slices stay black, and bone and structures as bright as they are</source>
-        <translation>Der 3D-Ansicht: was neben dem Patienten zu sehen ist. Die Schnitte bleiben schwarz, Knochen und Strukturen so hell, wie sie sind</translation>
+        <source>Of the 3D view: what is beside the patient. The slices stay black, and the patient as bright as before</source>
+        <translation>Der 3D-Ansicht: was neben dem Patienten zu sehen ist. Die Schichten bleiben schwarz, und der Patient so hell wie vorher</translation>
     </message>
     <message>
         <source>Black</source>

@@ -137,8 +137,7 @@ void PicturePanel::addCheck(QFormLayout* form, const QString& name, const char* 
 void PicturePanel::addBackground(QFormLayout* form)
 {
   auto* box = choiceBox("background", tr("Of the 3D view: what is beside the patient. The slices "
-                                         "stay black, and bone and structures as bright as they "
-                                         "are"));
+                                         "stay black, and the patient as bright as before"));
   for (const QString& name : {tr("Black"), tr("Dark grey"), tr("Light grey"), tr("White")})
     box->addItem(name);
   box->addItem(tr("Other colour"));

@@ -85,7 +85,7 @@ SharePanel::SharePanel(presenters::WorkstationModel& model, QWidget* parent)
       new QLabel(tr("Before the case leaves, a report says what is in it, what stays here, "
                     "and what may tell who the patient is."));
   note->setObjectName("dim");
-  wrapWords(*note);
+  note->setWordWrap(true); // where it has room: the panel fits the smallest screen
   auto* whole = group(tr("The whole case"), {archive, send});
   static_cast<QVBoxLayout*>(whole->layout())->addWidget(note);
 

@@ -9,7 +9,6 @@
 #include <QVBoxLayout>
 
 #include "Bind.h"
-#include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Presenters/IntensityDisplay.h"

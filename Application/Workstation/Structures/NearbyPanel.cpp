@@ -6,7 +6,6 @@
 #include <QVBoxLayout>
 
 #include "NearbyModel.h"
-#include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 
@@ -35,7 +34,7 @@ NearbyPanel::NearbyPanel(presenters::WorkstationModel& model, QWidget* parent)
   list->header()->setStretchLastSection(false);
   m_removed->setObjectName("removed");
   m_line->setObjectName("dim");
-  wrapWords(*m_line);
+  m_line->setWordWrap(true);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);

@@ -33,31 +33,27 @@ constexpr double kClick = 3.0; // px, that a click may move
 constexpr double kStep = 0.5;  // mm, of a key
 constexpr double kArrow = 8.0; // mm, of a plane's arrow, at whose tip it is dragged
 
-// The edges of a box, and a handle, if it has any, at the middle of each face.
-std::vector<DrawnMeasure> drawn(const HandledBox& box, bool hasHandles)
+void add(std::vector<DrawnMeasure>& parts, std::vector<Eigen::Vector3d> points,
+         std::vector<std::size_t> handles)
+{
+  DrawnMeasure part;
+  part.index = parts.size();
+  part.points = std::move(points);
+  part.handles = std::move(handles);
+  part.color = boxColor();
+  parts.push_back(std::move(part));
+}
+
+// Each edge by itself, as one that reaches behind the camera is not drawn.
+void addEdges(std::vector<DrawnMeasure>& parts, const HandledBox& box)
 {
   using Box = Eigen::AlignedBox3d;
   const auto corner = [&box](int n) -> Eigen::Vector3d
   { return box.patientFromBox * box.box.corner(static_cast<Box::CornerType>(n)); };
-  std::vector<DrawnMeasure> parts;
-  const auto add = [&parts](std::vector<Eigen::Vector3d> points, std::vector<std::size_t> handles)
-  {
-    DrawnMeasure part;
-    part.index = parts.size();
-    part.points = std::move(points);
-    part.handles = std::move(handles);
-    part.color = boxColor();
-    parts.push_back(std::move(part));
-  };
-  // Each edge by itself, as one that reaches behind the camera is not drawn.
   for (int from = 0; from < 8; ++from)
     for (const int along : {1, 2, 4})
       if (!(from & along))
-        add({corner(from), corner(from | along)}, {});
-  if (hasHandles)
-    for (const FaceHandle& handle : presenters::faceHandles(box))
-      add({handle.at}, {0});
-  return parts;
+        add(parts, {corner(from), corner(from | along)}, {});
 }
 
 } // namespace
@@ -145,19 +141,14 @@ void ClippingController::refresh()
   const HandledBox box = frame.box(m_model.value().view.clipping.crop);
   const bool isShown = showsBox();
   m_slices.setBox(isShown ? std::optional(SliceBox{box}) : std::nullopt);
-  std::vector<DrawnMeasure> parts =
-      isShown ? drawn(box, hasHandles()) : std::vector<DrawnMeasure>();
-  if (hasHandles())
-    for (const Clipping::Plane& plane : m_model.value().view.clipping.planes)
-    {
-      const Eigen::Vector3d center = presenters::planeCenter(plane, m_model.value().ct.geometry);
-      DrawnMeasure arrow;
-      arrow.index = parts.size();
-      arrow.points = {center, center + kArrow * plane.normal};
-      arrow.handles = {1};
-      arrow.color = boxColor();
-      parts.push_back(std::move(arrow));
-    }
+  std::vector<DrawnMeasure> parts;
+  if (isShown)
+    addEdges(parts, box);
+  for (const Handle& handle : handles())
+    if (handle.arrow > 0.0)
+      add(parts, {handle.at - handle.arrow * handle.direction, handle.at}, {1});
+    else
+      add(parts, {handle.at}, {0});
   m_view.display().setHandles(parts);
   if (m_dialog && m_dialog->isVisible())
     m_dialog->show(frame, box.box);
@@ -302,14 +293,14 @@ std::vector<ClippingController::Handle> ClippingController::handles() const
     return all;
   const core::GridGeometry& grid = m_model.value().ct.geometry;
   const Clipping before = m_model.value().view.clipping;
-  if (m_actions.cropBox->isChecked())
+  if (showsBox())
   {
     const CropFrame frame(grid);
     for (const FaceHandle& face : presenters::faceHandles(frame.box(before.crop)))
     {
       presenters::BoxFaces faces;
       (face.isUpper ? faces.upper : faces.lower)[face.axis] = true;
-      all.push_back({face.at, face.normal,
+      all.push_back({face.at, face.normal, 0.0,
                      tr("Turn the patient: this face is dragged along the line of sight"),
                      [frame, before, faces, face](double millimetres)
                      {
@@ -324,7 +315,7 @@ std::vector<ClippingController::Handle> ClippingController::handles() const
   {
     const Clipping::Plane& plane = before.planes[n];
     all.push_back({presenters::planeCenter(plane, grid) + kArrow * plane.normal, plane.normal,
-                   tr("Turn the patient: the plane is dragged along the line of sight"),
+                   kArrow, tr("Turn the patient: the plane is dragged along the line of sight"),
                    [before, n, grid](double millimetres)
                    {
                      Clipping clipping = before;
@@ -377,19 +368,8 @@ bool ClippingController::takeHandle(const QPointF& position)
 
 bool ClippingController::eventFilter(QObject* watched, QEvent* event)
 {
-  switch (event->type())
-  {
-  case QEvent::MouseButtonPress:
-  case QEvent::MouseButtonDblClick:
-  case QEvent::MouseButtonRelease:
-  case QEvent::MouseMove:
-    if (watched == &m_view && m_model.hasCase())
-      return handleMouse(*static_cast<QMouseEvent*>(event));
-    break;
-  default:
-    break;
-  }
-  return QObject::eventFilter(watched, event);
+  const auto* mouse = watched == &m_view ? dynamic_cast<const QMouseEvent*>(event) : nullptr;
+  return mouse && m_model.hasCase() && handleMouse(*mouse);
 }
 
 bool ClippingController::handleMouse(const QMouseEvent& event)

@@ -66,6 +66,7 @@ private:
   struct Handle
   {
     Eigen::Vector3d at, direction; ///< patient LPS mm; unit
+    double arrow;                  ///< mm, of the arrow that ends there; 0: none
     QString alongSight;            ///< why it cannot be dragged along the line of sight
     std::function<Clipping(double millimetres)> dragged;
   };

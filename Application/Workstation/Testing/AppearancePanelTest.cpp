@@ -63,9 +63,7 @@ protected:
   {
     auto* number = panel().findChild<QDoubleSpinBox*>(box);
     number->setFocus();
-    number->selectAll();
-    QTest::keyClicks(number, text);
-    QTest::keyClick(number, Qt::Key_Enter);
+    enterNumber(*number, text);
   }
   void choose(const char* menu, const QString& entry)
   {

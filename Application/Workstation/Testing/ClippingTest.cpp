@@ -40,6 +40,24 @@ protected:
     QApplication::sendEvent(&widget, &move);
   }
 
+  static void drag(QWidget& widget, const QPoint& from, const QPoint& to)
+  {
+    QTest::mousePress(&widget, Qt::LeftButton, Qt::NoModifier, from);
+    moveTo(widget, (from + to) / 2);
+    moveTo(widget, to);
+    QTest::mouseRelease(&widget, Qt::LeftButton, Qt::NoModifier, to);
+  }
+
+  /// The ball, cut away to the crosshair.
+  void openCut()
+  {
+    saveBall("ball");
+    openWindow("ball");
+    ASSERT_TRUE(waitFor([this] { return window().model().ready(); }));
+    action("Cut away to the crosshair")->trigger();
+    ASSERT_EQ(clipping().planes.size(), 1U);
+  }
+
   /// Where the axial view shows the left face of the box, in the middle of the edge.
   QPoint leftEdge(const std::optional<core::IndexBox>& crop)
   {
@@ -133,10 +151,7 @@ TEST_F(ClippingBox, IsDraggedByAFaceInTheThreeDView)
   ASSERT_GT(pixelsPerMm, 1.0);
   const QPoint to = from + QPoint(0, static_cast<int>(std::lround(3.0 * pixelsPerMm)));
   const core::CameraPose camera = view().picture().camera();
-  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, from);
-  moveTo(view(), (from + to) / 2);
-  moveTo(view(), to);
-  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, to);
+  drag(view(), from, to);
   picture();
   ASSERT_TRUE(clipping().crop);
   EXPECT_EQ(clipping().crop->lower, some.crop->lower);
@@ -212,10 +227,7 @@ TEST_F(ClippingBox, APlaneIsMovedByKeysAndUndone)
 
 TEST_F(ClippingBox, AKeyThatIsHeldDownMovesThePlaneInOneStepOfUndo)
 {
-  saveBall("ball");
-  openWindow("ball");
-  action("Cut away to the crosshair")->trigger();
-  ASSERT_EQ(clipping().planes.size(), 1U);
+  ASSERT_NO_FATAL_FAILURE(openCut());
   const scene::ViewState::Clipping::Plane plane = clipping().planes.front();
   const auto edits = [this]() -> presenters::EditHistory&
   { return const_cast<presenters::WorkstationModel&>(window().model()).edits(); };
@@ -237,11 +249,8 @@ TEST_F(ClippingBox, AKeyThatIsHeldDownMovesThePlaneInOneStepOfUndo)
 
 TEST_F(ClippingBox, KeysOfThePlaneAreThoseOfTheViewsOnly)
 {
-  saveBall("ball");
-  openWindow("ball");
+  ASSERT_NO_FATAL_FAILURE(openCut());
   ASSERT_TRUE(settled());
-  action("Cut away to the crosshair")->trigger();
-  ASSERT_EQ(clipping().planes.size(), 1U);
   const scene::ViewState::Clipping::Plane plane = clipping().planes.front();
   QApplication::setActiveWindow(&window());
   for (const char* name : {"structures", "axialView"})
@@ -268,11 +277,7 @@ TEST_F(ClippingBox, KeysOfThePlaneAreThoseOfTheViewsOnly)
 
 TEST_F(ClippingBox, HandlesGiveWayToAMeasuringTool)
 {
-  saveBall("ball");
-  openWindow("ball");
-  ASSERT_TRUE(waitFor([this] { return window().model().ready(); }));
-  action("Cut away to the crosshair")->trigger();
-  ASSERT_EQ(clipping().planes.size(), 1U);
+  ASSERT_NO_FATAL_FAILURE(openCut());
   const scene::ViewState::Clipping before = clipping();
   action("Anterior")->trigger();
   picture();
@@ -280,35 +285,25 @@ TEST_F(ClippingBox, HandlesGiveWayToAMeasuringTool)
   const Vector3d tip = before.planes.front().point + 8.0 * normal; // the ball is behind it
   const QPoint from = inView(tip);
   const QPoint to = inView(tip + 3.0 * normal);
-  const auto drag = [&]
-  {
-    QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, from);
-    moveTo(view(), (from + to) / 2);
-    moveTo(view(), to);
-    QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, to);
-  };
   action("Distance")->trigger();
   auto* measure = window().findChild<MeasureController*>();
   ASSERT_TRUE(measure && measure->active());
   QTest::mouseMove(&view(), from);
   QTest::mouseClick(&view(), Qt::LeftButton, Qt::NoModifier, from);
   EXPECT_TRUE(measure->hasPoints()) << "the click is the tool's";
-  drag();
+  drag(view(), from, to);
   EXPECT_EQ(clipping(), before);
 
   measure->leaveTool();
   action("Anterior")->trigger();
   picture();
-  drag();
+  drag(view(), from, to);
   EXPECT_FALSE(clipping() == before) << "they come back";
 }
 
 TEST_F(ClippingBox, ADoubleClickOnAHandleEnlargesNothing)
 {
-  saveBall("ball");
-  openWindow("ball");
-  action("Cut away to the crosshair")->trigger();
-  ASSERT_EQ(clipping().planes.size(), 1U);
+  ASSERT_NO_FATAL_FAILURE(openCut());
   const scene::ViewState::Clipping before = clipping();
   action("Anterior")->trigger();
   picture();

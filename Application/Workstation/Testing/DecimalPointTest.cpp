@@ -23,15 +23,11 @@ TEST_F(DecimalPointTest, WhatAFieldCannotTakeLeavesItsNumber)
   box.setValue(300.0);
   for (const char* typed : {"1,200", "1.200,5", "99999"})
   {
-    box.selectAll();
-    QTest::keyClicks(&box, typed);
-    QTest::keyClick(&box, Qt::Key_Enter);
+    enterNumber(box, typed);
     EXPECT_EQ(box.value(), 300.0) << typed;
     EXPECT_TRUE(box.property("refused").toBool()) << typed;
   }
-  box.selectAll();
-  QTest::keyClicks(&box, "1200");
-  QTest::keyClick(&box, Qt::Key_Enter);
+  enterNumber(box, "1200");
   EXPECT_EQ(box.value(), 1200.0);
   EXPECT_FALSE(box.property("refused").toBool());
 }
@@ -41,12 +37,7 @@ TEST_F(DecimalPointTest, SaysWhyInTheStatusBarAndTheMarkGoes)
   openWindow();
   auto* exposure = window().findChild<QDoubleSpinBox*>("exposure");
   ASSERT_TRUE(exposure);
-  const auto type = [exposure](const char* text)
-  {
-    exposure->selectAll();
-    QTest::keyClicks(exposure, text);
-    QTest::keyClick(exposure, Qt::Key_Enter);
-  };
+  const auto type = [exposure](const char* text) { enterNumber(*exposure, text); };
   type("9");
   EXPECT_EQ(exposure->value(), 0.0);
   EXPECT_EQ(window().statusBar()->currentMessage(), "9 is above the most, 4 EV");
@@ -76,9 +67,7 @@ TEST_F(DecimalPointTest, ARefusedNumberKeepsTheFocusWithItsTextSelected)
     {
       SCOPED_TRACE(typed);
       diameter->setFocus();
-      diameter->selectAll();
-      QTest::keyClicks(diameter, typed);
-      QTest::keyClick(diameter, end);
+      enterNumber(*diameter, typed, end);
       EXPECT_EQ(window().focusWidget(), diameter);
       EXPECT_EQ(diameter->value(), before);
       EXPECT_TRUE(line->selectedText().startsWith(QLocale::c().toString(before, 'f', 1)))
@@ -106,9 +95,7 @@ TEST_F(DecimalPointTest, NumbersHaveAPointAndATypedCommaBecomesOne)
   for (const char* typed : {"2,5", "2.5"})
   {
     thrust->setValue(1.0);
-    thrust->selectAll();
-    QTest::keyClicks(thrust, typed);
-    QTest::keyClick(thrust, Qt::Key_Enter);
+    enterNumber(*thrust, typed);
     EXPECT_EQ(thrust->value(), 2.5) << typed;
   }
 }

@@ -59,6 +59,21 @@ protected:
     ASSERT_TRUE(line) << name;
     line->setText(text);
   }
+  static scene::Case ballWithMr()
+  {
+    scene::Case value = ballCase("ball");
+    scene::ImagePart mr = value.ct;
+    mr.name = "T2";
+    value.mr.push_back(mr);
+    return value;
+  }
+  /// Its CT's, which can be masked, and its MR's, which cannot.
+  static FaceCheck facesOfBoth()
+  {
+    FaceCheck faces;
+    faces.images = {{"the CT", "", ""}, {"MR 'T2'", "T2", "MR 'T2': it looks away"}};
+    return faces;
+  }
   static QPushButton& button(QDialog& dialog, const char* name)
   {
     return *dialog.findChild<QPushButton*>(name);
@@ -526,12 +541,8 @@ TEST_F(Exchange, AReceivedCaseOfATakenNameGetsAnotherOne)
 // What stays here is no reason against masking what goes.
 TEST_F(Exchange, FaultsAreToldOfImagesThatAreSentAlone)
 {
-  scene::Case value = ballCase("ball");
-  scene::ImagePart mr = value.ct;
-  mr.name = "T2";
-  value.mr.push_back(mr);
-  FaceCheck faces;
-  faces.images = {{"the CT", "", ""}, {"MR 'T2'", "T2", "MR 'T2': it looks away"}};
+  const scene::Case value = ballWithMr();
+  const FaceCheck faces = facesOfBoth();
   network::Node node;
   node.name = "pacs";
   SendDialog dialog(value, library(), faces, {node});
@@ -687,12 +698,8 @@ TEST_F(Exchange, AnArchiveWithFacesThatCannotBeMaskedIsNoDefault)
 // The control that masks is where its lack is told of; of an MR that cannot be masked as well.
 TEST_F(Exchange, TheArchiveDialogMasksWhatItTellsOf)
 {
-  scene::Case value = ballCase("ball");
-  scene::ImagePart mr = value.ct;
-  mr.name = "T2";
-  value.mr.push_back(mr);
-  FaceCheck faces;
-  faces.images = {{"the CT", "", ""}, {"MR 'T2'", "T2", "MR 'T2': it looks away"}};
+  const scene::Case value = ballWithMr();
+  const FaceCheck faces = facesOfBoth();
   ArchiveDialog dialog(value, library(), faces);
   const auto report = [&dialog]
   { return dialog.findChild<QPlainTextEdit*>("archiveReport")->toPlainText(); };

@@ -386,6 +386,13 @@ bool GuiTest::waitFor(const std::function<bool()>& done, int milliseconds)
   return QTest::qWaitFor(done, milliseconds);
 }
 
+void enterNumber(QAbstractSpinBox& box, const char* typed, Qt::Key end)
+{
+  box.selectAll();
+  QTest::keyClicks(&box, typed);
+  QTest::keyClick(&box, end);
+}
+
 int differentPixels(const QImage& a, const QImage& b, int tolerance)
 {
   if (a.size() != b.size())

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <QAbstractSpinBox>
 #include <QAction>
 #include <QImage>
 #include <QJsonObject>
@@ -123,6 +124,9 @@ private:
   QTranslator m_texts;
   bool m_isThere = false;
 };
+
+/// Types a number over the one that a field has, and ends it.
+void enterNumber(QAbstractSpinBox& box, const char* typed, Qt::Key end = Qt::Key_Enter);
 
 /// Pixels that differ by more than `tolerance` in a channel.
 int differentPixels(const QImage& a, const QImage& b, int tolerance = 2);

@@ -203,9 +203,7 @@ TEST_F(LanguageTest, AGermanFieldTakesCommaAndPoint)
   for (const char* typed : {"2,5", "2.5"})
   {
     thrust->setValue(1.0);
-    thrust->selectAll();
-    QTest::keyClicks(thrust, typed);
-    QTest::keyClick(thrust, Qt::Key_Enter);
+    enterNumber(*thrust, typed);
     EXPECT_EQ(thrust->value(), 2.5) << typed;
     EXPECT_TRUE(thrust->text().startsWith("2,5")) << thrust->text().toStdString();
   }
@@ -214,9 +212,7 @@ TEST_F(LanguageTest, AGermanFieldTakesCommaAndPoint)
   whole.setValue(300);
   for (const char* typed : {"1.200", "1,200"}) // marks between thousands are nobody's
   {
-    whole.selectAll();
-    QTest::keyClicks(&whole, typed);
-    QTest::keyClick(&whole, Qt::Key_Enter);
+    enterNumber(whole, typed);
     EXPECT_EQ(whole.value(), 300) << typed;
   }
 }

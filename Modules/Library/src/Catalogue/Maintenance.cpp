@@ -333,7 +333,6 @@ void Library::remove(const std::string& name)
 std::vector<DeletedCase> Library::deleted() const
 {
   std::vector<DeletedCase> cases;
-  namesIn(m_folder / "cases"); // throws where the folder cannot be read
   for (const DeletedFile& file : deletedIn(m_folder / "cases"))
     if (const auto state = stateOf(file.manifest))
       cases.push_back({file.name, state->renamed});

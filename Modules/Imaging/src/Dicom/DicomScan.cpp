@@ -563,8 +563,8 @@ struct Numbering
     const auto count = static_cast<int>(slices.size());
     const auto isWhole = [](const std::set<int>& numbers, int to)
     {
-      const auto from = numbers.lower_bound(0);
-      return from != numbers.end() && *from <= 1 && *numbers.begin() >= 0 &&
+      const auto from = numbers.begin();
+      return from != numbers.end() && (*from == 0 || *from == 1) &&
              std::distance(from, numbers.upper_bound(to)) == to - *from + 1;
     };
     const bool isOneSequence = static_cast<int>(series.all.size()) == series.count;

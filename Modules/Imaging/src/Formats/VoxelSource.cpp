@@ -322,13 +322,8 @@ void VoxelSource::settlePlacement(const std::vector<ImageGrid>& images)
     scaleTo(m_taken);
     return;
   }
-  const auto center = [](const core::GridGeometry& grid)
-  {
-    const core::Index3& n = grid.dims();
-    return grid.patientFromVoxel(0.5 * Eigen::Vector3d(n[0] - 1, n[1] - 1, n[2] - 1));
-  };
   const auto away = [&](const core::GridGeometry& grid)
-  { return roughText((center(grid) - center(images.front())).norm()); };
+  { return roughText((grid.center() - images.front().center()).norm()); };
   const core::GridGeometry& qform = m_isQform ? *m_geometry : *other;
   const core::GridGeometry& sform = m_isQform ? *other : *m_geometry;
   m_notes.push_back("has the grid of no image of the case by either place: its middle is " +

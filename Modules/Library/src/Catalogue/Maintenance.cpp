@@ -32,8 +32,6 @@ using Reason = LibraryError::Reason;
 namespace
 {
 
-constexpr const char* kIndex = "library.sqlite";
-
 // That one is named as setAside does; a case may be named so, too.
 bool isAsideOf(const std::string& journal, const std::string& file)
 {

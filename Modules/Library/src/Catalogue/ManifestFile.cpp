@@ -264,7 +264,7 @@ std::vector<std::string> namesOf(const fs::path& folder, const std::string& id)
   std::vector<std::string> names;
   if (id.empty())
     return names;
-  const auto known = Catalogue(folder.parent_path() / "library.sqlite").entries();
+  const auto known = Catalogue(folder.parent_path() / kIndex).entries();
   for (const std::string& name : namesIn(folder))
   {
     const fs::path path = folder / (name + ".json");

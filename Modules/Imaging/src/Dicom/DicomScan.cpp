@@ -339,7 +339,9 @@ public:
     const bool isOne =
         std::all_of(members.begin(), members.end(),
                     [this](const FileHeader* m) { return m->description == m_description; });
-    for (const FileHeader* member : isOne ? std::vector<FileHeader*>() : members)
+    if (isOne)
+      return;
+    for (const FileHeader* member : members)
       m_descriptions.emplace(member->slice.file.native(), member->description);
   }
 
@@ -347,15 +349,25 @@ public:
   void apply(DicomSeries& series) const
   {
     const std::vector<SliceHeader>& slices = series.geometry.slices;
-    series.modality = slices.empty() ? m_modality : std::string();
-    series.description = slices.empty() || m_descriptions.empty() ? m_description : std::string();
-    for (auto slice = slices.begin(); slice != slices.end() && series.modality.empty(); ++slice)
-      series.modality = slice->modality;
-    if (m_descriptions.empty())
+    series.modality = m_modality;
+    series.description = m_description;
+    if (slices.empty())
       return;
-    for (auto slice = slices.begin(); slice != slices.end() && series.description.empty(); ++slice)
-      if (const auto own = m_descriptions.find(slice->file.native()); own != m_descriptions.end())
-        series.description = own->second;
+    const auto firstOf = [&slices](const auto& textOf)
+    {
+      for (const SliceHeader& slice : slices)
+        if (std::string text = textOf(slice); !text.empty())
+          return text;
+      return std::string();
+    };
+    series.modality = firstOf([](const SliceHeader& slice) { return slice.modality; });
+    if (!m_descriptions.empty())
+      series.description = firstOf(
+          [this](const SliceHeader& slice)
+          {
+            const auto own = m_descriptions.find(slice.file.native());
+            return own == m_descriptions.end() ? std::string() : own->second;
+          });
   }
 
 private:
@@ -551,8 +563,8 @@ struct Numbering
     const auto count = static_cast<int>(slices.size());
     const auto isWhole = [](const std::set<int>& numbers, int to)
     {
-      const auto from = numbers.lower_bound(0);
-      return from != numbers.end() && *from <= 1 && *numbers.begin() >= 0 &&
+      const auto from = numbers.begin();
+      return from != numbers.end() && (*from == 0 || *from == 1) &&
              std::distance(from, numbers.upper_bound(to)) == to - *from + 1;
     };
     const bool isOneSequence = static_cast<int>(series.all.size()) == series.count;

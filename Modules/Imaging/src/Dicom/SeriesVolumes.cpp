@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "PatientSides.h"
 #include "SliceStack.h"
 #include "petrous/Core/NumberText.h"
 
@@ -264,8 +265,6 @@ void nameBySide(Groups& groups)
       fields.emplace_back(centreOf(group.slices), &group);
   for (const auto& [centre, group] : fields)
     box.extend(centre);
-  static constexpr const char* kSides[3][2] = {
-      {"right", "left"}, {"anterior", "posterior"}, {"inferior", "superior"}};
   Eigen::Index axis = 0;
   box.sizes().maxCoeff(&axis);
   std::stable_sort(fields.begin(), fields.end(),
@@ -273,13 +272,14 @@ void nameBySide(Groups& groups)
   const std::size_t last = fields.size() - 1;
   for (std::size_t n = 0; n < fields.size(); ++n)
   {
-    const std::string farther =
-        std::string(fields.size() > 2 ? "farthest " : "farther ") + kSides[axis][n == last ? 1 : 0];
+    const std::string farther = std::string(fields.size() > 2 ? "farthest " : "farther ") +
+                                kPatientSides[axis][n == last ? 1 : 0];
     NamedSlices& group = *fields[n].second;
-    group.name = joined(group.name, n == 0 || n == last ? farther
-                                                        : std::to_string(n + 1) + " of " +
-                                                              std::to_string(fields.size()) +
-                                                              " from the " + kSides[axis][0]);
+    group.name =
+        joined(group.name, n == 0 || n == last
+                               ? farther
+                               : std::to_string(n + 1) + " of " + std::to_string(fields.size()) +
+                                     " from the " + kPatientSides[axis][0]);
   }
 }
 
@@ -370,7 +370,7 @@ void nameByTilt(Groups& groups)
     for (const NamedSlices* stack : stacks)
       leans.push_back(leanOf(stack->slices.front()));
     const std::vector<std::string> texts = tiltTexts(leans);
-    if (stacks.size() < 2 || std::set<std::string>(texts.begin(), texts.end()).size() < 2)
+    if (std::set<std::string>(texts.begin(), texts.end()).size() < 2)
       continue;
     for (std::size_t n = 0; n < stacks.size(); ++n)
       stacks[n]->name = joined(stacks[n]->name, texts[n]);

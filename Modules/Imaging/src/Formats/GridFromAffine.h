@@ -27,7 +27,7 @@ struct LengthUnit
   double mm = 1.0;
   bool isStated = false;  ///< false: mm is assumed
   std::string name = {};  ///< as the file states it, if it is known and not mm
-  bool isUnknown = false; ///< the file states one that is not known
+  bool isUnknown = false; ///< the file states one that is not known; with isStated false
 };
 
 /// As named by NRRD and MetaImage ("mm", "um", "m"), with or without quotes; unknown and empty ones

@@ -219,25 +219,20 @@ void VoxelSource::scaleTo(double unit, bool isUnitKnown)
 std::string VoxelSource::unitNote() const
 {
   const Eigen::Vector3d& h = m_geometry->spacing();
-  const std::string voxels = core::plainText(h[0], 4) + " x " + core::plainText(h[1], 4) + " x " +
-                             core::plainText(h[2], 4) + " mm";
+  const std::string voxels =
+      roughText(h[0]) + " x " + roughText(h[1]) + " x " + roughText(h[2]) + " mm";
+  const std::string stated = m_unit.isUnknown      ? "states a unit of length that is not known"
+                             : !m_unit.isStated    ? "states no unit of length"
+                             : m_unit.name.empty() ? "states mm"
+                                                   : "states " + m_unit.name;
   if (!m_unitWhy.empty())
-  {
-    const std::string unitText = m_unit.isUnknown      ? "states a unit of length that is not known"
-                                 : !m_unit.isStated    ? "states no unit of length"
-                                 : m_unit.name.empty() ? "states mm"
-                                                       : "states " + m_unit.name;
-    const bool isOwn = m_unit.isStated && !m_unit.isUnknown && m_taken == m_unit.mm;
-    return unitText +
-           (isOwn
+    return stated +
+           (m_unit.isStated && m_taken == m_unit.mm
                 ? ", which was taken"
                 : ", but its numbers were taken in units of " + core::plainText(m_taken) + " mm") +
            ", " + m_unitWhy + ": its voxels are " + voxels;
-  }
-  if (m_unit.isUnknown)
-    return "states a unit of length that is not known; taken as mm";
   if (!m_unit.isStated)
-    return "states no unit of length; taken as mm";
+    return stated + "; taken as mm";
   return m_unit.name.empty() ? std::string()
                              : "is in " + m_unit.name + "; converted, its voxels are " + voxels;
 }
@@ -295,55 +290,45 @@ void VoxelSource::takeFileUnit()
 
 void VoxelSource::settlePlacement(const std::vector<ImageGrid>& images)
 {
+  const double scale = m_taken / m_unit.mm;
   const bool isUnitKnown = m_unitDoubt.likely.empty();
-  if (!m_other || images.empty() || !isUnitKnown ||
-      m_taken / m_unit.mm * m_apart <= kPlacementsDiffer)
+  if (!m_other || images.empty() || !isUnitKnown || scale * m_apart <= kPlacementsDiffer)
     return;
-  // Both are float32, the qform a rotation besides; more than one of them cannot be within this.
-  constexpr double kSame = 0.5 * kPlacementsDiffer;
-  const auto isOfImage = [&]
+  const auto isOfImage = [&images](const core::GridGeometry& own)
   {
+    // Both are float32, the qform a rotation besides; more than one of them cannot be within this.
+    constexpr double kSame = 0.5 * kPlacementsDiffer;
     return std::any_of(images.begin(), images.end(),
-                       [&](const ImageGrid& grid)
-                       { return core::sameGrid(grid, *m_geometry, kSame); });
+                       [&own](const ImageGrid& grid) { return core::sameGrid(grid, own, kSame); });
   };
-  const auto center = [](const core::GridGeometry& grid)
+  if (isOfImage(*m_geometry))
+    return;
+  std::optional<core::GridGeometry> other;
+  try
   {
-    const core::Index3& n = grid.dims();
-    return grid.patientFromVoxel(0.5 * Eigen::Vector3d(n[0] - 1, n[1] - 1, n[2] - 1));
-  };
-  const auto away = [&] { return (center(*m_geometry) - center(images.front())).norm(); };
-  const auto exchange = [this]
+    std::vector<std::string> notes; // given again if it is taken
+    other = gridFromAffine(m_path, m_dims, scale * m_other->linear, scale * m_other->origin, notes);
+  }
+  catch (const FileError&)
+  {
+    return; // no size or place that can be true
+  }
+  if (isOfImage(*other))
   {
     std::swap(m_linear, m_other->linear);
     std::swap(m_origin, m_other->origin);
     m_isQform = !m_isQform;
-  };
-  if (isOfImage())
-    return;
-  const double own = away();
-  const std::string why = m_whyPlacement;
-  exchange();
-  try
-  {
     m_whyPlacement = "as its grid is then that of an image of the case";
     scaleTo(m_taken);
-    if (isOfImage())
-      return;
-    const double others = away();
-    m_notes.push_back("has the grid of no image of the case by either place: its middle is " +
-                      roughText(m_isQform ? others : own) +
-                      " mm from that of the first by the "
-                      "qform, and " +
-                      roughText(m_isQform ? own : others) + " mm by the sform");
+    return;
   }
-  catch (const FileError&)
-  {
-    // No size or place that can be true.
-  }
-  exchange();
-  m_whyPlacement = why;
-  scaleTo(m_taken);
+  const auto away = [&](const core::GridGeometry& grid)
+  { return roughText((grid.center() - images.front().center()).norm()); };
+  const core::GridGeometry& qform = m_isQform ? *m_geometry : *other;
+  const core::GridGeometry& sform = m_isQform ? *other : *m_geometry;
+  m_notes.push_back("has the grid of no image of the case by either place: its middle is " +
+                    away(qform) + " mm from that of the first by the qform, and " + away(sform) +
+                    " mm by the sform");
 }
 
 void VoxelSource::assume(bool isRas)

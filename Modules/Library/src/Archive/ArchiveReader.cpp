@@ -690,23 +690,26 @@ bool isOfOtherPatient(const scene::PatientHash& a, const scene::PatientHash& b)
   return differing.id || (differing.any() && (a.id.empty() || b.id.empty() || a.id != b.id));
 }
 
-/// A plan fits every CT of these voxels, whosever it is said to be. `plan`: its image, with the
-/// library's hashes; nullptr: those of another library, which cannot be compared. `only`: the case
-/// whose CT the user named; empty: all of the library.
-std::string patientNote(const Library& library, const scene::ImagePart* plan,
-                        const std::string& object, const std::string& only)
+/// A plan fits every CT of these voxels, whosever it is said to be. `plan`: its image; hashes
+/// of another library cannot be compared. `only`: the case whose CT the user named; empty: all of
+/// the library.
+std::string patientNote(const Library& library, scene::ImagePart plan, const std::string& only)
 {
   const scene::IdentitySalt salt = frameSalter(library);
+  // Plain hashes, of older programs, are those of any library.
+  const bool isKnown = statesPatient(plan) && scene::isComparable(plan, salt);
+  if (isKnown)
+    scene::saltIdentity(plan, salt);
   const fs::path cases = library.folder() / "cases";
   std::string other;
   for (const std::string& name : only.empty() ? namesIn(cases) : std::vector<std::string>{only})
     try
     {
       scene::ImagePart ct = manifestIn(cases / (name + ".json"), name).ct;
-      if (ct.object != object || !statesPatient(ct) || !scene::isComparable(ct, salt))
+      if (ct.object != plan.object || !statesPatient(ct) || !scene::isComparable(ct, salt))
         continue;
       scene::saltIdentity(ct, salt);
-      if (plan && !isOfOtherPatient(plan->patient, ct.patient))
+      if (isKnown && !isOfOtherPatient(plan.patient, ct.patient))
         return {};
       other = name;
     }
@@ -715,12 +718,13 @@ std::string patientNote(const Library& library, const scene::ImagePart* plan,
     }
   if (other.empty())
     return {};
-  return plan ? "the plan is of another patient than that of case '" + other +
-                    "', whose image has the very same voxels, by what their files state; it fits, "
-                    "but make sure whose images these are"
-              : "whether the plan is of the patient of case '" + other +
-                    "', whose image has the very same voxels, cannot be told, as it comes from "
-                    "another library; make sure that it is";
+  return isKnown
+             ? "the plan is of another patient than that of case '" + other +
+                   "', whose image has the very same voxels, by what their files state; it fits, "
+                   "but make sure whose images these are"
+             : "whether the plan is of the patient of case '" + other +
+                   "', whose image has the very same voxels, cannot be told, as it comes from "
+                   "another library; make sure that it is";
 }
 
 } // namespace
@@ -826,16 +830,8 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
           summary.notes = forgetForeignIdentity(next);
         if (archive.index.planOnly)
         {
-          // Plain hashes, of older programs, are those of any library.
-          scene::ImagePart plan = next.ct;
-          const scene::IdentitySalt salt = frameSalter(library);
-          const bool isKnown = statesPatient(plan) && scene::isComparable(plan, salt);
-          if (isKnown)
-            scene::saltIdentity(plan, salt);
           if (isOfSomebody)
-            if (std::string note =
-                    patientNote(library, isKnown ? &plan : nullptr, plan.object, options.ct);
-                !note.empty())
+            if (std::string note = patientNote(library, next.ct, options.ct); !note.empty())
               summary.notes.push_back(std::move(note));
           const std::string image = next.ct.modality == scene::Modality::Mr ? "the MR" : "the CT";
           checkObject(store.path(next.ct.object, image), image, progress.part(0.0, 0.5));

@@ -11,6 +11,9 @@
 namespace petrous::library
 {
 
+/// Its file, in the library's folder.
+constexpr const char* kIndex = "library.sqlite";
+
 /// SQLite index of the manifests. It is only an optimization: an entry is valid while size and
 /// modification time of the manifest match, and if the database cannot be opened or written,
 /// everything is read from the manifests. A damaged database is recreated by `put`. Notes are not

@@ -215,7 +215,7 @@ std::shared_ptr<const volume::LabelMap> unpackedLabels(const ObjectStore& store,
 std::vector<Catalogue::Entry> entriesIn(const fs::path& folder, const core::Progress& progress = {})
 {
   std::vector<Catalogue::Entry> cases;
-  Catalogue catalogue(folder / "library.sqlite");
+  Catalogue catalogue(folder / kIndex);
   auto known = catalogue.entries();
   std::vector<Catalogue::Entry> unknown;
   const std::set<std::string> thumbnails = thumbnailIds(folder);
@@ -962,7 +962,7 @@ void Library::saveWith(scene::Case& value,
                     std::to_string(value.meshes.size()) + " meshes" +
                     (onDisk ? "" : "; the disk reported an error"));
     if (const auto state = stateOf(path))
-      Catalogue(m_folder / "library.sqlite").put(entryOf(value, *state));
+      Catalogue(m_folder / kIndex).put(entryOf(value, *state));
     if (!origins.empty())
       Sources(m_folder).add(origins);
   }

@@ -32,8 +32,6 @@ using Reason = LibraryError::Reason;
 namespace
 {
 
-constexpr const char* kIndex = "library.sqlite";
-
 // That one is named as setAside does; a case may be named so, too.
 bool isAsideOf(const std::string& journal, const std::string& file)
 {
@@ -333,7 +331,6 @@ void Library::remove(const std::string& name)
 std::vector<DeletedCase> Library::deleted() const
 {
   std::vector<DeletedCase> cases;
-  namesIn(m_folder / "cases"); // throws where the folder cannot be read
   for (const DeletedFile& file : deletedIn(m_folder / "cases"))
     if (const auto state = stateOf(file.manifest))
       cases.push_back({file.name, state->renamed});

@@ -216,6 +216,21 @@ std::string misplacedText(const fs::path& path, const std::string& name, const O
          "from a copy of the library, or import the images again";
 }
 
+namespace
+{
+
+// After listing it. A library that was never saved to has no folder yet; any other error is
+// reported.
+void checkListed(const fs::path& folder, const std::error_code& error)
+{
+  if (error && error != std::errc::no_such_file_or_directory)
+    throw LibraryError(Reason::Damaged,
+                       core::printable(folder) + ": cannot be read (" + error.message() +
+                           "); give the library's folder and check its permissions");
+}
+
+} // namespace
+
 std::vector<std::string> namesIn(const fs::path& folder)
 {
   std::vector<std::string> names;
@@ -227,11 +242,7 @@ std::vector<std::string> namesIn(const fs::path& folder)
     if (path.extension() == ".json" && path.filename().string()[0] != '.')
       names.push_back(path.stem().string());
   }
-  // A library that was never saved to has no folder yet; any other error is reported.
-  if (error && error != std::errc::no_such_file_or_directory)
-    throw LibraryError(Reason::Damaged,
-                       core::printable(folder) + ": cannot be read (" + error.message() +
-                           "); give the library's folder and check its permissions");
+  checkListed(folder, error);
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -253,7 +264,7 @@ std::vector<std::string> namesOf(const fs::path& folder, const std::string& id)
   std::vector<std::string> names;
   if (id.empty())
     return names;
-  const auto known = Catalogue(folder.parent_path() / "library.sqlite").entries();
+  const auto known = Catalogue(folder.parent_path() / kIndex).entries();
   for (const std::string& name : namesIn(folder))
   {
     const fs::path path = folder / (name + ".json");
@@ -303,6 +314,7 @@ void forEachDeleted(const fs::path& folder, const Use& use)
        entry.increment(error))
     if (const std::uint64_t number = deletionNumber(entry->path()); number > 0)
       use(entry->path(), entry->path().stem(), number);
+  checkListed(folder, error);
 }
 
 } // namespace

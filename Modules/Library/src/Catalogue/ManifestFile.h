@@ -85,7 +85,7 @@ std::string misplacedText(const std::filesystem::path& path, const std::string& 
 std::vector<std::string> namesIn(const std::filesystem::path& folder);
 
 /// The names of the cases of this ID, sorted: several only where files were copied by hand. None of
-/// an empty ID. Reads all manifests. Throws like namesIn.
+/// an empty ID. Reads the manifests that changed since the index knew them. Throws like namesIn.
 std::vector<std::string> namesOf(const std::filesystem::path& folder, const std::string& id);
 
 /// A deleted case: its files stay in the folder, with ".deleted-NUMBER" after their names (instead
@@ -97,10 +97,10 @@ struct DeletedFile
   std::filesystem::path manifest;
 };
 
-/// The manifests of deleted cases in the folder, the newest first.
+/// The manifests of deleted cases in the folder, the newest first. Throws like namesIn.
 std::vector<DeletedFile> deletedIn(const std::filesystem::path& folder);
 
-/// The journals of deleted cases in the folder.
+/// The journals of deleted cases in the folder. Throws like namesIn.
 std::vector<std::filesystem::path> deletedJournalsIn(const std::filesystem::path& folder);
 
 /// That no file of a deleted case has, whether its manifest is there or not.

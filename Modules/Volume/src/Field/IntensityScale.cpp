@@ -54,6 +54,13 @@ public:
   }
 
   double value(double level) const { return m_lower + (level + 0.5) * m_width; }
+  // The last whose value is not above, within the levels that there are.
+  std::size_t levelUpTo(double wanted) const
+  {
+    const double level = (wanted - value(0.0)) / m_width;
+    return static_cast<std::size_t>(
+        std::clamp(level, 0.0, static_cast<double>(counts.size()) - 1.0));
+  }
 
   std::vector<double> counts;
   std::vector<double> smoothed;
@@ -297,16 +304,11 @@ bool looksLikePartInHounsfield(const IntensityHistogram& histogram, const Densit
   const auto isIn = [](double value, const ValueRange& range)
   { return value >= range.min && value <= range.max; };
   const std::vector<double>& s = density.smoothed;
-  const auto levels = static_cast<double>(s.size()) - 1.0;
-  const auto levelOf = [&](double value)
-  {
-    const double level = (value - density.value(0.0)) / (density.value(1.0) - density.value(0.0));
-    return static_cast<std::size_t>(std::clamp(level, 0.0, levels));
-  };
   const double least = histogram.range().min;
   const double lowest = histogram.percentile(kTrimmed);
   // The highest above air.
-  const double mode = density.value(static_cast<double>(modeIn(s, levelOf(kCells), s.size())));
+  const double mode =
+      density.value(static_cast<double>(modeIn(s, density.levelUpTo(kCells), s.size())));
   const bool isAirElsewhere = tissues && tissues->air > kCells && tissues->air < kFat;
   return least <= kBelowZero && lowest >= kLowest && isIn(mode, kSoftMode) &&
          isIn(histogram.percentile(kDensestShare), kDensest) && !isAirElsewhere;

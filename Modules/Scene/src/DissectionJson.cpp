@@ -2,7 +2,6 @@
 
 #include "PlaceRange.h"
 #include "petrous/Dissection/BurrName.h"
-#include "petrous/Dissection/StrokeNumber.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/HistoryText.h"
 #include "petrous/Scene/Manifest.h"
@@ -17,7 +16,12 @@ using nlohmann::json;
 namespace
 {
 
-// The stroke of a strokeNumber.
+// kStart + 1 is 0.
+std::size_t numberOf(std::size_t state)
+{
+  return state + 1;
+}
+
 std::size_t stateOf(const json& number)
 {
   if (!number.is_number_unsigned())
@@ -159,13 +163,13 @@ json historyOut(const History& history)
 {
   json parents = json::array();
   for (std::size_t n = 0; n < history.size(); ++n)
-    parents.push_back(dissection::strokeNumber(history.parent(n)));
+    parents.push_back(numberOf(history.parent(n)));
   json branches = json::array();
   for (const History::Branch& branch : history.branches())
   {
     branches.push_back({{"name", branch.name},
-                        {"tip", dissection::strokeNumber(branch.tip)},
-                        {"position", dissection::strokeNumber(branch.position)}});
+                        {"tip", numberOf(branch.tip)},
+                        {"position", numberOf(branch.position)}});
     if (branch.setAside)
       branches.back()["set_aside"] = true;
   }

@@ -9,7 +9,6 @@
 
 #include <Eigen/Geometry>
 
-#include "PatientSides.h"
 #include "SliceStack.h"
 #include "petrous/Core/NumberText.h"
 
@@ -265,6 +264,8 @@ void nameBySide(Groups& groups)
       fields.emplace_back(centreOf(group.slices), &group);
   for (const auto& [centre, group] : fields)
     box.extend(centre);
+  static constexpr const char* kSides[3][2] = {
+      {"right", "left"}, {"anterior", "posterior"}, {"inferior", "superior"}};
   Eigen::Index axis = 0;
   box.sizes().maxCoeff(&axis);
   std::stable_sort(fields.begin(), fields.end(),
@@ -272,14 +273,13 @@ void nameBySide(Groups& groups)
   const std::size_t last = fields.size() - 1;
   for (std::size_t n = 0; n < fields.size(); ++n)
   {
-    const std::string farther = std::string(fields.size() > 2 ? "farthest " : "farther ") +
-                                kPatientSides[axis][n == last ? 1 : 0];
+    const std::string farther =
+        std::string(fields.size() > 2 ? "farthest " : "farther ") + kSides[axis][n == last ? 1 : 0];
     NamedSlices& group = *fields[n].second;
-    group.name =
-        joined(group.name, n == 0 || n == last
-                               ? farther
-                               : std::to_string(n + 1) + " of " + std::to_string(fields.size()) +
-                                     " from the " + kPatientSides[axis][0]);
+    group.name = joined(group.name, n == 0 || n == last ? farther
+                                                        : std::to_string(n + 1) + " of " +
+                                                              std::to_string(fields.size()) +
+                                                              " from the " + kSides[axis][0]);
   }
 }
 

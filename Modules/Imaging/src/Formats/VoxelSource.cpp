@@ -219,20 +219,25 @@ void VoxelSource::scaleTo(double unit, bool isUnitKnown)
 std::string VoxelSource::unitNote() const
 {
   const Eigen::Vector3d& h = m_geometry->spacing();
-  const std::string voxels =
-      roughText(h[0]) + " x " + roughText(h[1]) + " x " + roughText(h[2]) + " mm";
-  const std::string stated = m_unit.isUnknown      ? "states a unit of length that is not known"
-                             : !m_unit.isStated    ? "states no unit of length"
-                             : m_unit.name.empty() ? "states mm"
-                                                   : "states " + m_unit.name;
+  const std::string voxels = core::plainText(h[0], 4) + " x " + core::plainText(h[1], 4) + " x " +
+                             core::plainText(h[2], 4) + " mm";
   if (!m_unitWhy.empty())
-    return stated +
-           (m_unit.isStated && m_taken == m_unit.mm
+  {
+    const std::string unitText = m_unit.isUnknown      ? "states a unit of length that is not known"
+                                 : !m_unit.isStated    ? "states no unit of length"
+                                 : m_unit.name.empty() ? "states mm"
+                                                       : "states " + m_unit.name;
+    const bool isOwn = m_unit.isStated && !m_unit.isUnknown && m_taken == m_unit.mm;
+    return unitText +
+           (isOwn
                 ? ", which was taken"
                 : ", but its numbers were taken in units of " + core::plainText(m_taken) + " mm") +
            ", " + m_unitWhy + ": its voxels are " + voxels;
+  }
+  if (m_unit.isUnknown)
+    return "states a unit of length that is not known; taken as mm";
   if (!m_unit.isStated)
-    return stated + "; taken as mm";
+    return "states no unit of length; taken as mm";
   return m_unit.name.empty() ? std::string()
                              : "is in " + m_unit.name + "; converted, its voxels are " + voxels;
 }
@@ -323,12 +328,12 @@ void VoxelSource::settlePlacement(const std::vector<ImageGrid>& images)
     return;
   }
   const auto away = [&](const core::GridGeometry& grid)
-  { return roughText((grid.center() - images.front().center()).norm()); };
+  { return (grid.center() - images.front().center()).norm(); };
   const core::GridGeometry& qform = m_isQform ? *m_geometry : *other;
   const core::GridGeometry& sform = m_isQform ? *other : *m_geometry;
   m_notes.push_back("has the grid of no image of the case by either place: its middle is " +
-                    away(qform) + " mm from that of the first by the qform, and " + away(sform) +
-                    " mm by the sform");
+                    roughText(away(qform)) + " mm from that of the first by the qform, and " +
+                    roughText(away(sform)) + " mm by the sform");
 }
 
 void VoxelSource::assume(bool isRas)

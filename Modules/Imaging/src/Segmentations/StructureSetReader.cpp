@@ -15,7 +15,6 @@
 #include "FileHelpers.h"
 #include "LabelNames.h"
 #include "MemoryCheck.h"
-#include "PatientSides.h"
 #include "SegmentationReader.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/StructureSet.h"
@@ -1029,12 +1028,14 @@ Eigen::Vector3d beyond(const core::GridGeometry& grid, const Eigen::Vector3d& pa
 }
 
 /// Of a direction, LPS.
-std::string sideOf(const Eigen::Vector3d& direction)
+const char* sideOf(const Eigen::Vector3d& direction)
 {
   Eigen::Index axis = 0;
   direction.cwiseAbs().maxCoeff(&axis);
-  return std::string(kPatientSides[axis][direction[axis] > 0.0 ? 1 : 0]) +
-         (axis == 0 ? " of it" : " to it");
+  const bool isPositive = direction[axis] > 0.0;
+  return axis == 0   ? (isPositive ? "left of it" : "right of it")
+         : axis == 1 ? (isPositive ? "posterior to it" : "anterior to it")
+                     : (isPositive ? "superior to it" : "inferior to it");
 }
 
 /// The shortest way from the image to a contour (beyond).

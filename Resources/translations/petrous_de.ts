@@ -5747,8 +5747,8 @@ Verletzt: %1, %2</translation>
         <translation>Nur was im Quader liegt, wird gelesen: Ziehen Sie seine Kanten oder geben Sie ihn in mm an (LPS des Patienten).</translation>
     </message>
     <message>
-        <source>%1 × %2 × %3 mm: %4, of %5</source>
-        <translation>%1 × %2 × %3 mm: %4, von %5</translation>
+        <source>%1: %2, of %3</source>
+        <translation>%1: %2, von %3</translation>
     </message>
     <message>
         <source>Drag an edge of the box, or the box.  Outside it: move the crosshair.  Wheel: scroll.</source>

@@ -1,6 +1,5 @@
 #include "ArchiveDialog.h"
 
-#include <algorithm>
 #include <utility>
 
 #include <QCheckBox>
@@ -60,16 +59,16 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, const library::Library& l
   m_date->setObjectName("archiveDate");
   m_date->setToolTip(tr("The dates of the planned operation and of attachments, the times of "
                         "strokes, names and times of sign-offs"));
-  findWhatCannotBeMasked();
-  m_maskFace->setText(m_notMaskable.empty() || !m_canMask
+  const QStringList leftOut = findWhatCannotBeMasked();
+  m_maskFace->setText(leftOut.isEmpty() || !m_canMask
                           ? tr("Put air in place of the &face")
                           : tr("Put air in place of the &face, and leave out %1")
-                                .arg(m_notMaskableTexts.join(", ").replace('&', "&&")));
+                                .arg(leftOut.join(", ").replace('&', "&&")));
   m_maskFace->setObjectName("archiveMaskFace");
   m_maskFace->setToolTip(tr("In front of a plane about 50 mm behind the tip of the nose. What is "
                             "segmented or drilled and the temporal bones stay; the case here does "
                             "not change"));
-  m_maskFace->setChecked(m_faces.mayHave() && m_canMask);
+  m_maskFace->setChecked(m_canMask);
   m_report->setObjectName("archiveReport");
   m_report->setAccessibleName(tr("What the archive tells of the patient"));
   m_report->setReadOnly(true);
@@ -130,8 +129,11 @@ library::ArchiveOptions ArchiveDialog::options() const
   return options;
 }
 
-void ArchiveDialog::findWhatCannotBeMasked()
+// Returns what can be left out instead.
+QStringList ArchiveDialog::findWhatCannotBeMasked()
 {
+  QStringList leftOut;
+  m_canMask = m_faces.mayHave();
   scene::Case rest = m_value;
   for (const scene::ImageWithFace& image : m_faces.images)
   {
@@ -144,13 +146,14 @@ void ArchiveDialog::findWhatCannotBeMasked()
     {
       presenters::leaveOutMrs(rest, {image.mr});
       m_notMaskable.push_back(image.mr);
-      m_notMaskableTexts += textOf(image);
+      leftOut += textOf(image);
     }
     catch (const core::Error&) // structures were drawn on it
     {
       m_canMask = false;
     }
   }
+  return leftOut;
 }
 
 bool ArchiveDialog::masks() const
@@ -180,7 +183,7 @@ QStringList ArchiveDialog::facesLeft() const
 
 void ArchiveDialog::update()
 {
-  m_maskFace->setEnabled(m_faces.mayHave() && m_canMask && !m_plan->isChecked());
+  m_maskFace->setEnabled(m_canMask && !m_plan->isChecked());
   const QFileInfo target(m_file->text());
   QString advice;
   if (m_file->text().isEmpty() || target.isDir())
@@ -191,19 +194,18 @@ void ArchiveDialog::update()
   m_accept->setEnabled(advice.isEmpty());
   scene::Case leaving = m_value;
   presenters::leaveOutMrs(leaving, withoutMrs());
-  std::vector<scene::ImageWithFace> faces = m_faces.images;
-  if (masks())
-    faces.erase(std::remove_if(faces.begin(), faces.end(),
-                               [](const scene::ImageWithFace& image)
-                               { return !image.fault.empty(); }),
-                faces.end());
+  std::vector<scene::ImageWithFace> faces;
+  QStringList faults;
+  for (const scene::ImageWithFace& image : m_faces.images)
+    if (masks() && !image.fault.empty())
+      faults += sentence(capitalized(phrase(image.fault)));
+    else
+      faces.push_back(image);
   QString text = phrase(presenters::identityReport(leaving, options(), mask(), &m_library,
                                                    m_faces.isKnown ? &faces : nullptr)
                             .text());
-  if (masks())
-    for (const scene::ImageWithFace& image : m_faces.images)
-      if (!image.fault.empty())
-        text += '\n' + sentence(capitalized(phrase(image.fault)));
+  for (const QString& fault : faults)
+    text += '\n' + fault;
   if (!m_faces.isKnown)
     text += '\n' + textOf(m_faces);
   m_report->setPlainText(text);

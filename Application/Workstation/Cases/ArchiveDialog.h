@@ -40,7 +40,7 @@ public:
   void accept() override;
 
 private:
-  void findWhatCannotBeMasked();
+  QStringList findWhatCannotBeMasked();
   void update();
   bool masks() const;
   bool mayLeaveFaces();
@@ -48,8 +48,7 @@ private:
   const scene::Case& m_value;
   FaceCheck m_faces;
   std::vector<std::string> m_notMaskable; ///< MRs
-  QStringList m_notMaskableTexts;
-  bool m_canMask = true; ///< what cannot be masked can be left out
+  bool m_canMask = false; ///< there may be faces, and what cannot be masked can be left out
   library::Library m_library;
   PathRow* m_file;
   QCheckBox* m_plan;

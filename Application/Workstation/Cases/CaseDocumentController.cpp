@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include <QApplication>
 #include <QDir>
 #include <QFileDialog>
 #include <QMessageBox>
@@ -188,14 +187,6 @@ std::string unusedName(const std::string& wanted, const std::vector<std::string>
                                               [read = scene::asRead(name)](const auto& one)
                                               { return scene::asRead(one) == read; });
                          });
-}
-
-bool isDialogOpen()
-{
-  const QWidgetList all = QApplication::topLevelWidgets();
-  return QApplication::activePopupWidget() ||
-         std::any_of(all.begin(), all.end(),
-                     [](const QWidget* one) { return one->isModal() && one->isVisible(); });
 }
 
 // The name under which another program deleted it since it was opened or saved; empty: it did not.

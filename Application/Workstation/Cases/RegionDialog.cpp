@@ -148,11 +148,9 @@ void RegionDialog::setBox(core::PatientBox box)
   m_numbers->setBox(m_box);
   const std::size_t voxels = m_preview->voxelsIn(m_box);
   const std::size_t all = m_preview->grid.voxelCount();
-  m_size->setText(tr("%1 × %2 × %3 mm: %4, of %5")
-                      .arg(numberText(m_box.sizes()[0], 1))
-                      .arg(numberText(m_box.sizes()[1], 1))
-                      .arg(numberText(m_box.sizes()[2], 1))
-                      .arg(sizeText(voxels, voxels * m_preview->bytesPerVoxel),
+  m_size->setText(tr("%1: %2, of %3")
+                      .arg(boxSizeText(m_box.sizes()),
+                           sizeText(voxels, voxels * m_preview->bytesPerVoxel),
                            sizeText(all, all * m_preview->bytesPerVoxel)));
 }
 

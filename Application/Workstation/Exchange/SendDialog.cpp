@@ -108,14 +108,19 @@ presenters::SendParts SendDialog::parts() const
   return parts;
 }
 
+std::vector<scene::ImageWithFace> SendDialog::facesSent(const presenters::SendParts& what) const
+{
+  std::vector<scene::ImageWithFace> sent;
+  for (const scene::ImageWithFace& image : m_faces.images)
+    if (presenters::isSent(m_value, what, image.mr))
+      sent.push_back(image);
+  return sent;
+}
+
 QStringList SendDialog::facesLeft() const
 {
   const presenters::SendParts what = parts();
-  std::vector<scene::ImageWithFace> left;
-  for (const scene::ImageWithFace& image : m_faces.images)
-    if (!what.mask.face && presenters::isSent(m_value, what, image.mr))
-      left.push_back(image);
-  return warningsOf(left);
+  return what.mask.face ? QStringList() : warningsOf(facesSent(what));
 }
 
 network::Node SendDialog::node() const
@@ -134,20 +139,12 @@ void SendDialog::update()
   m_send->setEnabled(any);
   if (!any)
     return m_report->setPlainText(tr("Nothing is chosen."));
-  std::vector<scene::ImageWithFace> images;
-  QStringList faults;
-  for (const scene::ImageWithFace& image : m_faces.images)
-  {
-    if (!presenters::isSent(m_value, what, image.mr))
-      continue;
-    images.push_back(image);
-    if (what.mask.face && !image.fault.empty())
-      faults += phrase(image.fault);
-  }
+  const std::vector<scene::ImageWithFace> images = facesSent(what);
   const auto* faces = m_faces.isKnown ? &images : nullptr;
   QString text = phrase(presenters::identityReport(m_value, what, faces, &m_library).text());
-  for (const QString& fault : faults)
-    text += '\n' + fault;
+  for (const scene::ImageWithFace& image : images)
+    if (what.mask.face && !image.fault.empty())
+      text += '\n' + phrase(image.fault);
   if (!m_faces.isKnown)
     text += '\n' + textOf(m_faces);
   m_report->setPlainText(text);

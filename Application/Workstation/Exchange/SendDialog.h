@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <QDialog>
 
 #include "FaceCheck.h"
@@ -30,6 +32,8 @@ public:
 
 private:
   void update();
+  /// Images with a face among those that are sent.
+  std::vector<scene::ImageWithFace> facesSent(const presenters::SendParts& what) const;
 
   const scene::Case& m_value;
   library::Library m_library;

@@ -34,7 +34,7 @@ NearbyPanel::NearbyPanel(presenters::WorkstationModel& model, QWidget* parent)
   list->header()->setStretchLastSection(false);
   m_removed->setObjectName("removed");
   m_line->setObjectName("dim");
-  m_line->setWordWrap(true);
+  m_line->setWordWrap(true); // where it has room: the panel fits the smallest screen
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);

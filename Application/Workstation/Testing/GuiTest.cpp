@@ -153,13 +153,8 @@ void GuiTest::closeWindow()
   QObject::connect(&stop, &QTimer::timeout, &stop,
                    [this]
                    {
-                     auto* ask = m_window->findChild<QMessageBox*>("askJobs");
-                     if (!ask)
-                       return;
-                     const QList<QAbstractButton*> buttons = ask->buttons();
-                     for (QAbstractButton* button : buttons)
-                       if (ask->buttonRole(button) == QMessageBox::DestructiveRole)
-                         return button->click();
+                     if (auto* ask = m_window->findChild<QMessageBox*>("askJobs"))
+                       clickOn(*ask, QMessageBox::DestructiveRole);
                    });
   stop.start(20);
   if (m_window)
@@ -344,6 +339,16 @@ void GuiTest::onMessage(const std::function<void(QMessageBox&)>& react)
                      react(*box);
                    });
   poll->start(20);
+}
+
+void GuiTest::clickOn(QMessageBox& box, QMessageBox::ButtonRole role)
+{
+  const QList<QAbstractButton*> buttons = box.buttons();
+  for (QAbstractButton* button : buttons)
+    if (box.buttonRole(button) == role)
+      return button->click();
+  ADD_FAILURE() << "no such button in " << box.text().toStdString();
+  box.reject();
 }
 
 void GuiTest::onDialog(const std::function<bool(QDialog&)>& react)

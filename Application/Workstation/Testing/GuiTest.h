@@ -76,6 +76,7 @@ protected:
 
   /// Calls `react` with the next message box (polling), which must close it.
   void onMessage(const std::function<void(QMessageBox&)>& react);
+  static void clickOn(QMessageBox& box, QMessageBox::ButtonRole role); ///< the first one
   /// Polls `react` with the dialog that is open, until it returns true. Progress is no dialog here.
   void onDialog(const std::function<bool(QDialog&)>& react);
   static bool waitFor(const std::function<bool()>& done, int milliseconds = 60000);

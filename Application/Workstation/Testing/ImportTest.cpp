@@ -460,9 +460,7 @@ TEST_F(Import, LabelsThatLieOutsideTheCtAreToldInALine)
                     box.text().contains(QString::fromUtf8("structure of “other.seg.nrrd” lies"));
           if (!wanted)
             return box.reject();
-          for (QAbstractButton* one : box.buttons())
-            if (box.buttonRole(one) == QMessageBox::AcceptRole)
-              return one->click();
+          clickOn(box, QMessageBox::AcceptRole);
         });
     EXPECT_TRUE(waitFor([&] { return isAsked; }));
     EXPECT_TRUE(settled());

@@ -83,9 +83,7 @@ protected:
             box->reject();
             return true;
           }
-          for (QAbstractButton* button : box->buttons())
-            if (box->buttonRole(button) == QMessageBox::AcceptRole)
-              button->click();
+          clickOn(*box, QMessageBox::AcceptRole);
           return false;
         });
     return asked;

@@ -427,7 +427,6 @@ TEST_F(LibraryWindow, AnArchiveIsWrittenAsTheDialogSays)
   EXPECT_EQ(other.description("ball").date, "2026-03-31");
 }
 
-// It can be renamed and deleted, not opened.
 // By the keyboard as by the mouse, and with the very actions of the menus.
 TEST_F(LibraryWindow, ThePanelHasArchivesNodesAndVerify)
 {
@@ -475,6 +474,7 @@ TEST_F(LibraryWindow, ThePanelHasArchivesNodesAndVerify)
   EXPECT_TRUE(waitFor([more] { return !more->menu()->isVisible(); }));
 }
 
+// It can be renamed and deleted, not opened.
 TEST_F(LibraryWindow, ADamagedCaseIsListed)
 {
   saveBall("ball");

@@ -96,12 +96,6 @@ protected:
     ASSERT_TRUE(waitFor([&] { return asked; }));
     QTest::qWait(50);
   }
-  static void answer(QMessageBox& box, QMessageBox::ButtonRole role)
-  {
-    for (QAbstractButton* button : box.buttons())
-      if (box.buttonRole(button) == role)
-        return button->click();
-  }
   /// Leaves the case or the window during a run, and answers the question about it.
   void leaveBy(QMessageBox::ButtonRole role, const std::function<void()>& leave)
   {
@@ -113,7 +107,7 @@ protected:
           EXPECT_EQ(box.objectName(), "askJobs");
           EXPECT_TRUE(box.text().contains("registration of the MR")) << box.text().toStdString();
           EXPECT_TRUE(box.text().contains("T2")) << box.text().toStdString();
-          answer(box, role);
+          clickOn(box, role);
         });
     leave();
     EXPECT_EQ(asked, 1);
@@ -415,7 +409,7 @@ TEST_F(RegistrationWindow, SaysWhatItDoesWhereItCanBeSeen)
   action("Register the MR")->trigger();
   EXPECT_TRUE(find<QDockWidget>("registrationDock").isVisible());
   EXPECT_FALSE(find<QDockWidget>("registrationDock").visibleRegion().isEmpty());
-  stop([](QMessageBox& box) { answer(box, QMessageBox::RejectRole); });
+  stop([](QMessageBox& box) { clickOn(box, QMessageBox::RejectRole); });
 }
 
 TEST_F(RegistrationWindow, CancelOffersToKeepWhatWasReached)
@@ -424,7 +418,7 @@ TEST_F(RegistrationWindow, CancelOffersToKeepWhatWasReached)
   for (const bool keep : {false, true})
   {
     stop([keep](QMessageBox& box)
-         { answer(box, keep ? QMessageBox::AcceptRole : QMessageBox::RejectRole); });
+         { clickOn(box, keep ? QMessageBox::AcceptRole : QMessageBox::RejectRole); });
     EXPECT_EQ(mr().registered, keep);
     EXPECT_TRUE(find<QPushButton>("register").isEnabled());
   }
@@ -441,7 +435,7 @@ TEST_F(RegistrationWindow, WhatWasReachedCanBeKeptAlsoUnderAnotherNameButNotInAn
       [&](QMessageBox& box)
       {
         model.saveAs("left ear");
-        answer(box, QMessageBox::AcceptRole);
+        clickOn(box, QMessageBox::AcceptRole);
       });
   EXPECT_EQ(model.value().name, "left ear");
   EXPECT_TRUE(mr().registered) << "kept";
@@ -800,7 +794,7 @@ TEST_F(RegistrationWindow, NoStepMovesAnMrWhileARegistrationIsUnderWay)
       << step("Undo move").whyNot.toStdString();
   QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(place(), moved);
-  stop([](QMessageBox& box) { answer(box, QMessageBox::RejectRole); });
+  stop([](QMessageBox& box) { clickOn(box, QMessageBox::RejectRole); });
   ASSERT_FALSE(find<QPushButton>("cancelRegistration").isEnabled());
   EXPECT_EQ(place(), moved);
   ASSERT_TRUE(step("Undo move").isEnabled);
@@ -812,7 +806,7 @@ TEST_F(RegistrationWindow, NoStepMovesAnMrWhileARegistrationIsUnderWay)
   EXPECT_FALSE(step("Redo move").isEnabled);
   QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   EXPECT_LT((place() - phantom.mrFromCt().matrix()).norm(), 1e-12);
-  stop([](QMessageBox& box) { answer(box, QMessageBox::RejectRole); });
+  stop([](QMessageBox& box) { clickOn(box, QMessageBox::RejectRole); });
   EXPECT_TRUE(step("Redo move").isEnabled);
 }
 

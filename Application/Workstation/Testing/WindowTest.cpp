@@ -163,12 +163,7 @@ TEST_F(Window, AJobThatChangesTheCaseIsWaitedForStoppedOrLeftRunning)
         [role](QMessageBox& box)
         {
           EXPECT_TRUE(box.text().contains("counting")) << box.text().toStdString();
-          const QList<QAbstractButton*> buttons = box.buttons();
-          for (QAbstractButton* button : buttons)
-            if (box.buttonRole(button) == role)
-              return button->click();
-          ADD_FAILURE() << "no such button";
-          box.reject();
+          clickOn(box, role);
         });
   };
   EXPECT_TRUE(jobs.mayLeave(again)) << "nothing runs";

@@ -1,6 +1,9 @@
 #include "Application.h"
 
+#include <algorithm>
 #include <new>
+
+#include <QWidget>
 
 #include "Theme.h"
 #include "WindowTexts.h"
@@ -34,6 +37,14 @@ bool Application::notify(QObject* receiver, QEvent* event)
   bool handled = false;
   guarded([&] { handled = QApplication::notify(receiver, event); });
   return handled;
+}
+
+bool isDialogOpen()
+{
+  const QWidgetList all = QApplication::topLevelWidgets();
+  return QApplication::activePopupWidget() ||
+         std::any_of(all.begin(), all.end(),
+                     [](const QWidget* one) { return one->isModal() && one->isVisible(); });
 }
 
 void guarded(const std::function<void()>& work,

@@ -21,6 +21,9 @@ signals:
   void faulted(const QString& why); ///< queued; in order
 };
 
+/// A modal one, or a menu: what changes the case waits for its end.
+bool isDialogOpen();
+
 /// An exception as text; its type is logged. Messages of other libraries may contain patient data;
 /// they are left out.
 QString toString(const std::exception& error);

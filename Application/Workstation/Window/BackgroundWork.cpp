@@ -157,16 +157,14 @@ void BackgroundWork::notify(const std::shared_ptr<Latest>& latest, double fracti
 
 QString BackgroundWork::timeLeft()
 {
-  const std::string text = presenters::timeLeftText(m_timeLeft.shown(m_clock()));
-  return text.empty() ? QString() : phrase(text);
+  return phrase(presenters::timeLeftText(m_timeLeft.shown(m_clock())));
 }
 
 void BackgroundWork::refresh()
 {
   const QString left = timeLeft();
-  if (left == std::exchange(m_left, left) || m_isAbandoned)
-    return;
-  emit progressed(m_reached, m_step, m_left);
+  if (left != std::exchange(m_left, left))
+    emit progressed(m_reached, m_step, m_left);
 }
 
 void BackgroundWork::run(const Work& work, const std::shared_ptr<Latest>& latest)

@@ -3,10 +3,11 @@
 #include <utility>
 
 #include <QAbstractButton>
-#include <QApplication>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QScopedValueRollback>
+
+#include "Application.h"
 
 namespace petrous::workstation
 {
@@ -78,8 +79,7 @@ bool CaseJobs::mayLeave(const std::function<void()>& again)
 
 void CaseJobs::lookAgain()
 {
-  if (QApplication::activeModalWidget() || QApplication::activePopupWidget() ||
-      !running().isEmpty())
+  if (isDialogOpen() || !running().isEmpty())
     return;
   m_look.stop();
   if (const auto again = std::exchange(m_again, {}))

@@ -120,7 +120,15 @@ std::vector<scene::ImageWithFace> SendDialog::facesSent(const presenters::SendPa
 QStringList SendDialog::facesLeft() const
 {
   const presenters::SendParts what = parts();
-  return what.mask.face ? QStringList() : warningsOf(facesSent(what));
+  if (what.mask.face)
+    return {};
+  if (m_faces.isKnown)
+    return warningsOf(facesSent(what));
+  const bool sendsImages = presenters::isSent(m_value, what, "") ||
+                           std::any_of(m_value.mr.begin(), m_value.mr.end(),
+                                       [&](const scene::ImagePart& mr)
+                                       { return presenters::isSent(m_value, what, mr.name); });
+  return sendsImages ? QStringList{textOf(m_faces)} : QStringList();
 }
 
 network::Node SendDialog::node() const

@@ -564,6 +564,15 @@ TEST_F(Exchange, FaultsAreToldOfImagesThatAreSentAlone)
   EXPECT_TRUE(dialog.facesLeft().isEmpty()) << "masked";
   tick("sendMaskFace", false);
   EXPECT_TRUE(dialog.facesLeft().join(' ').contains("face was left in the CT:"));
+
+  FaceCheck unknown;
+  unknown.isKnown = false;
+  SendDialog blind(value, library(), unknown, {node});
+  blind.findChild<QCheckBox*>("sendMaskFace")->setChecked(false);
+  EXPECT_TRUE(blind.facesLeft().join(' ').contains("is not known"));
+  for (const char* image : {"sendCt", "sendMr", "sendScene"})
+    blind.findChild<QCheckBox*>(image)->setChecked(false);
+  EXPECT_TRUE(blind.facesLeft().isEmpty()) << "no image leaves";
 }
 
 // The dialog has a case of its own.

@@ -16,6 +16,7 @@
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Dissection/Catalogues.h"
 #include "petrous/Presenters/AppearanceEditor.h"
+#include "petrous/Presenters/Background.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Scene/Case.h"
@@ -371,10 +372,11 @@ std::array<float, 3> parseColor(const StructureProperty& property, const std::st
   std::array<float, 3> color{};
   if (!text.empty() && text.front() == '#')
   {
-    if (text.size() != 7 || text.find_first_not_of("0123456789abcdefABCDEF", 1) != text.npos)
+    const auto given = presenters::parseHexColor(text);
+    if (!given)
       throw UsageError("--color: '" + text + "' is not #rrggbb");
-    for (std::size_t c = 0; c < 3; ++c)
-      color[c] = static_cast<float>(std::stoi(text.substr(1 + 2 * c, 2), nullptr, 16)) / 255.0F;
+    std::transform(given->begin(), given->end(), color.begin(),
+                   [](double value) { return static_cast<float>(value); });
     return color;
   }
   const auto numbers = parseNumbers(text, 3, "--color PART=r,g,b");

@@ -131,16 +131,8 @@ void run(const Context& context, const Options& options)
   const bool isChanged = value.description != before;
   if (isChanged)
     library.save(value);
-  if (options.thumbnail)
-  {
-    library.loadDissection(value);
-    const auto png = presenters::thumbnailOf(value, context.progress());
-    context.refuseDamaged();
-    if (png.empty())
-      context.warn("no thumbnail was made: it would show neither bone nor a structure");
-    else
-      library.setThumbnail(value.name, png);
-  }
+  if (options.thumbnail && !presenters::storeThumbnail(library, value, context.progress()))
+    context.warn("no thumbnail was made: it would show neither bone nor a structure");
 
   if (const std::string doubt = presenters::sideDoubt(value);
       !options.side.empty() && !doubt.empty())

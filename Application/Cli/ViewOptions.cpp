@@ -214,19 +214,21 @@ void addLightOptions(CLI::App& command, LightOptions& options, const std::string
 
 void addBackgroundOption(CLI::App& command, rendering::BackgroundColor& color)
 {
+  std::string choices;
+  for (const presenters::NamedBackground& one : presenters::kBackgrounds)
+    choices += (choices.empty() ? "" : ", ") + std::string(one.name);
+  choices += " or #rrggbb";
   command
       .add_option_function<std::string>(
           "--background",
           [&color](const std::string& text) { color = *presenters::parseBackground(text); },
-          "Background of the 3D picture: black, dark-grey, light-grey, white or #rrggbb "
-          "(dark-grey)")
+          "Background of the 3D picture: " + choices + " (" + presenters::backgroundText(color) +
+              ")")
       ->type_name("COLOR")
       ->check(CLI::Validator(
-          [](std::string& text)
-          {
-            return presenters::parseBackground(text)
-                       ? std::string()
-                       : "black, dark-grey, light-grey, white or #rrggbb, not '" + text + "'";
+          [choices](std::string& text) {
+            return presenters::parseBackground(text) ? std::string()
+                                                     : choices + ", not '" + text + "'";
           },
           ""));
 }

@@ -924,8 +924,12 @@
         <translation>Bleibt hier</translation>
     </message>
     <message>
-        <source>the image holds a whole head, and its face was left: who sees it can recognise the patient. Mask it (--mask-face; in the window: put air in place of the face), or hand on the region of the ear alone (--roi; in the window: File &gt; Open a region)</source>
-        <translation>das Bild enthält einen ganzen Kopf, und sein Gesicht blieb: Wer es sieht, kann den Patienten erkennen. Maskieren Sie es (--mask-face; im Fenster: Luft an die Stelle des Gesichts setzen), oder geben Sie allein die Region des Ohrs weiter (--roi; im Fenster: Datei &gt; Ausschnitt öffnen)</translation>
+        <source>%~1: who sees it can recognise the patient. Mask it (--mask-face; in the window: put air in place of the face), or hand on the region of the ear alone (--roi; in the window: File &gt; Open a region)</source>
+        <translation>%~1: Wer es sieht, kann den Patienten erkennen. Maskieren Sie es (--mask-face; im Fenster: Luft an die Stelle des Gesichts setzen), oder geben Sie allein die Region des Ohrs weiter (--roi; im Fenster: Datei &gt; Ausschnitt öffnen)</translation>
+    </message>
+    <message>
+        <source>the image holds a whole head, and its face was left</source>
+        <translation>das Bild enthält einen ganzen Kopf, und sein Gesicht blieb</translation>
     </message>
     <message>
         <source>%~1: %#2 of %#3 may be a patient's name, number or date; change what is one before you send</source>
@@ -944,8 +948,8 @@
         <translation>die Pixel von %~1 können Text enthalten, der den Patienten nennt: sehen Sie nach</translation>
     </message>
     <message>
-        <source>the face was left in %~1: who sees it can recognise the patient. Mask it (--mask-face; in the window: put air in place of the face), or hand on the region of the ear alone (--roi; in the window: File &gt; Open a region)</source>
-        <translation>das Gesicht blieb in %~1: Wer es sieht, kann den Patienten erkennen. Maskieren Sie es (--mask-face; im Fenster: Luft an die Stelle des Gesichts setzen), oder geben Sie allein die Region des Ohrs weiter (--roi; im Fenster: Datei &gt; Ausschnitt öffnen)</translation>
+        <source>the face was left in %~1</source>
+        <translation>das Gesicht blieb in %~1</translation>
     </message>
     <message>
         <source>the face was left in %~1: who sees it can recognise the patient, and it cannot be masked</source>

@@ -154,7 +154,8 @@ json presetJson(const StructureAppearance& preset)
 
 StructurePresets StructurePresets::builtIn()
 {
-  return StructurePresets(kStructures);
+  static const StructurePresets kBuiltIn(kStructures); // long, and asked for again and again
+  return kBuiltIn;
 }
 
 StructurePresets::StructurePresets(std::string_view text)

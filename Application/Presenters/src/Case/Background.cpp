@@ -16,36 +16,25 @@ double luminanceOf(const rendering::BackgroundColor& color)
   return 0.2126 * linear(color[0]) + 0.7152 * linear(color[1]) + 0.0722 * linear(color[2]);
 }
 
-int digitOf(char letter)
-{
-  if (letter >= '0' && letter <= '9')
-    return letter - '0';
-  if (letter >= 'a' && letter <= 'f')
-    return letter - 'a' + 10;
-  if (letter >= 'A' && letter <= 'F')
-    return letter - 'A' + 10;
-  return -1;
-}
-
 } // namespace
+
+std::optional<std::array<double, 3>> parseHexColor(const std::string& text)
+{
+  if (text.size() != 7 || text.front() != '#' ||
+      text.find_first_not_of("0123456789abcdefABCDEF", 1) != text.npos)
+    return std::nullopt;
+  std::array<double, 3> color{};
+  for (std::size_t c = 0; c < 3; ++c)
+    color[c] = std::stoi(text.substr(1 + 2 * c, 2), nullptr, 16) / 255.0;
+  return color;
+}
 
 std::optional<rendering::BackgroundColor> parseBackground(const std::string& text)
 {
   for (const NamedBackground& one : kBackgrounds)
     if (text == one.name)
       return one.color;
-  if (text.size() != 7 || text.front() != '#')
-    return std::nullopt;
-  rendering::BackgroundColor color{};
-  for (std::size_t c = 0; c < 3; ++c)
-  {
-    const int high = digitOf(text[2 * c + 1]);
-    const int low = digitOf(text[2 * c + 2]);
-    if (high < 0 || low < 0)
-      return std::nullopt;
-    color[c] = (16 * high + low) / 255.0;
-  }
-  return color;
+  return parseHexColor(text);
 }
 
 std::string backgroundText(const rendering::BackgroundColor& color)

@@ -53,7 +53,7 @@ namespace
 
 constexpr std::array<float, 3> kMrColor{0.80F, 0.80F, 0.80F}; // of its surface, which is not bone
 
-/// The catalogue, which is long: names are looked up in it one by one.
+// The catalogue, which is long: names are looked up in it one by one.
 const appearance::StructurePresets& builtInPresets()
 {
   static const auto kPresets = appearance::StructurePresets::builtIn();
@@ -688,8 +688,7 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const ReadImage& r
       ", by the image's histogram; 'petrous appearance --iso' moves the surface." +
       (mayBePart(histogram) && !read.whole
            ? " Of a small part of a CT this may be wrong: where its values are Hounsfield units "
-             "all "
-             "the same, bone begins at 300 ('petrous appearance --iso 300')."
+             "all the same, bone begins at 300 ('petrous appearance --iso 300')."
            : ""));
 }
 
@@ -1131,8 +1130,8 @@ FolderNames namesWithoutPatient(const std::vector<std::string>& names, const Ide
       const bool isKnown = !known.empty() && unknown <= 1; // "C7"
       const bool isKept =
           isKnown || (files >= kTelling && 2 * counts[word] <= files && !mayIdentify);
-      if (isKept || !known.empty())
-        kept += (kept.empty() ? "" : "_") + (isKept ? word : known);
+      if (const std::string& part = isKept ? word : known; !part.empty())
+        kept += (kept.empty() ? "" : "_") + part;
       if (!isKept)
       {
         isWhole = false;
@@ -1896,13 +1895,13 @@ void keepIdentity(scene::StructurePart& structure, const scene::StructurePart& r
 
 bool keepsLook(const std::string& name, const std::string& preset)
 {
-  const std::string byName = appearance::StructurePresets::builtIn().lookFor(name).preset;
+  const std::string byName = builtInPresets().lookFor(name).preset;
   return byName == "other" || byName == preset;
 }
 
 void addStructures(scene::Case& value, volume::LabelMap labels)
 {
-  const auto presets = appearance::StructurePresets::builtIn();
+  const auto& presets = builtInPresets();
   scene::LabelPart part;
   appearance::DistinctColors colors(colorsOf(value));
   for (const volume::Segment& segment : labels.segments)

@@ -694,10 +694,18 @@ bool showsHead(const core::GridGeometry& grid, const scene::ImageMask& mask)
   return size[1] >= kHead && size[0] >= kHeight;
 }
 
-constexpr const char* kHeadText =
-    "the image holds a whole head, and its face was left: who sees it can recognise the patient. "
-    "Mask it (--mask-face; in the window: put air in place of the face), or hand on the region of "
-    "the ear alone (--roi; in the window: File > Open a region)";
+// `what`: that a face was left, and where.
+std::string faceText(const std::string& what)
+{
+  return what + ": who sees it can recognise the patient. Mask it (--mask-face; in the window: put "
+                "air in place of the face), or hand on the region of the ear alone (--roi; in the "
+                "window: File > Open a region)";
+}
+
+std::string headText()
+{
+  return faceText("the image holds a whole head, and its face was left");
+}
 
 bool anyShowsHead(const std::vector<scene::ImagePart>& images, const scene::ImageMask& mask)
 {
@@ -808,10 +816,7 @@ std::vector<std::string> faceWarnings(const std::vector<scene::ImageWithFace>& l
                       [](const scene::ImageWithFace& image) { return image.fault.empty(); });
   std::vector<std::string> warnings;
   if (!maskable.empty())
-    warnings.push_back("the face was left in " + joined(textsOf(maskable)) +
-                       ": who sees it can recognise the patient. Mask it (--mask-face; in the "
-                       "window: put air in place of the face), or hand on the region of the ear "
-                       "alone (--roi; in the window: File > Open a region)");
+    warnings.push_back(faceText("the face was left in " + joined(textsOf(maskable))));
   if (!others.empty())
     warnings.push_back("the face was left in " + joined(textsOf(others)) +
                        ": who sees it can recognise the patient, and it cannot be masked");
@@ -1017,7 +1022,7 @@ IdentityReport reportOf(scene::Case value, const SendParts& parts,
   else if ((images && showsHead(value.ct.geometry, parts.mask)) ||
            ((parts.mr || whole) && anyShowsHead(value.mr, parts.mask)))
     (parts.mask.face ? report.stays : report.warnings)
-        .emplace_back(parts.mask.face ? "the face, which is masked where one is found" : kHeadText);
+        .push_back(parts.mask.face ? "the face, which is masked where one is found" : headText());
   if (planOnly)
     report.stays.push_back("images, structures and meshes: the plan is restored where the very "
                            "same CT is");
@@ -1077,7 +1082,7 @@ std::vector<std::string> identityWarnings(const scene::Case& value, const Export
   if (!options.mask.face && (isMr ? anyShowsHead(value.mr, options.mask)
                                   : (what == "ct" || what == "dissected" || what == "surface") &&
                                         showsHead(value.ct.geometry, options.mask)))
-    warnings.emplace_back(kHeadText);
+    warnings.push_back(headText());
   warnOfText(value, what == "ct" || what == "dissected", isMr, warnings);
   std::vector<std::string> names;
   if (what == "labels" || what == "structure")

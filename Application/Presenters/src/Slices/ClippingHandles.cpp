@@ -9,13 +9,11 @@ using Clipping = scene::ViewState::Clipping;
 
 std::string clippingChange(const Clipping& before, const Clipping& after)
 {
-  Clipping planesOfBefore = after;
-  planesOfBefore.planes = before.planes;
-  const bool isSameBox = before.crop == after.crop;
-  std::string what = isSameBox ? "clipping plane" : "crop box";
-  if (!isSameBox && !(planesOfBefore == after))
-    what = "what is cut away";
-  return what;
+  if (before.crop == after.crop)
+    return "clipping plane";
+  Clipping otherBox = before;
+  otherBox.crop = after.crop;
+  return otherBox == after ? "crop box" : "what is cut away";
 }
 
 Clipping::Plane movedPlane(const Clipping::Plane& plane, double step,

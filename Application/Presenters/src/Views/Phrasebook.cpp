@@ -378,8 +378,7 @@ namespace
 
 bool isOfWord(char c) noexcept
 {
-  return isDecimalDigit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
-         c == '/' || c == '\\';
+  return isDecimalDigit(c) || isLatinLetter(c) || c == '_' || c == '/' || c == '\\';
 }
 
 /// Whether the text's digits and points from `begin` to `end` are a number of their own, not part
@@ -399,14 +398,14 @@ bool isDecimal(std::string_view text, std::size_t begin, std::size_t end) noexce
 bool isVersionBehind(std::string_view text, std::size_t at) noexcept
 {
   constexpr std::string_view kNames[] = {"TLS", "OpenGL", "GLSL", "Version", "version"};
-  return std::any_of(std::begin(kNames), std::end(kNames),
-                     [before = text.substr(0, at)](std::string_view name)
-                     {
-                       const std::size_t all = name.size() + 1;
-                       return before.size() >= all && before.back() == ' ' &&
-                              before.substr(before.size() - all, name.size()) == name &&
-                              (before.size() == all || !isOfWord(before[before.size() - all - 1]));
-                     });
+  if (at == 0 || text[at - 1] != ' ')
+    return false;
+  const std::size_t end = at - 1;
+  std::size_t begin = end;
+  while (begin > 0 && isOfWord(text[begin - 1]))
+    --begin;
+  const std::string_view word = text.substr(begin, end - begin);
+  return std::find(std::begin(kNames), std::end(kNames), word) != std::end(kNames);
 }
 
 /// The end of the path that begins there, which may hold blanks: before the next ": ", or of the
@@ -414,12 +413,14 @@ bool isVersionBehind(std::string_view text, std::size_t at) noexcept
 std::size_t pathEnd(std::string_view text, std::size_t at) noexcept
 {
   const std::string_view rest = text.substr(at);
-  const std::size_t end = std::min(rest.find(": "), rest.size());
   const bool begins = at == 0 || text[at - 1] == ' ' || text[at - 1] == '(';
   const bool isAbsolute = begins && rest.size() > 1 && rest[0] == '/' && rest[1] != ' ';
-  const bool isRelative = at == 0 && end < rest.size() &&
-                          rest.substr(0, end).find('/') != std::string_view::npos &&
-                          rest.substr(0, end).find(" / ") == std::string_view::npos;
+  if (!isAbsolute && at > 0)
+    return at;
+  const std::size_t end = std::min(rest.find(": "), rest.size());
+  const std::string_view path = rest.substr(0, end);
+  const bool isRelative = end < rest.size() && path.find('/') != std::string_view::npos &&
+                          path.find(" / ") == std::string_view::npos;
   return isAbsolute || isRelative ? at + end : at;
 }
 

@@ -22,6 +22,9 @@ inline constexpr std::array<NamedBackground, 4> kBackgrounds{
      {"light-grey", {0.82, 0.84, 0.86}},
      {"white", {1.0, 1.0, 1.0}}}};
 
+/// Red, green and blue of "#rrggbb", 0 to 1; nullopt: it is none.
+std::optional<std::array<double, 3>> parseHexColor(const std::string& text);
+
 /// The colour of a name of kBackgrounds, or of "#rrggbb"; nullopt: of neither.
 std::optional<rendering::BackgroundColor> parseBackground(const std::string& text);
 

@@ -116,6 +116,16 @@ TEST_F(SegmentCommand, ProposesTheRangeAroundTheSeed)
   EXPECT_NEAR(made["volume_mm3"].get<double>(), ball, 0.35 * ball);
 }
 
+TEST_F(SegmentCommand, SaysThatASeedLiesOnABorderAndKeepsThat)
+{
+  // The ball's last voxel along x, and bone behind it.
+  const auto made = json("segment ear ball --threshold auto --seed 24.9,22.2,13.5");
+  ASSERT_FALSE(made["warnings"].empty());
+  EXPECT_NE(made["warnings"][0].get<std::string>().find("lies on a border of tissues"),
+            std::string::npos);
+  EXPECT_TRUE(json("segment ear inside --threshold auto --seed 22,22,13.35")["warnings"].empty());
+}
+
 TEST_F(SegmentCommand, ProposesTheBrightestRegionOfAnMr)
 {
   EXPECT_EQ(run("segment ear lesion --threshold auto --seed auto").code, 2) << "a CT";

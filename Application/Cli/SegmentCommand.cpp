@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <optional>
 
 #include "CaseJson.h"
@@ -7,6 +8,7 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/MrOnCt.h"
+#include "petrous/Presenters/RegionText.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Segmentation/MaskOperations.h"
 #include "petrous/Segmentation/TubeTrace.h"
@@ -59,6 +61,7 @@ struct Made
   segmentation::Mask mask;
   nlohmann::json facts = nlohmann::json::object();
   std::vector<std::string> lines, warnings;
+  std::vector<std::string> notes = {}; ///< of the warnings those that are kept, as sentences
   scene::TracedTubes tubes = {};
 };
 
@@ -131,6 +134,19 @@ Made region(const SegmentOptions& options, const scene::Case& value, const scene
                                  core::plainText(range.max) + unit + "; the image has " +
                                  fixed(all.min, 1) + " to " + fixed(all.max, 1) + unit);
   }
+  if (!seeds.empty())
+  {
+    const std::string seed = presenters::seedText(image, seeds.front(), unit);
+    if (options.threshold == kAutomatic && !proposed && !seed.empty())
+      made.notes.push_back(seed);
+    const bool isHounsfield = options.source == "ct" && presenters::displayOf(value).hounsfield;
+    for (std::string& text : presenters::regionTexts(
+             made.mask, range, unit, isHounsfield ? std::optional(value.iso) : std::nullopt))
+      made.notes.push_back(std::move(text));
+  }
+  for (const std::string& note : made.notes)
+    made.warnings.push_back(static_cast<char>(std::tolower(note.front())) +
+                            note.substr(1, note.size() - 2));
   made.facts["threshold"] = {range.min, range.max};
   made.lines.push_back(
       "  between " + core::plainText(range.min) + " and " + core::plainText(range.max) +
@@ -261,6 +277,7 @@ void segment(Context& context, const SegmentOptions& options)
                                  "'; use a smaller --min-volume or --margin");
 
   presenters::addStructures(value, segmentation::labelMapOf(mask, {options.name, 1, {}, 0}));
+  presenters::addDoubts(value.labels.back(), options.name, made.notes);
   if (replaced)
     presenters::keepIdentity(*scene::findStructure(value, options.name), *replaced);
   scene::findStructure(value, options.name)->tubes = made.tubes;

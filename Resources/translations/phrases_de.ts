@@ -2624,6 +2624,26 @@
         <translation>Lösen der Registrierung von %1</translation>
     </message>
     <message>
+        <source>The seed at %1 lies on a border of tissues of about %2 and %~3, and a range around it may be neither's; set it inside the structure.</source>
+        <translation>Der Startpunkt bei %1 liegt auf einer Grenze von Geweben von etwa %2 und %~3, und ein Bereich um ihn ist vielleicht der von keinem; setzen Sie ihn in die Struktur.</translation>
+    </message>
+    <message>
+        <source>The seed at %1 lies on a border of tissues of about %2 and %~3, and a range around it may be neither's; %~4 lies inside.</source>
+        <translation>Der Startpunkt bei %1 liegt auf einer Grenze von Geweben von etwa %2 und %~3, und ein Bereich um ihn ist vielleicht der von keinem; %~4 liegt innen.</translation>
+    </message>
+    <message>
+        <source>The range of %#1 to %~2 reaches from air to bone: it is that of no tissue.</source>
+        <translation>Der Bereich von %#1 bis %~2 reicht von Luft bis Knochen: Er ist der keines Gewebes.</translation>
+    </message>
+    <message>
+        <source>The region has %#1 cm³, and hardly a structure of the skull base more than %#2 cm³: it may have run into what surrounds it.</source>
+        <translation>Die Region hat %#1 cm³, und kaum eine Struktur der Schädelbasis mehr als %#2 cm³: Sie ist vielleicht in ihre Umgebung gelaufen.</translation>
+    </message>
+    <message>
+        <source>The region reaches %#1 of the 6 faces of the image: it may have run into what surrounds it.</source>
+        <translation>Die Region reicht an %#1 der 6 Seiten des Bildes: Sie ist vielleicht in ihre Umgebung gelaufen.</translation>
+    </message>
+    <message>
         <source>Nothing was done: the slices do not show the image that this tool reads.</source>
         <translation>Nichts geschah: Die Schichten zeigen das Bild nicht, das dieses Werkzeug liest.</translation>
     </message>

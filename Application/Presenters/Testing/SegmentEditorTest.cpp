@@ -249,6 +249,29 @@ TEST_F(SegmentEditorTest, OnlyWhatHangsTogetherWithTheClickedPointCounts)
   EXPECT_EQ(editor.voxels(), count(inBall));
 }
 
+TEST_F(SegmentEditorTest, AClickOnABorderIsDoubtedAndTheDoubtIsKept)
+{
+  open();
+  editor.setTool(Tool::Threshold);
+  work();
+  editor.proposeRange();
+  work();
+  editor.press(kBall + Vector3d(-4.5, 0, 0),
+               SliceOrientation::Coronal); // the voxel beside the ball
+  editor.release();
+  work();
+  EXPECT_NE(editor.warning().find("lies on a border of tissues"), std::string::npos)
+      << editor.warning();
+  editor.setName("ramp");
+  editor.create();
+  work();
+  const scene::Case& value = model.value();
+  ASSERT_EQ(value.labels.size(), 1U);
+  const auto& notes = value.labels.back().notes;
+  ASSERT_FALSE(notes.empty());
+  EXPECT_NE(notes.front().find("'ramp': The seed at"), std::string::npos) << notes.front();
+}
+
 TEST_F(SegmentEditorTest, AClickOutsideProposedLimitsSetsThemAroundIt)
 {
   open();
@@ -263,7 +286,8 @@ TEST_F(SegmentEditorTest, AClickOutsideProposedLimitsSetsThemAroundIt)
   editor.press(dark, SliceOrientation::Coronal);
   editor.release();
   work();
-  EXPECT_EQ(editor.warning(), "");
+  EXPECT_NE(editor.warning().find("of the 6 faces of the image"), std::string::npos)
+      << "a slab of the ramp: " << editor.warning();
   EXPECT_LT(editor.values().lower, 100.0 * (dark.x() + 3.0));
   EXPECT_GT(editor.values().upper, 100.0 * (dark.x() + 3.0));
   EXPECT_LT(editor.values().upper, 2000.0);

@@ -7,6 +7,7 @@
 #include "Notify.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseNaming.h"
+#include "petrous/Presenters/RegionText.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
@@ -593,10 +594,10 @@ void WorkstationModel::labelsChanged()
   partsMoved();
 }
 
-std::optional<scene::LabelPart> WorkstationModel::addStructure(volume::LabelMap labels,
-                                                               const std::string& replaced,
-                                                               const scene::MrReadings& readings,
-                                                               const scene::TracedTubes& tubes)
+std::optional<scene::LabelPart>
+WorkstationModel::addStructure(volume::LabelMap labels, const std::string& replaced,
+                               const scene::MrReadings& readings, const scene::TracedTubes& tubes,
+                               const std::vector<std::string>& doubts)
 {
   if (!m_case)
     return std::nullopt;
@@ -617,6 +618,7 @@ std::optional<scene::LabelPart> WorkstationModel::addStructure(volume::LabelMap 
   {
     structure.readings = readings;
     structure.tubes = tubes;
+    addDoubts(m_case->labels.back(), structure.name, doubts);
   }
   if (taken)
   {

@@ -11,6 +11,7 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/MrOnCt.h"
+#include "petrous/Presenters/RegionText.h"
 #include "petrous/Rendering/SurfaceExtraction.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
@@ -29,6 +30,7 @@ using segmentation::Mask;
 using segmentation::Tube;
 using Image = std::shared_ptr<const volume::IntensityVolume>;
 using Combine = SegmentValues::Combine;
+using Sentences = std::vector<std::string>;
 
 constexpr std::size_t kLeastTubePoints = 2;
 constexpr char kNotShown[] = "Nothing was done: the slices do not show the image that this tool "
@@ -280,7 +282,8 @@ struct SegmentEditor::Preview
   std::optional<Eigen::Vector3d> seed;     ///< of the region that is proposed
   Image image;                             ///< the source on the CT's grid, if it was made
   std::string note, warning;
-  std::optional<Pieces> pieces; ///< of the result; one: none
+  std::vector<std::string> doubts; ///< what makes a grown region doubtful, sentences
+  std::optional<Pieces> pieces;    ///< of the result; one: none
 };
 
 /// Everything that a draft consists of.
@@ -301,11 +304,12 @@ struct SegmentEditor::Draft
     std::optional<std::pair<Points, Points>> seeds;                          ///< before and after
     std::optional<std::pair<scene::MrReadings, scene::MrReadings>> readings; ///< before and after
     std::optional<std::pair<scene::TracedTubes, scene::TracedTubes>> tubes;  ///< before and after
+    std::optional<std::pair<Sentences, Sentences>> doubts;                   ///< before and after
   };
 
   // `afresh`: the step makes all voxels anew.
   void read(Step& step, const scene::MrReadings& read, bool afresh,
-            const scene::TracedTubes& traced = {})
+            const scene::TracedTubes& traced = {}, const Sentences& doubted = {})
   {
     if (!step.mask)
       return;
@@ -322,6 +326,15 @@ struct SegmentEditor::Draft
     {
       step.tubes = {tubes, all};
       tubes = all;
+    }
+    Sentences doubtful = afresh ? Sentences() : doubts;
+    for (const std::string& text : doubted)
+      if (std::find(doubtful.begin(), doubtful.end(), text) == doubtful.end())
+        doubtful.push_back(text);
+    if (doubtful != doubts)
+    {
+      step.doubts = {doubts, doubtful};
+      doubts = std::move(doubtful);
     }
   }
 
@@ -347,6 +360,7 @@ struct SegmentEditor::Draft
   Points points;                                                 ///< of the nerve
   scene::MrReadings readings;                                    ///< of the voxels
   scene::TracedTubes tubes;                                      ///< among the voxels
+  Sentences doubts;                                              ///< of regions among them
   std::vector<Step> undo, redo;
   std::uint64_t changes = 0;                              ///< steps ever made
   std::optional<std::pair<Pieces, std::uint64_t>> pieces; ///< and `changes` by then
@@ -1279,14 +1293,24 @@ SegmentEditor::Computed SegmentEditor::computed() const
         range = segmentation::proposedRange(volume::IntensityHistogram(*image.own), iso);
       preview.range = range;
       if (values.connected && seeds.empty())
+      {
         preview.note = "Click a point of the structure in a slice.";
-      else
-        preview.result =
-            united(base,
-                   values.connected
-                       ? segmentation::connectedThreshold(*preview.image, range, seeds, rest, unit)
-                       : segmentation::threshold(*preview.image, range, rest),
-                   values.combine);
+        return preview;
+      }
+      const Mask grown =
+          isClicked ? segmentation::connectedThreshold(*preview.image, range, seeds, rest, unit)
+                    : segmentation::threshold(*preview.image, range, rest);
+      if (isClicked)
+      {
+        const std::string seed = isOwn ? "" : seedText(*preview.image, seeds.back(), unit);
+        if (!seed.empty())
+          preview.doubts.push_back(seed);
+        for (std::string& text : regionTexts(grown, range, unit, unit.empty() ? std::nullopt : iso))
+          preview.doubts.push_back(std::move(text));
+        for (const std::string& text : preview.doubts)
+          preview.warning += (preview.warning.empty() ? "" : " ") + text;
+      }
+      preview.result = united(base, grown, values.combine);
       return preview;
     };
   case Tool::Nerve:
@@ -1518,12 +1542,13 @@ SegmentEditor::Work SegmentEditor::replacing(const char* what,
       box = draft->mask.replace(*preview->result);
       changed = draft->mask.endStep();
       draft->pending = [draft = draft.get(), changed, endsTool, what, reads,
-                        pieces = preview->pieces, traced = preview->traced]
+                        pieces = preview->pieces, traced = preview->traced,
+                        doubts = preview->doubts]
       {
         Draft::Step step;
         step.what = what;
         step.mask = changed;
-        draft->read(step, reads.readings, reads.afresh, traced);
+        draft->read(step, reads.readings, reads.afresh, traced, doubts);
         if (endsTool)
         {
           if (!draft->seeds.empty())
@@ -1809,6 +1834,8 @@ std::function<void()> SegmentEditor::step(Draft& draft, bool back)
       draft->readings = back ? step.readings->first : step.readings->second;
     if (step.tubes)
       draft->tubes = back ? step.tubes->first : step.tubes->second;
+    if (step.doubts)
+      draft->doubts = back ? step.doubts->first : step.doubts->second;
     if (step.points)
       draft->points = back ? step.points->first : step.points->second;
     if (step.seeds)
@@ -1873,13 +1900,14 @@ SegmentEditor::Work SegmentEditor::createWork()
     throw core::InvalidParameter(why);
   const std::optional<Mask> preview = m_preview ? m_preview->result : std::nullopt;
   const scene::TracedTubes traced = m_preview ? m_preview->traced : scene::TracedTubes();
+  const Sentences doubts = m_preview ? m_preview->doubts : Sentences();
   beginStep();
   volume::Segment segment;
   segment.name = m_draft->name;
   segment.index = 1;
   touched();
   return [this, draft = m_draft, mask = *m_frozen->result, preview = preview.has_value(), segment,
-          what = nameOf(m_tool), traced,
+          what = nameOf(m_tool), traced, doubts,
           reads = preview ? readsOfTool() : Reads()](const core::Progress& progress) -> Apply
   {
     progress.report(0.0, "making the structure");
@@ -1890,12 +1918,12 @@ SegmentEditor::Work SegmentEditor::createWork()
       draft->mask.beginStep();
       draft->mask.replace(mask);
       const bool changed = draft->mask.endStep();
-      draft->pending = [draft = draft.get(), changed, what, reads, traced]
+      draft->pending = [draft = draft.get(), changed, what, reads, traced, doubts]
       {
         Draft::Step step;
         step.what = what;
         step.mask = changed;
-        draft->read(step, reads.readings, reads.afresh, traced);
+        draft->read(step, reads.readings, reads.afresh, traced, doubts);
         draft->did(std::move(step));
       };
     }
@@ -1909,7 +1937,7 @@ SegmentEditor::Work SegmentEditor::createWork()
       try
       {
         replaced = m_model.addStructure(std::move(*labels), draft->edited, readingsOfDraft(),
-                                        draft->tubes);
+                                        draft->tubes, draft->doubts);
       }
       catch (const core::InvalidParameter& error) // its name has been taken meanwhile
       {

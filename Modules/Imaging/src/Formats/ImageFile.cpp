@@ -249,8 +249,6 @@ ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t sli
   source.forEachSlice(
       [&](int k, const void* values)
       {
-        if (k % step != 0)
-          return true;
         const char* from = static_cast<const char*>(values);
         char* to = buffer->data() + kept * static_cast<std::size_t>(k / step);
         if (plane == 1)
@@ -266,7 +264,7 @@ ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t sli
         progress.report(static_cast<double>(k) / whole[2], "reading image");
         return true;
       },
-      progress);
+      progress, step);
   const std::shared_ptr<void> raw(buffer, buffer->data());
   double rounding = 0.0;
   Voxels voxels = visitComponent(

@@ -571,7 +571,7 @@ std::shared_ptr<void> VoxelSource::read(const core::IndexBox& box,
 }
 
 void VoxelSource::forEachSlice(const std::function<bool(int k, const void* values)>& visit,
-                               const core::Progress& progress) const
+                               const core::Progress& progress, int step) const
 {
   const core::Index3& dims = m_geometry->dims();
   const std::size_t numberBytes = visitComponent(m_stored, [](auto type) { return sizeof type; });
@@ -581,7 +581,7 @@ void VoxelSource::forEachSlice(const std::function<bool(int k, const void* value
   {
     const auto all = read(m_geometry->fullBox(), progress);
     const std::size_t bytes = count * (rescaled() ? sizeof(float) : numberBytes);
-    for (int k = 0; k < dims[2]; ++k)
+    for (int k = 0; k < dims[2]; k += step)
       if (!visit(k, static_cast<const char*>(all.get()) + static_cast<std::size_t>(k) * bytes))
         return;
     return;
@@ -594,6 +594,11 @@ void VoxelSource::forEachSlice(const std::function<bool(int k, const void* value
   for (int k = 0; k < dims[2]; ++k)
   {
     progress.check("reading voxels");
+    if (k % step != 0)
+    {
+      stream.skip(count * m_listed * numberBytes);
+      continue;
+    }
     stream.read(listed.get(), count * m_listed * numberBytes);
     if (m_listed > 1)
       takeFromList(listed.get(), count, memory.get());

@@ -80,9 +80,10 @@ public:
 
   /// Calls visit(k, values) for one slice after the other along the third axis, components
   /// interleaved, until it returns false; the values are valid during the call. Keeps one slice,
-  /// except of text.
+  /// except of text. Of every `step` slices only the first is visited, and the others are not read
+  /// unless the file is compressed or text.
   void forEachSlice(const std::function<bool(int k, const void* values)>& visit,
-                    const core::Progress& progress) const;
+                    const core::Progress& progress, int step = 1) const;
 
   // Of the table of formats, called by the constructor.
   void openNifti();

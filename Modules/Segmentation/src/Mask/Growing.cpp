@@ -5,12 +5,10 @@
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/PositionText.h"
 #include "petrous/Segmentation/MaskOperations.h"
+#include "petrous/Segmentation/RegionDoubts.h"
 
 // Regions that grow from points and strokes.
 namespace petrous::segmentation
-{
-
-namespace
 {
 
 core::Index3 seedVoxel(const volume::IntensityVolume& image, const Eigen::Vector3d& seed)
@@ -26,6 +24,9 @@ core::Index3 seedVoxel(const volume::IntensityVolume& image, const Eigen::Vector
                                                     grid.dims()[static_cast<std::size_t>(a)] - 1);
   return index;
 }
+
+namespace
+{
 
 /// Marks what is connected by faces with the seeds, run by run along the first axis.
 template <class Test>
@@ -137,12 +138,14 @@ volume::ValueRange rangeAround(const volume::IntensityVolume& image, const Eigen
     }
   };
   Moments near;
+  const auto surroundings = surroundingsOf(image, seed); // of two tissues only the seed's counts
   core::IndexBox box{at, {at[0] + 1, at[1] + 1, at[2] + 1}};
   box = padded(box, {2, 2, 2}, image.geometry());
   for (int k = box.lower[2]; k < box.upper[2]; ++k)
     for (int j = box.lower[1]; j < box.upper[1]; ++j)
       for (int i = box.lower[0]; i < box.upper[0]; ++i)
-        if (const double value = image.at(i, j, k); within(value))
+        if (const double value = image.at(i, j, k);
+            within(value) && (!surroundings || surroundings->isOwn(value)))
           near.add(value);
   if (near.count == 0.0 || !within(image.at(at[0], at[1], at[2])))
     throw core::InvalidParameter("region: the image has no value at the seed; choose a point "

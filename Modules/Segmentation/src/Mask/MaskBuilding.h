@@ -9,6 +9,7 @@
 
 #include "petrous/Core/Error.h"
 #include "petrous/Segmentation/Mask.h"
+#include "petrous/Volume/IntensityVolume.h"
 
 namespace petrous::segmentation
 {
@@ -50,6 +51,9 @@ void forEachRow(const core::IndexBox& box, const core::Progress& progress, const
                         row(j, k);
                     });
 }
+
+/// The voxel of a seed (patient, LPS mm). Throws InvalidParameter if that lies outside the image.
+core::Index3 seedVoxel(const volume::IntensityVolume& image, const Eigen::Vector3d& seed);
 
 /// The islands of `mask` that hold a voxel of `marks`, on the same grid.
 Mask islandsWith(const Mask& mask, const Mask& marks, const core::Progress& progress);

@@ -139,13 +139,15 @@ public:
   /// whose name is taken by now gets a number. Can be undone.
   void takeParts(const scene::Case& before, scene::Case with);
 
-  /// Adds structures made in this program (addStructures), from these MRs and tubes. The one called
+  /// Adds structures made in this program (addStructures), from these MRs and tubes; `doubts` are
+  /// sentences about each of them, kept as notes. The one called
   /// `replaced`, if that is not empty, is removed and returned, and a new one of its name has its
   /// appearance. Ends the touch session. Throws as addStructures does, without effect.
   std::optional<scene::LabelPart> addStructure(volume::LabelMap labels,
                                                const std::string& replaced = {},
                                                const scene::MrReadings& readings = {},
-                                               const scene::TracedTubes& tubes = {});
+                                               const scene::TracedTubes& tubes = {},
+                                               const std::vector<std::string>& doubts = {});
   /// Removes a structure of a label map and returns it as a part of its own, for `putStructure`;
   /// none if there is none. Ends the touch session, as that does.
   std::optional<scene::LabelPart> takeStructure(const std::string& name);

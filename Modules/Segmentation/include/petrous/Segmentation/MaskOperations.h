@@ -28,7 +28,8 @@ Mask connectedThreshold(const volume::IntensityVolume& image, const volume::Valu
                         const core::Progress& progress = {}, const std::string& unit = {});
 
 /// The range of intensities around a seed: mean +- `deviations` standard deviations of its 5^3
-/// neighbourhood, refined in the region that they connect (three rounds).
+/// neighbourhood, of which only the seed's class counts where it has two (surroundingsOf), refined
+/// in the region that they connect (three rounds).
 volume::ValueRange rangeAround(const volume::IntensityVolume& image, const Eigen::Vector3d& seed,
                                double deviations = 2.5, const core::Progress& progress = {});
 

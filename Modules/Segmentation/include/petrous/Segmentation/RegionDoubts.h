@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "petrous/Segmentation/Mask.h"
+#include "petrous/Volume/IntensityVolume.h"
+
+namespace petrous::segmentation
+{
+
+/// Two classes of intensity around a seed, in its 5^3 neighbourhood.
+struct SeedSurroundings
+{
+  double limit = 0.0;                    ///< below it the darker class
+  double darker = 0.0, brighter = 0.0;   ///< the means of both
+  bool isBrighter = false;               ///< the seed's class is the brighter one
+  bool isBorder = false;                 ///< one of the 26 voxels next to the seed is of the other
+  std::optional<Eigen::Vector3d> inside; ///< if a border: where the seed would lie inside of its
+                                         ///< class, nearest within 2.5 mm, patient, LPS mm
+
+  bool isOwn(double value) const noexcept { return (value >= limit) == isBrighter; }
+};
+
+/// None where all is one tissue. Two: thresholds by Otsu make classes of a twentieth of the
+/// neighbourhood or more, whose means differ by a tenth of the image's range (1st to 99th
+/// percentile) or more, and by more than three times the deviation within them; it is 2.7 times in
+/// the noise of one tissue, and 3.5 times on a ramp. `seed`: patient, LPS mm. Throws
+/// InvalidParameter if it lies outside the image.
+std::optional<SeedSurroundings> surroundingsOf(const volume::IntensityVolume& image,
+                                               const Eigen::Vector3d& seed);
+
+/// What speaks against a region that was grown from seeds. It may be right all the same.
+struct RegionDoubts
+{
+  static constexpr double kMostVolume = 50e3; ///< mm^3; hardly a structure of the skull base
+  static constexpr int kMostFaces = 2;        ///< of the image; a vessel leaves it through two
+
+  std::optional<double> volume;            ///< mm^3, where it is more
+  std::optional<int> faces;                ///< that it reaches, where there are more
+  std::optional<volume::ValueRange> spans; ///< its range, where that has air and bone
+};
+
+/// `airToBone`: below its minimum lies air, above its maximum bone; none: not known.
+RegionDoubts doubtsOf(const Mask& region, const volume::ValueRange& range,
+                      const std::optional<volume::ValueRange>& airToBone);
+
+} // namespace petrous::segmentation

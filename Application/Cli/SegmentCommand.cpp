@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <cctype>
 #include <optional>
 
 #include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Core/AsciiCase.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/MrOnCt.h"
@@ -145,8 +145,7 @@ Made region(const SegmentOptions& options, const scene::Case& value, const scene
       made.notes.push_back(std::move(text));
   }
   for (const std::string& note : made.notes)
-    made.warnings.push_back(static_cast<char>(std::tolower(note.front())) +
-                            note.substr(1, note.size() - 2));
+    made.warnings.push_back(core::asciiLower(note.front()) + note.substr(1, note.size() - 2));
   made.facts["threshold"] = {range.min, range.max};
   made.lines.push_back(
       "  between " + core::plainText(range.min) + " and " + core::plainText(range.max) +

@@ -182,6 +182,10 @@
         <source>work in the background</source>
         <translation>Arbeit im Hintergrund</translation>
     </message>
+    <message>
+        <source>The view is cut away there; nothing is drawn under the pointer.</source>
+        <translation>Dort ist die Ansicht weggeschnitten; unter dem Zeiger ist nichts zu sehen.</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation</name>

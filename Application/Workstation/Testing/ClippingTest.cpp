@@ -11,6 +11,7 @@
 #include <QMouseEvent>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QStatusBar>
 
 #include "MeasureController.h"
 #include "SceneDisplay.h"
@@ -385,4 +386,48 @@ TEST_F(ClippingBox, APlaneIsDraggedByItsArrow)
   EXPECT_EQ(clipping().planes.front().normal, plane.normal);
   undo();
   EXPECT_EQ(clipping(), before);
+}
+
+// The lower part of the ball is drawn: above its face, 6.25 mm below the middle, there is nothing.
+TEST_F(ClippingBox, AClickMeansWhatIsDrawn)
+{
+  scene::Case ball = ballCase("ball");
+  ball.view.clipping.crop = core::IndexBox{{0, 0, 0}, {64, 64, 20}};
+  library().save(ball);
+  openWindow("ball");
+  ASSERT_TRUE(waitFor([this] { return window().model().ready(); }));
+  picture();
+  const QPoint hidden = inView(kBallCenter + Vector3d(0.0, 0.0, 6.0));
+  const QPoint drawn = inView(kBallCenter - Vector3d(0.0, 0.0, 9.0));
+  const auto click = [this](const QPoint& at)
+  {
+    QTest::mouseMove(&view(), at);
+    QTest::mouseClick(&view(), Qt::LeftButton, Qt::NoModifier, at);
+  };
+  const Vector3d before = window().model().crosshair();
+  click(hidden);
+  EXPECT_EQ(window().model().crosshair(), before);
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("cut away"))
+      << window().statusBar()->currentMessage().toStdString();
+  click(drawn);
+  const Vector3d after = window().model().crosshair();
+  EXPECT_NE(after, before);
+  EXPECT_NEAR((after - kBallCenter).norm(), kBallRadius, 0.1);
+  EXPECT_LT(after.z(), kBallCenter.z() - 6.2);
+
+  action("Distance")->trigger();
+  auto* measure = window().findChild<MeasureController*>();
+  ASSERT_TRUE(measure && measure->active());
+  click(hidden);
+  EXPECT_FALSE(measure->hasPoints());
+  click(drawn);
+  EXPECT_TRUE(measure->hasPoints());
+  measure->leaveTool();
+
+  // The pointer feels all of it, and the window shows all.
+  QTest::keyClick(&view(), Qt::Key_P);
+  ASSERT_TRUE(waitFor([this] { return view().tool().GetProbeMode() != 0; }));
+  picture();
+  click(hidden);
+  EXPECT_GT(window().model().crosshair().z(), kBallCenter.z());
 }

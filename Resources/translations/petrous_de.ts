@@ -2238,6 +2238,26 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>Turn the patient: the plane is dragged along the line of sight</source>
         <translation>Drehen Sie den Patienten: Die Ebene wird entlang der Blickrichtung gezogen</translation>
     </message>
+    <message>
+        <source>%1 = %2 mm, width %3 mm</source>
+        <translation>%1 = %2 mm, Breite %3 mm</translation>
+    </message>
+    <message>
+        <source>middle at x = %1, y = %2, z = %3 mm</source>
+        <translation>Mitte bei x = %1, y = %2, z = %3 mm</translation>
+    </message>
+    <message>
+        <source>moved by %1 mm</source>
+        <translation>um %1 mm verschoben</translation>
+    </message>
+    <message>
+        <source>%1 mm before the bone, moved by %2 mm</source>
+        <translation>%1 mm vor dem Knochen, um %2 mm verschoben</translation>
+    </message>
+    <message>
+        <source>%1 mm deep in the bone, moved by %2 mm</source>
+        <translation>%1 mm tief im Knochen, um %2 mm verschoben</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ColorChooser</name>

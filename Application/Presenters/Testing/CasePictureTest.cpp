@@ -203,7 +203,7 @@ TEST(ShownPart, IsWhatLiesInTheBoxAndOnTheDrawnSideOfEveryPlane)
                            [&](const auto& one)
                            { return one.normal.dot(line.at(t) - one.point) >= 0.0; });
       };
-      constexpr double kStep = 0.01; // mm
+      constexpr double kStep = 0.04; // mm
       std::optional<double> first, last;
       for (double t = 0.0; t < 200.0; t += kStep)
         if (isShown(t))

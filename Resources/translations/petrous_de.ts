@@ -9704,16 +9704,16 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Beschnitt&amp;quader</translation>
     </message>
     <message>
-        <source>A box whose edges are dragged in the slices, and its faces in the 3D view: only what is in it is shown, until a tool is taken up. A double click on an edge shows all of the image</source>
-        <translation>Ein Quader, dessen Kanten in den Schichten und dessen Flächen in der 3D-Ansicht gezogen werden: Nur was darin liegt, wird gezeigt, bis ein Werkzeug aufgenommen wird. Ein Doppelklick auf eine Kante zeigt das ganze Bild</translation>
-    </message>
-    <message>
         <source>Crop &amp;box in numbers…</source>
         <translation>Beschnittquader in &amp;Zahlen…</translation>
     </message>
     <message>
         <source>Where the crop box begins and ends, in mm</source>
         <translation>Wo der Beschnittquader beginnt und endet, in mm</translation>
+    </message>
+    <message>
+        <source>A box whose edges are dragged in the slices, and its faces in the 3D view: only what is in it is shown, until a tool is taken up. Its middle in the 3D view, or a drag with Shift, moves all of it. A double click on an edge shows all of the image</source>
+        <translation>Ein Quader, dessen Kanten in den Schichten und dessen Flächen in der 3D-Ansicht gezogen werden: Nur was darin liegt, wird gezeigt, bis ein Werkzeug aufgenommen wird. Seine Mitte in der 3D-Ansicht oder Ziehen mit der Umschalttaste verschiebt ihn ganz. Ein Doppelklick auf eine Kante zeigt das ganze Bild</translation>
     </message>
 </context>
 </TS>

@@ -485,7 +485,9 @@ bool ClippingController::eventFilter(QObject* watched, QEvent* event)
 bool ClippingController::handleMouse(const QMouseEvent& event)
 {
   const bool isLeft = event.button() == Qt::LeftButton;
-  const bool isWhole = event.modifiers() == Qt::ShiftModifier;
+  // Of a box that is all of the image nothing moves: Shift pans.
+  const bool isWhole =
+      event.modifiers() == Qt::ShiftModifier && m_model.value().view.clipping.crop.has_value();
   const bool takes = isLeft && (isWhole || event.modifiers() == Qt::NoModifier);
   switch (event.type())
   {

@@ -182,6 +182,10 @@
         <source>work in the background</source>
         <translation>Arbeit im Hintergrund</translation>
     </message>
+    <message>
+        <source>The view is cut away there; nothing is drawn under the pointer.</source>
+        <translation>Dort ist die Ansicht weggeschnitten; unter dem Zeiger ist nichts zu sehen.</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation</name>
@@ -2233,6 +2237,26 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>Turn the patient: the plane is dragged along the line of sight</source>
         <translation>Drehen Sie den Patienten: Die Ebene wird entlang der Blickrichtung gezogen</translation>
+    </message>
+    <message>
+        <source>%1 = %2 mm, width %3 mm</source>
+        <translation>%1 = %2 mm, Breite %3 mm</translation>
+    </message>
+    <message>
+        <source>middle at x = %1, y = %2, z = %3 mm</source>
+        <translation>Mitte bei x = %1, y = %2, z = %3 mm</translation>
+    </message>
+    <message>
+        <source>moved by %1 mm</source>
+        <translation>um %1 mm verschoben</translation>
+    </message>
+    <message>
+        <source>%1 mm before the bone, moved by %2 mm</source>
+        <translation>%1 mm vor dem Knochen, um %2 mm verschoben</translation>
+    </message>
+    <message>
+        <source>%1 mm deep in the bone, moved by %2 mm</source>
+        <translation>%1 mm tief im Knochen, um %2 mm verschoben</translation>
     </message>
 </context>
 <context>
@@ -9680,16 +9704,16 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Beschnitt&amp;quader</translation>
     </message>
     <message>
-        <source>A box whose edges are dragged in the slices, and its faces in the 3D view: only what is in it is shown, until a tool is taken up. A double click on an edge shows all of the image</source>
-        <translation>Ein Quader, dessen Kanten in den Schichten und dessen Flächen in der 3D-Ansicht gezogen werden: Nur was darin liegt, wird gezeigt, bis ein Werkzeug aufgenommen wird. Ein Doppelklick auf eine Kante zeigt das ganze Bild</translation>
-    </message>
-    <message>
         <source>Crop &amp;box in numbers…</source>
         <translation>Beschnittquader in &amp;Zahlen…</translation>
     </message>
     <message>
         <source>Where the crop box begins and ends, in mm</source>
         <translation>Wo der Beschnittquader beginnt und endet, in mm</translation>
+    </message>
+    <message>
+        <source>A box whose edges are dragged in the slices, and its faces in the 3D view: only what is in it is shown, until a tool is taken up. Its middle in the 3D view, or a drag with Shift, moves all of it. A double click on an edge shows all of the image</source>
+        <translation>Ein Quader, dessen Kanten in den Schichten und dessen Flächen in der 3D-Ansicht gezogen werden: Nur was darin liegt, wird gezeigt, bis ein Werkzeug aufgenommen wird. Seine Mitte in der 3D-Ansicht oder Ziehen mit der Umschalttaste verschiebt ihn ganz. Ein Doppelklick auf eine Kante zeigt das ganze Bild</translation>
     </message>
 </context>
 </TS>

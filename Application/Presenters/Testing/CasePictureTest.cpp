@@ -1,5 +1,9 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
+#include <optional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -159,4 +163,86 @@ TEST(CasePicture, TheSideOfTheCaseComesFirst)
   EXPECT_EQ(sideOf(value), 1);
   value.description.side = scene::Side::Both;
   EXPECT_EQ(sideOf(value), -1);
+}
+
+// Against points along the line, each by itself: in the hull of the box, and on the side of each
+// plane that stays.
+TEST(ShownPart, IsWhatLiesInTheBoxAndOnTheDrawnSideOfEveryPlane)
+{
+  const Eigen::Matrix3d turned =
+      (Eigen::AngleAxisd(0.5, Vector3d(1.0, 2.0, 3.0).normalized())).toRotationMatrix();
+  const core::GridGeometry grid({31, 41, 21}, {1.0, 0.5, 1.5}, {3.0, -7.0, 11.0}, turned);
+  const Vector3d middle = grid.center();
+  const Vector3d oblique = Vector3d(0.3, -0.4, 0.8).normalized();
+  scene::ViewState::Clipping box;
+  box.crop = core::IndexBox{{5, 10, 3}, {20, 30, 15}};
+  scene::ViewState::Clipping plane;
+  plane.planes.push_back({middle + 2.0 * oblique, oblique});
+  scene::ViewState::Clipping both = box;
+  both.planes = {{middle - 1.5 * oblique, oblique}, {middle + 4.0 * oblique, -oblique}};
+  int met = 0;
+  int missed = 0;
+  for (const scene::ViewState::Clipping& clipping :
+       {scene::ViewState::Clipping{}, box, plane, both})
+    for (int n = 0; n < 60; ++n)
+    {
+      const double angle = 0.7 * n;
+      const Vector3d from =
+          middle + 60.0 * Vector3d(std::cos(angle), std::sin(angle), std::cos(1.3 * angle));
+      const Vector3d to = middle + 0.15 * n * Vector3d(std::sin(3.1 * n), std::cos(1.7 * n), 1.0);
+      const interaction::PickRay line{from, (to - from).normalized()};
+      const core::IndexBox kept = clipping.crop.value_or(grid.fullBox());
+      const auto isShown = [&](double t)
+      {
+        const Vector3d voxel = grid.voxelFromPatient(line.at(t));
+        for (std::size_t a = 0; a < 3; ++a)
+          if (voxel[static_cast<Eigen::Index>(a)] < kept.lower[a] ||
+              voxel[static_cast<Eigen::Index>(a)] > kept.upper[a] - 1.0)
+            return false;
+        return std::all_of(clipping.planes.begin(), clipping.planes.end(),
+                           [&](const auto& one)
+                           { return one.normal.dot(line.at(t) - one.point) >= 0.0; });
+      };
+      constexpr double kStep = 0.04; // mm
+      std::optional<double> first, last;
+      for (double t = 0.0; t < 200.0; t += kStep)
+        if (isShown(t))
+        {
+          first = first.value_or(t);
+          last = t;
+        }
+      const auto part = presenters::shownPart(line, clipping, grid);
+      if (!first)
+      {
+        ++missed;
+        EXPECT_LT(part.second - part.first, kStep) << n;
+        continue;
+      }
+      ++met;
+      EXPECT_NEAR(part.first, *first, 1.01 * kStep) << n;
+      EXPECT_NEAR(part.second, *last, 1.01 * kStep) << n;
+    }
+  EXPECT_GT(met, 60);
+  EXPECT_GT(missed, 20);
+}
+
+TEST(ShownPart, IsNothingBesideAPlaneBeforeTheEyeAndInABoxWithoutThickness)
+{
+  const core::GridGeometry grid({11, 11, 11}, Vector3d::Ones(), Vector3d::Zero());
+  const interaction::PickRay line{{5.0, 5.0, 30.0}, {0.0, 0.0, -1.0}};
+  scene::ViewState::Clipping clipping;
+  clipping.planes = {{{4.0, 0.0, 0.0}, Vector3d::UnitX()}}; // parallel to the line
+  EXPECT_EQ(presenters::shownPart(line, clipping, grid), std::make_pair(20.0, 30.0));
+  clipping.planes = {{{6.0, 0.0, 0.0}, Vector3d::UnitX()}};
+  const auto beside = presenters::shownPart(line, clipping, grid);
+  EXPECT_LT(beside.second, beside.first);
+  clipping.planes.clear();
+  clipping.crop =
+      core::IndexBox{{5, 0, 0}, {6, 11, 11}}; // a single layer of voxels, which it meets
+  const auto flat = presenters::shownPart(line, clipping, grid);
+  EXPECT_LT(flat.second, flat.first);
+  // From within, looking out: from the eye on.
+  clipping.crop = core::IndexBox{{0, 0, 2}, {11, 11, 11}};
+  EXPECT_EQ(presenters::shownPart({{5.0, 5.0, 7.0}, {0.0, 0.0, -1.0}}, clipping, grid),
+            std::make_pair(0.0, 5.0));
 }

@@ -1,6 +1,8 @@
 #include "petrous/Presenters/ClippingHandles.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -41,4 +43,73 @@ TEST(PlaneCenter, IsItsPointOrBelowTheMiddleOfTheImage)
   EXPECT_EQ(presenters::planeCenter(inside, grid), inside.point);
   const ViewState::Clipping::Plane far{Vector3d(-500.0, 900.0, 3.0), Vector3d::UnitZ()};
   EXPECT_LT((presenters::planeCenter(far, grid) - Vector3d(5.0, 5.0, 3.0)).norm(), 1e-12);
+}
+
+// Against the definition: both ends lie on the plane and on the picture's edge, and a step to the
+// side that stays is above the plane.
+TEST(LineInSlice, LiesOnThePlaneAcrossThePicture)
+{
+  const presenters::SliceGeometry slice(presenters::SliceOrientation::Coronal, {3.0, -4.0, 5.0},
+                                        0.25, 300, 200);
+  int found = 0;
+  for (int n = 0; n < 40; ++n)
+  {
+    const Vector3d normal = Vector3d(std::sin(1.1 * n), std::cos(2.3 * n), std::sin(0.7 * n + 1.0));
+    const ViewState::Clipping::Plane plane{
+        slice.center() + Vector3d(10.0 * std::cos(n), 3.0, 9.0 * std::sin(3.0 * n)),
+        normal.normalized()};
+    const auto line = presenters::lineInSlice(plane, slice);
+    const auto heightAt = [&](const Eigen::Vector2d& pixel)
+    { return plane.normal.dot(slice.patientFromPixel(pixel[0], pixel[1]) - plane.point); };
+    if (!line)
+    {
+      // Then all corners are on one side.
+      const double first = heightAt({0.0, 0.0});
+      for (const Eigen::Vector2d& corner :
+           {Eigen::Vector2d(300.0, 0.0), Eigen::Vector2d(0.0, 200.0),
+            Eigen::Vector2d(300.0, 200.0)})
+        EXPECT_GT(first * heightAt(corner), 0.0) << n;
+      continue;
+    }
+    ++found;
+    for (const Eigen::Vector2d& end : {line->from, line->to})
+    {
+      EXPECT_NEAR(heightAt(end), 0.0, 1e-6) << n;
+      const double toEdge = std::min(
+          {std::abs(end[0]), std::abs(end[0] - 300.0), std::abs(end[1]), std::abs(end[1] - 200.0)});
+      EXPECT_NEAR(toEdge, 0.0, 1e-6) << n;
+    }
+    EXPECT_GT(heightAt(0.5 * (line->from + line->to) + line->kept), 0.0) << n;
+    EXPECT_NEAR(line->kept.norm(), 1.0, 1e-12);
+  }
+  EXPECT_GT(found, 10);
+}
+
+TEST(LineInSlice, IsNoneInParallel)
+{
+  const presenters::SliceGeometry slice(presenters::SliceOrientation::Axial, {0.0, 0.0, 5.0}, 0.25,
+                                        300, 200);
+  EXPECT_FALSE(presenters::lineInSlice({{0.0, 0.0, 5.0}, Vector3d::UnitZ()}, slice));
+  EXPECT_FALSE(presenters::lineInSlice({{400.0, 0.0, 5.0}, Vector3d::UnitX()}, slice)) << "outside";
+  EXPECT_TRUE(presenters::lineInSlice({{1.0, 0.0, 5.0}, Vector3d::UnitX()}, slice));
+}
+
+// The tissue is what lies below z = 6 mm.
+TEST(DepthOfAPlane, IsThatBehindTheSurfaceAlongItsNormal)
+{
+  const core::GridGeometry grid({11, 11, 11}, {1.0, 1.0, 1.0}, {0.0, 0.0, 0.0});
+  const auto tissue = [](const interaction::PickRay& line) -> std::optional<double>
+  {
+    if (!(line.direction.z() < -1e-9))
+      return std::nullopt;
+    return (6.0 - line.origin.z()) / line.direction.z();
+  };
+  const auto depth = [&](const Vector3d& point, const Vector3d& normal) {
+    return presenters::depthOf({point, normal.normalized()}, grid, tissue);
+  };
+  ASSERT_TRUE(depth({5.0, 5.0, 3.5}, -Vector3d::UnitZ()));
+  EXPECT_NEAR(*depth({5.0, 5.0, 3.5}, -Vector3d::UnitZ()), 2.5, 1e-9);
+  EXPECT_NEAR(*depth({5.0, 5.0, 8.0}, -Vector3d::UnitZ()), -2.0, 1e-9) << "in the air before it";
+  EXPECT_NEAR(*depth({5.0, 5.0, 3.0}, {1.0, 0.0, -1.0}), 3.0 * std::sqrt(2.0), 1e-9) << "along it";
+  EXPECT_FALSE(depth({5.0, 5.0, 3.0}, Vector3d::UnitX()));
 }

@@ -1496,3 +1496,144 @@ TEST_F(WorkstationModelTest, WhatWasDrilledKeepsItsName)
   }
   EXPECT_EQ(namesIn(model.value()), (std::vector<std::string>{"ct", "a1"}));
 }
+
+namespace
+{
+
+scene::ViewState::Clipping cutBy(const Vector3d& point, const Vector3d& normal)
+{
+  scene::ViewState::Clipping clipping;
+  clipping.planes.push_back({point, normal.normalized()});
+  return clipping;
+}
+
+scene::ViewState::Clipping boxed(const core::IndexBox& box)
+{
+  scene::ViewState::Clipping clipping;
+  clipping.crop = box;
+  return clipping;
+}
+
+interaction::PickRay downAt(double x)
+{
+  return {{x, 6.0, 30.0}, {0.0, 0.0, -1.0}};
+}
+
+} // namespace
+
+// The bone's surface is the plane z = 5.85 mm: between 1500 HU at 5.7 and -900 HU at 6.0 mm it
+// passes 300 HU there.
+TEST_F(WorkstationModelTest, AClickMeansWhatTheCutLeaves)
+{
+  constexpr double kSurface = 5.85;
+  WorkstationModel model{library::Library(folder)};
+  model.adopt(block("block"));
+  model.prepareNow();
+  const auto heightAt = [&model](double x) -> std::optional<double>
+  {
+    const auto hit = model.surfaceAt(downAt(x));
+    return hit ? std::optional(hit->z()) : std::nullopt;
+  };
+  ASSERT_TRUE(heightAt(6.0));
+  EXPECT_NEAR(*heightAt(6.0), kSurface, 1e-3);
+  EXPECT_FALSE(model.isCutAway(downAt(6.0)));
+  EXPECT_FALSE(model.isCutAway(downAt(50.0))) << "nothing is there, cut or not";
+
+  model.setClipping(cutBy({6.0, 6.0, 3.0}, {1.0, 0.0, -1.0})); // what lies below z = x - 3 stays
+  ASSERT_TRUE(heightAt(6.0) && heightAt(7.0) && heightAt(11.0));
+  EXPECT_NEAR(*heightAt(6.0), 3.0, 1e-6) << "the cut face";
+  EXPECT_NEAR(*heightAt(7.0), 4.0, 1e-6);
+  EXPECT_NEAR(*heightAt(11.0), kSurface, 1e-3) << "the plane passes above the bone";
+  EXPECT_FALSE(heightAt(2.0)) << "the bone is above it, all of it";
+  EXPECT_TRUE(model.isCutAway(downAt(2.0)));
+  EXPECT_FALSE(model.isCutAway(downAt(6.0)));
+  // A tool meets what is there, cut away or not.
+  ASSERT_TRUE(model.tissueAlong(downAt(2.0)));
+  EXPECT_NEAR(*model.tissueAlong(downAt(2.0)), 30.0 - kSurface, 1e-3);
+  EXPECT_NEAR(*model.tissueAlong(downAt(6.0)), 30.0 - kSurface, 1e-3);
+
+  model.setClipping(cutBy({0.0, 0.0, 7.0}, Vector3d::UnitZ())); // only air stays
+  EXPECT_FALSE(heightAt(6.0));
+  EXPECT_TRUE(model.isCutAway(downAt(6.0)));
+  model.setClipping(cutBy({0.0, 0.0, 2.0}, Vector3d::UnitZ()));
+  const auto below = model.surfaceAt({{6.0, 6.0, -20.0}, Vector3d::UnitZ()});
+  ASSERT_TRUE(below);
+  EXPECT_NEAR(below->z(), 2.0, 1e-6) << "the face from the other side";
+
+  // Faces of a box lie at voxel centres, every 0.3 mm.
+  model.setClipping(boxed({{0, 0, 0}, {40, 40, 11}}));
+  ASSERT_TRUE(heightAt(6.0));
+  EXPECT_NEAR(*heightAt(6.0), 3.0, 1e-6);
+  model.setClipping(boxed({{10, 0, 0}, {30, 40, 40}})); // x from 3.0 to 8.7 mm
+  ASSERT_TRUE(heightAt(6.0));
+  EXPECT_NEAR(*heightAt(6.0), kSurface, 1e-3);
+  EXPECT_FALSE(heightAt(2.9));
+  EXPECT_TRUE(heightAt(3.1));
+  EXPECT_TRUE(heightAt(8.6));
+  EXPECT_FALSE(heightAt(8.8));
+  EXPECT_TRUE(model.isCutAway(downAt(2.9)));
+
+  model.setClipping({});
+  ASSERT_TRUE(heightAt(2.9));
+  EXPECT_NEAR(*heightAt(2.9), kSurface, 1e-3);
+}
+
+// What was drilled below a cut face is a hole in it.
+TEST_F(WorkstationModelTest, AClickIntoWhatWasDrilledMeansItsFloor)
+{
+  WorkstationModel model{library::Library(folder)};
+  model.adopt(block("block"));
+  model.prepareNow();
+  stroke(model);
+  const auto floor = model.surfaceAt(line());
+  ASSERT_TRUE(floor);
+  ASSERT_LT(floor->z(), 5.78);
+  const double face = 0.5 * (floor->z() + 5.85); // across the hole
+  model.setClipping(cutBy({0.0, 0.0, face}, -Vector3d::UnitZ()));
+  ASSERT_TRUE(model.surfaceAt(line()));
+  EXPECT_NEAR(model.surfaceAt(line())->z(), floor->z(), 1e-3);
+  ASSERT_TRUE(model.surfaceAt(downAt(1.0)));
+  EXPECT_NEAR(model.surfaceAt(downAt(1.0))->z(), face, 1e-6) << "beside the hole the face is bone";
+}
+
+// A section shows soft tissue opaque, where that is drawn: what is behind it is not seen.
+TEST_F(WorkstationModelTest, AClickOnACutThroughSoftTissueMeansTheFace)
+{
+  scene::Case value = block("block");
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(value.ct.geometry);
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 40; ++j)
+      for (int i = 0; i < 40; ++i)
+        ct->at(i, j, k) = k < 20   ? std::int16_t{1500}
+                          : i < 20 ? std::int16_t{50}
+                                   : std::int16_t{-900};
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+  value.softTissue.relative = false;
+  value.softTissue.transfer = appearance::TransferFunction(
+      {{-200.0, {0.8F, 0.5F, 0.4F}, 0.3F}, {250.0, {0.8F, 0.5F, 0.4F}, 0.3F}});
+  value.softTissue.opacity = 1.0F;
+  value.softTissue.shown = true;
+  WorkstationModel model{library::Library(folder)};
+  model.adopt(value);
+  model.prepareNow();
+  const auto heightAt = [&model](double x)
+  {
+    const auto hit = model.surfaceAt(downAt(x));
+    return hit ? hit->z() : -1.0;
+  };
+  EXPECT_LT(heightAt(2.0), 6.0) << "uncut it is translucent, and the bone in it counts";
+  model.setClipping(cutBy({0.0, 0.0, 9.0}, -Vector3d::UnitZ()));
+  EXPECT_NEAR(heightAt(2.0), 9.0, 1e-6);
+  EXPECT_LT(heightAt(10.0), 6.0) << "of air there is no face";
+  model.setClipping(cutBy({0.0, 0.0, 3.0}, -Vector3d::UnitZ()));
+  EXPECT_NEAR(heightAt(2.0), 3.0, 1e-6) << "of bone";
+  model.setClipping(cutBy({0.0, 0.0, 20.0}, -Vector3d::UnitZ()));
+  EXPECT_LT(heightAt(2.0), 6.0) << "the image's own face is none";
+
+  value.softTissue.shown = false;
+  model.adopt(value);
+  model.prepareNow();
+  model.setClipping(cutBy({0.0, 0.0, 9.0}, -Vector3d::UnitZ()));
+  EXPECT_LT(heightAt(2.0), 6.0);
+}

@@ -148,8 +148,10 @@ void DrillController::connectView()
   connect(&m_view, &ThreeDView::picked, this,
           [this](const interaction::PickRay& line)
           {
-            if (const auto hit = m_model.surfaceAt(line))
+            if (const auto hit = surfaceAt(line))
               m_model.setCrosshair(*hit);
+            else if (m_tool == Tool::None && m_model.isCutAway(line))
+              emit statusMessage(cutAwayText());
           });
   connect(&m_view, &ThreeDView::thrustTurned, this,
           [this](double notches)
@@ -684,11 +686,20 @@ void DrillController::putAway()
     emit strokeEnded(stroke);
 }
 
+// What is drawn there: with a tool in the hand all of the tissue.
+std::optional<Eigen::Vector3d> DrillController::surfaceAt(const interaction::PickRay& line)
+{
+  if (m_tool == Tool::None)
+    return m_model.surfaceAt(line);
+  const auto hit = m_model.tissueAlong(line);
+  return hit ? std::optional<Eigen::Vector3d>(line.at(*hit)) : std::nullopt;
+}
+
 void DrillController::hover(const interaction::PickRay& line)
 {
   dropHint();
   const bool reads = m_tool == Tool::Pointer && m_devices.device();
-  if (const auto hit = m_model.surfaceAt(line); hit && !reads)
+  if (const auto hit = surfaceAt(line); hit && !reads)
     emit pointed(*hit);
   else if (!reads)
     emit pointedNowhere();

@@ -114,6 +114,7 @@ private:
                       presenters::LoadedInstrument instrument,
                       std::shared_ptr<const presenters::MeasuredTool> measured);
   void follow(const Eigen::Vector3d& tip);
+  std::optional<Eigen::Vector3d> surfaceAt(const interaction::PickRay& line);
   void hover(const interaction::PickRay& line);
   void press();
   bool takeTool(); // into use, unless it is

@@ -732,6 +732,8 @@ bool MeasureController::handleMouse(QMouseEvent& event)
   m_editor.setImage({});
   if (const auto at = surface())
     set(*at);
+  else if (m_model.isCutAway(m_view.sightLine(event.localPos())))
+    m_panel->say(cutAwayText());
   else
     m_panel->say(m_model.ready() ? tr("There is nothing under the pointer.")
                                  : tr("The case is still being prepared; then the surface can be "

@@ -1,5 +1,6 @@
 #include "ClippingController.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -33,15 +34,14 @@ constexpr double kClick = 3.0; // px, that a click may move
 constexpr double kStep = 0.5;  // mm, of a key
 constexpr double kArrow = 8.0; // mm, of a plane's arrow, at whose tip it is dragged
 
-void add(std::vector<DrawnMeasure>& parts, std::vector<Eigen::Vector3d> points,
-         std::vector<std::size_t> handles)
+DrawnMeasure& add(std::vector<DrawnMeasure>& parts, std::vector<Eigen::Vector3d> points)
 {
   DrawnMeasure part;
   part.index = parts.size();
   part.points = std::move(points);
-  part.handles = std::move(handles);
   part.color = boxColor();
   parts.push_back(std::move(part));
+  return parts.back();
 }
 
 // Each edge by itself, as one that reaches behind the camera is not drawn.
@@ -53,7 +53,7 @@ void addEdges(std::vector<DrawnMeasure>& parts, const HandledBox& box)
   for (int from = 0; from < 8; ++from)
     for (const int along : {1, 2, 4})
       if (!(from & along))
-        add(parts, {corner(from), corner(from | along)}, {});
+        add(parts, {corner(from), corner(from | along)});
 }
 
 } // namespace
@@ -102,7 +102,7 @@ ClippingController::~ClippingController()
 void ClippingController::caseChanged()
 {
   m_drag = {};
-  m_line.reset();
+  m_held.reset();
   m_actions.cropBox->setChecked(false);
   if (m_dialog)
     m_dialog->close();
@@ -134,21 +134,37 @@ void ClippingController::refresh()
   if (!m_model.hasCase())
   {
     m_slices.setBox(std::nullopt);
+    m_slices.setCuts({});
     m_view.display().setHandles({});
     return;
   }
   const CropFrame frame(m_model.value().ct.geometry);
   const HandledBox box = frame.box(m_model.value().view.clipping.crop);
   const bool isShown = showsBox();
-  m_slices.setBox(isShown ? std::optional(SliceBox{box}) : std::nullopt);
+  const bool isPart = m_model.value().view.clipping.crop.has_value();
+  m_slices.setBox(isShown ? std::optional(SliceBox{box, false, false, isPart}) : std::nullopt);
+  m_slices.setCuts(toolHasView() ? std::vector<Clipping::Plane>()
+                                 : m_model.value().view.clipping.planes);
   std::vector<DrawnMeasure> parts;
   if (isShown)
     addEdges(parts, box);
-  for (const Handle& handle : handles())
+  const std::vector<Handle> all = handles();
+  for (std::size_t n = 0; n < all.size(); ++n)
+  {
+    const Handle& handle = all[n];
+    std::vector<Eigen::Vector3d> points{handle.at};
     if (handle.arrow > 0.0)
-      add(parts, {handle.at - handle.arrow * handle.direction, handle.at}, {1});
-    else
-      add(parts, {handle.at}, {0});
+      points.insert(points.begin(), handle.at - handle.arrow * *handle.direction);
+    DrawnMeasure& part = add(parts, std::move(points));
+    part.handles = {part.points.size() - 1};
+    part.form = handle.arrow > 0.0 ? DrawnMeasure::Form::Arrow
+                : handle.direction ? DrawnMeasure::Form::Square
+                                   : DrawnMeasure::Form::Diamond;
+    if (handle.arrow > 0.0)
+      part.color = cutColor();
+    if (m_held && m_held->number == n && !m_pressed)
+      part.label = handle.reading();
+  }
   m_view.display().setHandles(parts);
   if (m_dialog && m_dialog->isVisible())
     m_dialog->show(frame, box.box);
@@ -232,7 +248,10 @@ void ClippingController::movePlanes(double step)
   Clipping clipping = m_model.value().view.clipping;
   for (Clipping::Plane& plane : clipping.planes)
     plane = presenters::movedPlane(plane, step, m_model.value().ct.geometry);
+  const Clipping before = m_model.value().view.clipping;
   change(clipping, "clipping plane");
+  if (!clipping.planes.empty())
+    emit statusMessage(readPlane(0, before));
 }
 
 void ClippingController::change(const Clipping& clipping, const std::string& continues)
@@ -273,9 +292,12 @@ void ClippingController::drag(const Eigen::Vector3d& patient)
 
 void ClippingController::endDrag()
 {
-  m_line.reset();
-  if (std::exchange(m_drag, {}) && m_model.hasCase())
-    record(m_before);
+  const bool isRead = std::exchange(m_held, std::nullopt).has_value();
+  if (!std::exchange(m_drag, {}) || !m_model.hasCase())
+    return;
+  record(m_before);
+  if (isRead)
+    refresh(); // without its reading
 }
 
 void ClippingController::tellSize()
@@ -286,84 +308,172 @@ void ClippingController::tellSize()
 }
 
 // Of the box while it is shown, and of each plane.
-std::vector<ClippingController::Handle> ClippingController::handles() const
+std::vector<ClippingController::Handle> ClippingController::handles(bool whole) const
 {
   std::vector<Handle> all;
   if (!m_model.hasCase() || !hasHandles())
     return all;
-  const core::GridGeometry& grid = m_model.value().ct.geometry;
-  const Clipping before = m_model.value().view.clipping;
+  const Clipping& clipping = m_model.value().view.clipping;
   if (showsBox())
   {
-    const CropFrame frame(grid);
-    for (const FaceHandle& face : presenters::faceHandles(frame.box(before.crop)))
-    {
-      presenters::BoxFaces faces;
-      (face.isUpper ? faces.upper : faces.lower)[face.axis] = true;
-      all.push_back({face.at, face.normal, 0.0,
-                     tr("Turn the patient: this face is dragged along the line of sight"),
-                     [frame, before, faces, face](double millimetres)
-                     {
-                       Clipping clipping = before;
-                       clipping.crop = frame.dragged(before.crop, faces, face.at,
-                                                     face.at + millimetres * face.normal);
-                       return clipping;
-                     }});
-    }
+    const CropFrame frame(m_model.value().ct.geometry);
+    const HandledBox box = frame.box(clipping.crop);
+    for (const FaceHandle& face : presenters::faceHandles(box))
+      all.push_back(handleOf(face, whole));
+    if (clipping.crop) // all of the image cannot move
+      all.push_back(handleOfMiddle());
   }
-  for (std::size_t n = 0; n < before.planes.size(); ++n)
-  {
-    const Clipping::Plane& plane = before.planes[n];
-    all.push_back({presenters::planeCenter(plane, grid) + kArrow * plane.normal, plane.normal,
-                   kArrow, tr("Turn the patient: the plane is dragged along the line of sight"),
-                   [before, n, grid](double millimetres)
-                   {
-                     Clipping clipping = before;
-                     clipping.planes[n] =
-                         presenters::movedPlane(before.planes[n], millimetres, grid);
-                     return clipping;
-                   }});
-  }
+  for (std::size_t n = 0; n < clipping.planes.size(); ++n)
+    all.push_back(handleOfPlane(n));
   return all;
 }
 
-std::optional<ClippingController::Handle>
-ClippingController::handleAt(const QPointF& position) const
+ClippingController::Handle ClippingController::handleOf(const FaceHandle& face, bool whole) const
+{
+  const CropFrame frame(m_model.value().ct.geometry);
+  const Clipping before = m_model.value().view.clipping;
+  presenters::BoxFaces faces;
+  faces.upper[face.axis] = whole || face.isUpper;
+  faces.lower[face.axis] = whole || !face.isUpper;
+  Handle handle;
+  handle.at = face.at;
+  handle.direction = face.normal;
+  handle.alongSight = tr("Turn the patient: this face is dragged along the line of sight");
+  handle.dragged = [frame, before, faces](const Eigen::Vector3d& step)
+  {
+    Clipping clipping = before;
+    clipping.crop = frame.dragged(before.crop, faces, Eigen::Vector3d::Zero(), step);
+    return clipping;
+  };
+  handle.reading = [box = frame.box(before.crop).box, face]
+  {
+    const auto axis = static_cast<Eigen::Index>(face.axis);
+    return tr("%1 = %2 mm, width %3 mm")
+        .arg(QChar("xyz"[face.axis]),
+             numberText(face.isUpper ? box.max()[axis] : box.min()[axis], 1),
+             numberText(box.sizes()[axis], 1));
+  };
+  return handle;
+}
+
+ClippingController::Handle ClippingController::handleOfMiddle() const
+{
+  const CropFrame frame(m_model.value().ct.geometry);
+  const Clipping before = m_model.value().view.clipping;
+  const HandledBox box = frame.box(before.crop);
+  presenters::BoxFaces faces;
+  faces.lower.fill(true);
+  faces.upper.fill(true);
+  Handle handle;
+  handle.at = box.patientFromBox * box.box.center();
+  handle.dragged = [frame, before, faces](const Eigen::Vector3d& step)
+  {
+    Clipping clipping = before;
+    clipping.crop = frame.dragged(before.crop, faces, Eigen::Vector3d::Zero(), step);
+    return clipping;
+  };
+  handle.reading = [middle = Eigen::Vector3d(box.box.center())]
+  {
+    return tr("middle at x = %1, y = %2, z = %3 mm")
+        .arg(numberText(middle[0], 1), numberText(middle[1], 1), numberText(middle[2], 1));
+  };
+  return handle;
+}
+
+ClippingController::Handle ClippingController::handleOfPlane(std::size_t n) const
+{
+  const core::GridGeometry& grid = m_model.value().ct.geometry;
+  const Clipping before = m_model.value().view.clipping;
+  const Clipping::Plane& plane = before.planes[n];
+  Handle handle;
+  handle.at = presenters::planeCenter(plane, grid) + kArrow * plane.normal;
+  handle.direction = plane.normal;
+  handle.arrow = kArrow;
+  handle.alongSight = tr("Turn the patient: the plane is dragged along the line of sight");
+  handle.dragged = [before, n, grid](const Eigen::Vector3d& step)
+  {
+    Clipping clipping = before;
+    clipping.planes[n] =
+        presenters::movedPlane(before.planes[n], step.dot(before.planes[n].normal), grid);
+    return clipping;
+  };
+  handle.reading = [this, n] { return readPlane(n, m_before); };
+  return handle;
+}
+
+// Where it lies now, and by how much it was moved since.
+QString ClippingController::readPlane(std::size_t n, const Clipping& before) const
+{
+  const scene::Case& value = m_model.value();
+  if (n >= value.view.clipping.planes.size() || n >= before.planes.size())
+    return {};
+  const Clipping::Plane& plane = value.view.clipping.planes[n];
+  const QString moved = numberText(plane.normal.dot(plane.point - before.planes[n].point), 1);
+  const auto depth = presenters::depthOf(plane, value.ct.geometry,
+                                         [this](const interaction::PickRay& line)
+                                         { return m_model.tissueAlong(line); });
+  if (!depth)
+    return tr("moved by %1 mm").arg(moved);
+  return *depth < 0.0
+             ? tr("%1 mm before the bone, moved by %2 mm").arg(numberText(-*depth, 1), moved)
+             : tr("%1 mm deep in the bone, moved by %2 mm").arg(numberText(*depth, 1), moved);
+}
+
+std::vector<std::size_t> ClippingController::handlesAt(const std::vector<Handle>& all,
+                                                       const QPointF& position) const
 {
   const double ratio = m_view.devicePixelRatioF();
-  std::optional<Handle> found;
-  double best = kReach;
-  for (const Handle& handle : handles())
-    if (const auto at = m_view.display().pixelOf(handle.at))
+  std::vector<std::pair<double, std::size_t>> found;
+  for (std::size_t n = 0; n < all.size(); ++n)
+    if (const auto at = m_view.display().pixelOf(all[n].at))
     {
       const double away =
           std::hypot((*at)[0] / ratio - position.x(), (*at)[1] / ratio - position.y());
-      if (away >= best)
-        continue;
-      best = away;
-      found = handle;
+      if (away < kReach)
+        found.emplace_back(away, n);
     }
-  return found;
+  std::sort(found.begin(), found.end());
+  std::vector<std::size_t> numbers;
+  for (const auto& one : found)
+    numbers.push_back(one.second);
+  return numbers;
 }
 
-bool ClippingController::takeHandle(const QPointF& position)
+std::optional<Eigen::Vector3d> ClippingController::draggedTo(const Handle& handle,
+                                                             const Eigen::Vector3d& at,
+                                                             const QPointF& position) const
 {
-  const std::optional<Handle> found = handleAt(position);
-  if (!found)
-    return false;
-  const auto grabbed =
-      presenters::closestAlong(found->at, found->direction, m_view.sightLine(position));
-  if (!grabbed)
+  const interaction::PickRay line = m_view.sightLine(position);
+  if (handle.direction)
   {
-    emit statusMessage(found->alongSight);
-    return false; // the patient turns
+    const auto along = presenters::closestAlong(at, *handle.direction, line);
+    return along ? std::optional<Eigen::Vector3d>(at + *along * *handle.direction) : std::nullopt;
   }
-  m_line = Line{found->at, found->direction};
-  m_pressed = position;
-  beginDrag(
-      [line = *m_line, grabbed = *grabbed, dragged = found->dragged](const Eigen::Vector3d& to)
-      { return dragged(line.direction.dot(to - line.at) - grabbed); });
-  return true;
+  const core::CameraPose camera = m_view.picture().camera();
+  const Eigen::Vector3d ahead = (camera.focalPoint - camera.position).normalized();
+  return line.at(ahead.dot(at - line.origin) / ahead.dot(line.direction));
+}
+
+// The nearest that can be dragged: where a face looks along the line of sight, the box's middle.
+bool ClippingController::takeHandle(const QPointF& position, bool whole)
+{
+  const std::vector<Handle> all = handles(whole);
+  const std::vector<std::size_t> near = handlesAt(all, position);
+  for (const std::size_t number : near)
+  {
+    const Handle& handle = all[number];
+    const auto grabbed = draggedTo(handle, handle.at, position);
+    if (!grabbed)
+      continue;
+    m_held = Held{number, handle};
+    m_pressed = position;
+    beginDrag([grabbed = *grabbed, dragged = handle.dragged](const Eigen::Vector3d& to)
+              { return dragged(to - grabbed); });
+    return true;
+  }
+  if (!near.empty())
+    emit statusMessage(all[near.front()].alongSight);
+  return false; // the patient turns
 }
 
 bool ClippingController::eventFilter(QObject* watched, QEvent* event)
@@ -375,25 +485,28 @@ bool ClippingController::eventFilter(QObject* watched, QEvent* event)
 bool ClippingController::handleMouse(const QMouseEvent& event)
 {
   const bool isLeft = event.button() == Qt::LeftButton;
+  // Of a box that is all of the image nothing moves: Shift pans.
+  const bool isWhole =
+      event.modifiers() == Qt::ShiftModifier && m_model.value().view.clipping.crop.has_value();
+  const bool takes = isLeft && (isWhole || event.modifiers() == Qt::NoModifier);
   switch (event.type())
   {
   case QEvent::MouseButtonPress:
-    return isLeft && event.modifiers() == Qt::NoModifier && takeHandle(event.localPos());
+    return takes && takeHandle(event.localPos(), isWhole);
   case QEvent::MouseButtonDblClick: // the second press of who drags it again, and enlarges nothing
-    return isLeft && event.modifiers() == Qt::NoModifier &&
-           (takeHandle(event.localPos()) || handleAt(event.localPos()));
+    return takes && (takeHandle(event.localPos(), isWhole) ||
+                     !handlesAt(handles(), event.localPos()).empty());
   case QEvent::MouseMove:
-    if (!m_line)
+    if (!m_held)
       return false;
     if (m_pressed && QLineF(*m_pressed, event.localPos()).length() <= kClick)
       return true;
     m_pressed.reset();
-    if (const auto along = presenters::closestAlong(m_line->at, m_line->direction,
-                                                    m_view.sightLine(event.localPos())))
-      drag(m_line->at + *along * m_line->direction);
+    if (const auto to = draggedTo(m_held->handle, m_held->handle.at, event.localPos()))
+      drag(*to);
     return true;
   case QEvent::MouseButtonRelease:
-    if (!isLeft || !m_line)
+    if (!isLeft || !m_held)
       return false;
     endDrag();
     return true;

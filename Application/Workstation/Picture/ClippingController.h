@@ -65,14 +65,25 @@ private:
   /// What can be dragged in the 3D view: where it stands, along which line, and to what.
   struct Handle
   {
-    Eigen::Vector3d at, direction; ///< patient LPS mm; unit
-    double arrow;                  ///< mm, of the arrow that ends there; 0: none
-    QString alongSight;            ///< why it cannot be dragged along the line of sight
-    std::function<Clipping(double millimetres)> dragged;
+    Eigen::Vector3d at;                       ///< patient LPS mm
+    std::optional<Eigen::Vector3d> direction; ///< unit; none: across the line of sight
+    double arrow = 0.0;                       ///< mm, of the arrow that ends there; 0: none
+    QString alongSight;                       ///< why it cannot be dragged along the line of sight
+    std::function<Clipping(const Eigen::Vector3d& step)> dragged; ///< mm
+    std::function<QString()> reading;                             ///< while it is dragged
   };
-  std::vector<Handle> handles() const;
-  std::optional<Handle> handleAt(const QPointF& position) const;
-  bool takeHandle(const QPointF& position);
+  /// `whole`: what is dragged of the box moves all of it.
+  std::vector<Handle> handles(bool whole = false) const;
+  Handle handleOf(const presenters::FaceHandle& face, bool whole) const;
+  Handle handleOfMiddle() const;
+  Handle handleOfPlane(std::size_t plane) const;
+  QString readPlane(std::size_t plane, const Clipping& before) const;
+  /// Those under the pointer, the nearest first: numbers among `all`.
+  std::vector<std::size_t> handlesAt(const std::vector<Handle>& all, const QPointF& position) const;
+  /// Of a handle that was taken at `at`: where the pointer drags it.
+  std::optional<Eigen::Vector3d> draggedTo(const Handle& handle, const Eigen::Vector3d& at,
+                                           const QPointF& position) const;
+  bool takeHandle(const QPointF& position, bool whole);
   bool toolHasView() const;
   bool hasHandles() const; ///< in the 3D view
   bool showsBox() const;
@@ -85,12 +96,13 @@ private:
   QPointer<CropBoxDialog> m_dialog;
   Clipping m_before; ///< the drag
   std::function<Clipping(const Eigen::Vector3d& patient)> m_drag;
-  /// In the 3D view: the line along which a handle is dragged.
-  struct Line
+  /// In the 3D view.
+  struct Held
   {
-    Eigen::Vector3d at, direction;
+    std::size_t number; ///< among the handles
+    Handle handle;      ///< as it was taken
   };
-  std::optional<Line> m_line;
+  std::optional<Held> m_held;
   std::optional<QPointF> m_pressed; ///< until it is dragged
 };
 

@@ -1,8 +1,10 @@
 #include "CropBoxDialog.h"
 
+#include <QAbstractSpinBox>
 #include <QDialogButtonBox>
 #include <QLabel>
 #include <QPushButton>
+#include <QShowEvent>
 #include <QVBoxLayout>
 
 #include "Bind.h"
@@ -33,6 +35,17 @@ CropBoxDialog::CropBoxDialog(QWidget* parent)
   connect(m_numbers, &BoxNumbers::edited, this, &CropBoxDialog::edited);
   connect(whole, &QPushButton::clicked, this, &CropBoxDialog::wholeAsked);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
+}
+
+// With the first number to be typed over.
+void CropBoxDialog::showEvent(QShowEvent* event)
+{
+  QDialog::showEvent(event);
+  if (event->spontaneous())
+    return;
+  m_numbers->setFocus();
+  if (auto* number = qobject_cast<QAbstractSpinBox*>(m_numbers->focusProxy()))
+    number->selectAll();
 }
 
 void CropBoxDialog::show(const presenters::CropFrame& frame, const Eigen::AlignedBox3d& box)

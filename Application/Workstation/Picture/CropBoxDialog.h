@@ -20,6 +20,9 @@ public:
 
   void show(const presenters::CropFrame& frame, const Eigen::AlignedBox3d& box);
 
+protected:
+  void showEvent(QShowEvent* event) override;
+
 signals:
   void edited(const Eigen::AlignedBox3d& box); ///< mm, in the frame that was shown
   void wholeAsked();

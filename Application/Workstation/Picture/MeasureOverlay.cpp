@@ -8,6 +8,7 @@
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCoordinate.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -33,12 +34,39 @@ constexpr double kLine = 22.0;     // px, from label to label
 constexpr double kPerLetter = 8.0; // px, about
 constexpr double kLineWidth = 2.0; // px
 constexpr double kDot = 7.0;       // px, of a handle
+constexpr double kHalo = 1.5;      // px, around it
 
 bool same(const DrawnMeasure& a, const DrawnMeasure& b)
 {
-  return std::tie(a.index, a.points, a.closed, a.handles, a.label, a.chosen, a.draft) ==
-             std::tie(b.index, b.points, b.closed, b.handles, b.label, b.chosen, b.draft) &&
+  return std::tie(a.index, a.points, a.closed, a.handles, a.label, a.chosen, a.draft, a.form) ==
+             std::tie(b.index, b.points, b.closed, b.handles, b.label, b.chosen, b.draft, b.form) &&
          a.color == b.color;
+}
+
+// The corners of a handle about the point that is dragged, for a radius of 1. `along`: unit, of the
+// line that ends there.
+std::vector<Eigen::Vector2d> cornersOf(DrawnMeasure::Form form, const Eigen::Vector2d& along)
+{
+  constexpr int kRound = 16;
+  constexpr double kTurn = 2.0 * 3.14159265358979323846 / kRound;
+  switch (form)
+  {
+  case DrawnMeasure::Form::Square:
+    return {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
+  case DrawnMeasure::Form::Diamond:
+    return {{0.0, -1.8}, {1.8, 0.0}, {0.0, 1.8}, {-1.8, 0.0}};
+  case DrawnMeasure::Form::Arrow:
+  {
+    const Eigen::Vector2d across(-along[1], along[0]);
+    return {1.5 * along, 1.5 * across - 1.5 * along, -1.5 * across - 1.5 * along};
+  }
+  case DrawnMeasure::Form::Dot:
+    break;
+  }
+  std::vector<Eigen::Vector2d> corners;
+  for (int n = 0; n < kRound; ++n)
+    corners.emplace_back(std::cos(n * kTurn), std::sin(n * kTurn));
+  return corners;
 }
 
 void setColor(vtkActor2D& actor, const QColor& color, double opacity)
@@ -51,7 +79,8 @@ void setColor(vtkActor2D& actor, const QColor& color, double opacity)
 
 struct MeasureOverlay::Drawn
 {
-  vtkNew<vtkPolyData> line, handles;
+  vtkNew<vtkPolyData> line;
+  std::array<vtkNew<vtkPolyData>, 2> handles;        // halo and handles, of placeHandles
   std::array<vtkSmartPointer<vtkActor2D>, 4> actors; // halo and line, halo and handles
   vtkNew<vtkTextActor> label;
   vtkNew<vtkCoordinate> anchor;
@@ -72,23 +101,17 @@ bool MeasureOverlay::set(const std::vector<DrawnMeasure>& measures)
 {
   if (std::equal(measures.begin(), measures.end(), m_measures.begin(), m_measures.end(), same))
     return false;
-  for (const auto& one : m_drawn)
-  {
-    for (const auto& actor : one->actors)
-      m_renderer->RemoveViewProp(actor);
-    m_renderer->RemoveViewProp(one->label);
-  }
+  removeProps();
   m_drawn.clear();
   m_measures = measures;
   for (const DrawnMeasure& measure : m_measures)
   {
     auto one = std::make_unique<Drawn>();
-    vtkNew<vtkPoints> points, ends;
+    vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
-    ends->SetDataTypeToDouble();
     for (const Eigen::Vector3d& point : measure.points)
       points->InsertNextPoint(point.data());
-    vtkNew<vtkCellArray> edges, dots;
+    vtkNew<vtkCellArray> edges;
     const auto count = static_cast<vtkIdType>(measure.points.size());
     if (count > 1)
     {
@@ -96,20 +119,14 @@ bool MeasureOverlay::set(const std::vector<DrawnMeasure>& measures)
       for (vtkIdType n = 0; n < count + (measure.closed ? 1 : 0); ++n)
         edges->InsertCellPoint(n % count);
     }
-    for (const std::size_t handle : measure.handles)
-    {
-      const vtkIdType id = ends->InsertNextPoint(measure.points[handle].data());
-      dots->InsertNextCell(1, &id);
-    }
     one->line->SetPoints(points);
     one->line->SetLines(edges);
-    one->handles->SetPoints(ends);
-    one->handles->SetVerts(dots);
     for (std::size_t n = 0; n < one->actors.size(); ++n)
     {
       const bool isHalo = n % 2 == 0;
       vtkNew<vtkPolyDataMapper2D> mapper;
-      mapper->SetInputData(n < 2 ? one->line : one->handles);
+      mapper->SetInputData(n < 2 ? one->line : one->handles[n - 2]);
+      mapper->TransformCoordinateUseDoubleOn();
       vtkNew<vtkCoordinate> world;
       world->SetCoordinateSystemToWorld();
       mapper->SetTransformCoordinate(world);
@@ -117,7 +134,6 @@ bool MeasureOverlay::set(const std::vector<DrawnMeasure>& measures)
       actor->SetMapper(mapper);
       setColor(*actor, isHalo ? QColor(0, 0, 0) : measure.color, isHalo ? 0.75 : 1.0);
       actor->PickableOff();
-      m_renderer->AddViewProp(actor);
       one->actors[n] = actor;
     }
     if (!measure.points.empty())
@@ -147,9 +163,89 @@ bool MeasureOverlay::set(const std::vector<DrawnMeasure>& measures)
     one->label->PickableOff();
     m_drawn.push_back(std::move(one));
   }
+  addProps();
+  return true;
+}
+
+void MeasureOverlay::addProps()
+{
+  for (const auto& one : m_drawn)
+    for (const auto& actor : one->actors)
+      m_renderer->AddViewProp(actor);
   for (const auto& one : m_drawn) // over all lines and handles
     m_renderer->AddViewProp(one->label);
-  return true;
+}
+
+void MeasureOverlay::removeProps()
+{
+  for (const auto& one : m_drawn)
+  {
+    for (const auto& actor : one->actors)
+      m_renderer->RemoveViewProp(actor);
+    m_renderer->RemoveViewProp(one->label);
+  }
+}
+
+void MeasureOverlay::raise()
+{
+  removeProps();
+  addProps();
+}
+
+std::vector<Eigen::Vector3d> MeasureOverlay::handles() const
+{
+  std::vector<Eigen::Vector3d> all;
+  for (const DrawnMeasure& measure : m_measures)
+    for (const std::size_t handle : measure.handles)
+      all.push_back(measure.points[handle]);
+  return all;
+}
+
+// In the world, across the line of sight: each eye sees them where the point is.
+void MeasureOverlay::placeHandles(const DrawnMeasure& measure, Drawn& drawn, double scale)
+{
+  vtkCamera* camera = m_renderer->GetActiveCamera();
+  const Eigen::Vector3d position(camera->GetPosition());
+  const Eigen::Vector3d ahead(camera->GetDirectionOfProjection());
+  const Eigen::Vector3d right = ahead.cross(Eigen::Vector3d(camera->GetViewUp())).normalized();
+  const Eigen::Vector3d up = right.cross(ahead);
+  const double height = std::max(m_renderer->GetSize()[1], 1);
+  const double radius = scale * (0.5 * kDot + (measure.chosen ? 1.0 : 0.0));
+  for (std::size_t part = 0; part < drawn.handles.size(); ++part)
+  {
+    const double reach = radius + (part == 0 ? scale * kHalo : 0.0);
+    vtkNew<vtkPoints> corners;
+    corners->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> faces;
+    for (const std::size_t handle : measure.handles)
+    {
+      const Eigen::Vector3d& at = measure.points[handle];
+      const double mmPerPixel =
+          2.0 *
+          (camera->GetParallelProjection()
+               ? camera->GetParallelScale()
+               : ahead.dot(at - position) *
+                     std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()))) /
+          height;
+      Eigen::Vector2d along = Eigen::Vector2d::UnitY();
+      if (handle > 0)
+      {
+        const Eigen::Vector3d line = at - measure.points[handle - 1];
+        const Eigen::Vector2d seen(right.dot(line), up.dot(line));
+        along = seen.norm() > 1e-9 ? Eigen::Vector2d(seen.normalized()) : along;
+      }
+      const std::vector<Eigen::Vector2d> form = cornersOf(measure.form, along);
+      faces->InsertNextCell(static_cast<int>(form.size()));
+      for (const Eigen::Vector2d& corner : form)
+      {
+        const Eigen::Vector3d place =
+            at + reach * mmPerPixel * (corner[0] * right + corner[1] * up);
+        faces->InsertCellPoint(corners->InsertNextPoint(place.data()));
+      }
+    }
+    drawn.handles[part]->SetPoints(corners);
+    drawn.handles[part]->SetPolys(faces);
+  }
 }
 
 std::optional<std::array<double, 2>> MeasureOverlay::pixelOf(const Eigen::Vector3d& patient) const
@@ -166,7 +262,7 @@ std::optional<std::array<double, 2>> MeasureOverlay::pixelOf(const Eigen::Vector
   return std::array<double, 2>{at[0], size[1] - at[1]};
 }
 
-void MeasureOverlay::place()
+void MeasureOverlay::place(const std::vector<Eigen::Vector3d>& others)
 {
   struct Box
   {
@@ -178,10 +274,11 @@ void MeasureOverlay::place()
   const double line = scale * kLine;
   // A label lies on no handle, of its own or another's.
   const double reach = scale * (0.5 * kDot + 3.0);
-  for (const DrawnMeasure& measure : m_measures)
-    for (const std::size_t handle : measure.handles)
-      if (const auto at = pixelOf(measure.points[handle]))
-        taken.push_back({(*at)[0] - reach, (*at)[0] + reach, (*at)[1] - reach, (*at)[1] + reach});
+  std::vector<Eigen::Vector3d> avoided = handles();
+  avoided.insert(avoided.end(), others.begin(), others.end());
+  for (const Eigen::Vector3d& handle : avoided)
+    if (const auto at = pixelOf(handle))
+      taken.push_back({(*at)[0] - reach, (*at)[0] + reach, (*at)[1] - reach, (*at)[1] + reach});
   for (std::size_t n = 0; n < m_drawn.size(); ++n)
   {
     Drawn& one = *m_drawn[n];
@@ -191,7 +288,6 @@ void MeasureOverlay::place()
       const double halo = part % 2 == 0 ? 1.0 : 0.0;
       vtkProperty2D* look = one.actors[part]->GetProperty();
       look->SetLineWidth(static_cast<float>(scale * (kLineWidth + 2.0 * halo + wide)));
-      look->SetPointSize(static_cast<float>(scale * (kDot + 3.0 * halo + 2.0 * wide)));
     }
     const bool seen =
         std::all_of(m_measures[n].points.begin(), m_measures[n].points.end(),
@@ -201,6 +297,7 @@ void MeasureOverlay::place()
     one.label->SetVisibility(seen && !m_measures[n].label.isEmpty() ? 1 : 0);
     if (!seen)
       continue;
+    placeHandles(m_measures[n], one, scale);
     const auto at = *pixelOf(one.at);
     const double width = scale * kPerLetter * m_measures[n].label.size();
     // At the right of its handle, but within the view.

@@ -28,14 +28,22 @@ public:
   bool set(const std::vector<DrawnMeasure>& measures);
   const std::vector<DrawnMeasure>& measures() const noexcept { return m_measures; }
 
-  /// Before each frame: what is behind the camera is not drawn, and labels make room.
-  void place();
+  /// Draws it over what was added to the renderer since.
+  void raise();
+
+  /// Before each frame: what is behind the camera is not drawn, handles face the camera, and labels
+  /// make room, also for other handles (patient, LPS mm).
+  void place(const std::vector<Eigen::Vector3d>& others = {});
+  std::vector<Eigen::Vector3d> handles() const; ///< all of them
 
   /// Pixels from the upper left of the viewport; none behind the camera.
   std::optional<std::array<double, 2>> pixelOf(const Eigen::Vector3d& patient) const;
 
 private:
   struct Drawn;
+  void addProps();
+  void removeProps();
+  void placeHandles(const DrawnMeasure& measure, Drawn& drawn, double scale);
   vtkSmartPointer<vtkRenderer> m_renderer;
   std::vector<DrawnMeasure> m_measures;
   std::vector<std::unique_ptr<Drawn>> m_drawn;

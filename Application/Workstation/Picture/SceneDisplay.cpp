@@ -198,8 +198,11 @@ void SceneDisplay::setMeasures(const std::vector<DrawnMeasure>& measures)
     m_follower->setMeasures(measures);
   if (!m_measures)
     return;
-  if (m_measures->set(measures))
-    redraw(m_moving);
+  if (!m_measures->set(measures))
+    return;
+  if (m_handles) // what is dragged lies under no label
+    m_handles->raise();
+  redraw(m_moving);
 }
 
 void SceneDisplay::setHandles(const std::vector<DrawnMeasure>& handles)
@@ -380,7 +383,7 @@ void SceneDisplay::refine()
 void SceneDisplay::frameStarted()
 {
   if (m_measures)
-    m_measures->place();
+    m_measures->place(m_handles ? m_handles->handles() : std::vector<Eigen::Vector3d>());
   if (m_handles)
     m_handles->place();
   m_clock.start();

@@ -352,6 +352,12 @@ void SliceColumn::setBox(const std::optional<SliceBox>& box)
     view->setBox(box);
 }
 
+void SliceColumn::setCuts(const std::vector<scene::ViewState::Clipping::Plane>& planes)
+{
+  for (SliceView* view : m_views)
+    view->setCuts(planes);
+}
+
 double SliceColumn::mmPerPixel(SliceOrientation plane) const
 {
   return m_views[static_cast<std::size_t>(plane)]->slice().mmPerPixel();

@@ -84,6 +84,7 @@ public:
   void setDrawing(const SliceDrawing& drawing);
   void setMeasures(const std::vector<DrawnMeasure>& measures);
   void setBox(const std::optional<SliceBox>& box);
+  void setCuts(const std::vector<scene::ViewState::Clipping::Plane>& planes);
   void setDraft(const std::shared_ptr<const presenters::DraftLayer>& draft);
   /// A structure that is not shown, as its draft is; empty: none.
   void setHidden(const std::string& structure);

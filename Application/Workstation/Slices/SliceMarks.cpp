@@ -250,8 +250,8 @@ void paintCube(QPainter& painter, double edge, const presenters::SliceGeometry& 
   }
 }
 
-void paintBox(QPainter& painter, const presenters::HandledBox& box, bool dims,
-              const presenters::SliceGeometry& slice)
+QRectF paintBox(QPainter& painter, const presenters::HandledBox& box, bool dims,
+                const presenters::SliceGeometry& slice, const std::vector<QRectF>& taken)
 {
   constexpr double kHalf = 3.5;  // px, of a handle
   constexpr double kSize = 40.0; // px, from which on it is written
@@ -289,7 +289,7 @@ void paintBox(QPainter& painter, const presenters::HandledBox& box, bool dims,
 
   const QRectF bounds = outline.boundingRect();
   if (shown.edges().size() != 4 || bounds.width() < kSize)
-    return;
+    return {};
   const auto length = [&](std::size_t n)
   {
     const presenters::BoxInSlice::Edge& edge = shown.edges()[n];
@@ -305,11 +305,39 @@ void paintBox(QPainter& painter, const presenters::HandledBox& box, bool dims,
   font.setPixelSize(12);
   painter.setFont(font);
   const QRectF seen = bounds.intersected(QRectF(painter.viewport()));
-  if (!seen.isEmpty())
-    drawText(painter,
-             seen.bottomRight() -
-                 QPointF(QFontMetricsF(font).horizontalAdvance(text) + 2.0 * kHalf, 2.0 * kHalf),
-             text, color);
+  if (seen.isEmpty())
+    return {};
+  const QFontMetricsF metrics(font);
+  QRectF place(QPointF(), QSizeF(metrics.horizontalAdvance(text), metrics.height()));
+  place.moveBottomRight(seen.bottomRight() - QPointF(2.0 * kHalf, 2.0 * kHalf));
+  place = freePlace(place, taken, painter.viewport());
+  drawText(painter, place.bottomLeft() - QPointF(0.0, metrics.descent()), text, color);
+  return place;
+}
+
+void paintCut(QPainter& painter, const scene::ViewState::Clipping::Plane& plane,
+              const presenters::SliceGeometry& slice)
+{
+  constexpr double kTick = 7.0;   // px
+  constexpr double kApart = 40.0; // px, from tick to tick
+  const auto line = presenters::lineInSlice(plane, slice);
+  if (!line)
+    return;
+  const auto at = [](const Eigen::Vector2d& pixel)
+  { return QPointF(pixel[0] + 0.5, pixel[1] + 0.5); };
+  const double length = (line->to - line->from).norm();
+  const Eigen::Vector2d along = (line->to - line->from) / length;
+  for (const auto& pen : {QPen(QColor(0, 0, 0, 200), 3.0), QPen(cutColor(), 1.3, Qt::DashLine)})
+  {
+    painter.setPen(pen);
+    painter.drawLine(at(line->from), at(line->to));
+  }
+  painter.setPen(QPen(cutColor(), 1.3));
+  for (double on = 0.5 * kApart; on < length; on += kApart)
+  {
+    const Eigen::Vector2d foot = line->from + on * along;
+    painter.drawLine(at(foot), at(foot + kTick * line->kept));
+  }
 }
 
 } // namespace petrous::workstation

@@ -8,6 +8,7 @@
 #include <QString>
 
 #include "petrous/Presenters/BoxHandles.h"
+#include "petrous/Presenters/ClippingHandles.h"
 #include "petrous/Presenters/SliceGeometry.h"
 
 class QPainter;
@@ -35,6 +36,15 @@ void paintCurve(QPainter& painter, const std::vector<Eigen::Vector3d>& points, c
 /// A mark or measurement as it is drawn, in slices and in the 3D view.
 struct DrawnMeasure
 {
+  /// Of its handles in the 3D view: points of measurements, faces of a box, its middle, the tip of
+  /// a line.
+  enum class Form
+  {
+    Dot,
+    Square,
+    Diamond,
+    Arrow
+  };
   std::size_t index = 0;               ///< of the case's measurements
   std::vector<Eigen::Vector3d> points; ///< of its line, patient LPS mm
   bool closed = false;
@@ -43,6 +53,7 @@ struct DrawnMeasure
   QColor color;
   bool chosen = false;
   bool draft = false; ///< being set; no handle can be taken
+  Form form = Form::Dot;
 };
 
 /// Full where it lies within a millimetre of the slice, which contains `at`, and faint elsewhere up
@@ -62,8 +73,13 @@ void paintCube(QPainter& painter, double edge, const presenters::SliceGeometry& 
                const Eigen::Vector3d& at);
 
 /// Outline and handles of a box, dashed where the slice lies beside it, and its size in the slice.
-/// `dims`: what is outside is dark.
-void paintBox(QPainter& painter, const presenters::HandledBox& box, bool dims,
+/// `dims`: what is outside is dark. The size lies on none of `taken`, places of other texts;
+/// returns its own, which is null where there is none.
+QRectF paintBox(QPainter& painter, const presenters::HandledBox& box, bool dims,
+                const presenters::SliceGeometry& slice, const std::vector<QRectF>& taken);
+
+/// Where a clipping plane cuts the slice, with short lines to the side that stays.
+void paintCut(QPainter& painter, const scene::ViewState::Clipping::Plane& plane,
               const presenters::SliceGeometry& slice);
 
 /// In the painter's font, readable on bone and on air alike.

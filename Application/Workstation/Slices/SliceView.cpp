@@ -472,12 +472,14 @@ void SliceView::paintEvent(QPaintEvent*)
   paintMarks(painter, m_drawing.marks, picture, m_crosshair);
   paintInterpolated(painter);
   paintCrosshair(painter);
-  if (m_box)
-    paintBox(painter, m_box->handled, m_box->dims, picture);
+  for (const scene::ViewState::Clipping::Plane& plane : m_cuts)
+    paintCut(painter, plane, picture);
   const std::vector<EdgeText> texts = edgeTexts(painter.font());
   std::vector<QRectF> taken{placeOfScaleBar(size())};
   for (const EdgeText& one : texts)
     taken.push_back(one.place());
+  if (m_box)
+    taken.push_back(paintBox(painter, m_box->handled, m_box->dims, picture, taken));
   paintMeasures(painter, m_measures, picture, m_crosshair, shownReach(), std::move(taken));
   QFont font = painter.font();
   font.setPixelSize(12);
@@ -683,7 +685,7 @@ void SliceView::mousePressEvent(QMouseEvent* event)
   }
   else if (event->modifiers() & Qt::ControlModifier)
     m_turning = true;
-  else if (!(event->modifiers() & Qt::ShiftModifier) && takeBox(event->localPos()))
+  else if (takeBox(event->localPos(), event->modifiers() & Qt::ShiftModifier))
     return;
   else if (m_tool && !(event->modifiers() & Qt::ShiftModifier))
   {
@@ -766,6 +768,12 @@ void SliceView::setBox(const std::optional<SliceBox>& box)
   update();
 }
 
+void SliceView::setCuts(std::vector<scene::ViewState::Clipping::Plane> planes)
+{
+  m_cuts = std::move(planes);
+  update();
+}
+
 // A tool has the left button for itself.
 presenters::BoxFaces SliceView::facesAt(const QPointF& position) const
 {
@@ -776,14 +784,16 @@ presenters::BoxFaces SliceView::facesAt(const QPointF& position) const
       .facesAt({position.x() - 0.5, position.y() - 0.5}, kReach);
 }
 
-bool SliceView::takeBox(const QPointF& position)
+bool SliceView::takeBox(const QPointF& position, bool whole)
 {
   if (!m_box || m_tool)
     return false;
+  if (whole && !m_box->shiftMoves)
+    return false;
   presenters::BoxFaces faces = facesAt(position);
-  if (!faces.any() && m_box->moves)
+  if (whole || (!faces.any() && m_box->moves))
     if (const presenters::BoxInSlice section(m_box->handled, slice());
-        section.contains({position.x() - 0.5, position.y() - 0.5}))
+        faces.any() || section.contains({position.x() - 0.5, position.y() - 0.5}))
       faces = section.insideFaces();
   if (!faces.any())
     return false;

@@ -30,8 +30,9 @@ struct SliceTool
 struct SliceBox
 {
   presenters::HandledBox handled;
-  bool moves = false; ///< dragged inside, all of it moves
-  bool dims = false;  ///< what is outside
+  bool moves = false;      ///< dragged inside, all of it moves
+  bool dims = false;       ///< what is outside
+  bool shiftMoves = false; ///< dragged with Shift inside or by an edge, all of it moves
 };
 
 /// What a tool shows in the slices besides its draft.
@@ -52,7 +53,8 @@ QString slabText(const presenters::Slab& slab);
 /// about the crosshair, Ctrl+arrow keys those or the slice itself. With a tool the left button is
 /// the tool's, and with Shift it moves the crosshair. A thick slab is drawn coarse first and then
 /// finer, in parts between other events. A double click asks to enlarge the view. Alt+arrow and
-/// Alt+Page up or down translate and rotate an MR overlay.
+/// Alt+Page up or down translate and rotate an MR overlay. A box is dragged by its edges and
+/// corners, with Shift as a whole.
 class SliceView : public QWidget
 {
   Q_OBJECT
@@ -94,6 +96,7 @@ public:
   void setDrawing(SliceDrawing drawing);
   void setMeasures(std::vector<DrawnMeasure> measures);
   void setBox(const std::optional<SliceBox>& box);
+  void setCuts(std::vector<scene::ViewState::Clipping::Plane> planes); ///< clipping planes
   /// What is being segmented; nullptr: nothing.
   void setDraft(std::shared_ptr<const presenters::DraftLayer> draft);
   void draftChanged(const core::PatientBox& box); ///< its voxels, in this box
@@ -181,7 +184,7 @@ private:
   };
   std::optional<Handle> handleAt(const QPointF& position) const;
   presenters::BoxFaces facesAt(const QPointF& position) const;
-  bool takeBox(const QPointF& position);
+  bool takeBox(const QPointF& position, bool whole);
   void showCursorAt(const QPointF& position);
 
   presenters::SliceOrientation m_orientation;
@@ -236,6 +239,7 @@ private:
   std::optional<QPointF> m_pressed; // a handle, until it is dragged
   std::vector<DrawnMeasure> m_measures;
   std::optional<SliceBox> m_box;
+  std::vector<scene::ViewState::Clipping::Plane> m_cuts;
   bool m_boxDown = false;
 };
 

@@ -9,11 +9,18 @@
 #include <QDoubleSpinBox>
 #include <QLineF>
 #include <QMouseEvent>
+#include <QPainter>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QStatusBar>
+
+#include <vtkPropCollection.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
 
 #include "MeasureController.h"
 #include "SceneDisplay.h"
+#include "SliceMarks.h"
 #include "SliceView.h"
 #include "ThreeDView.h"
 #include "petrous/Presenters/BoxHandles.h"
@@ -66,6 +73,19 @@ protected:
     at[0] = frame.box(crop).box.max()[0];
     const Eigen::Vector2d pixel = axial().slice().pixelFromPatient(at);
     return {static_cast<int>(std::lround(pixel[0])), static_cast<int>(std::lround(pixel[1]))};
+  }
+
+  /// Texts over the 3D view, as drawn last.
+  QStringList textsInView()
+  {
+    QStringList texts;
+    vtkPropCollection* props = view().picture().renderer()->GetViewProps();
+    vtkCollectionSimpleIterator at;
+    props->InitTraversal(at);
+    while (vtkProp* prop = props->GetNextProp(at))
+      if (auto* text = vtkTextActor::SafeDownCast(prop); text && text->GetInput())
+        texts += QString::fromUtf8(text->GetInput());
+    return texts;
   }
 
   QPoint inView(const Vector3d& patient)
@@ -186,6 +206,45 @@ TEST_F(ClippingBox, IsEnteredInMillimetres)
   EXPECT_NEAR(y1->value(), kBallCenter[1] + 15.75, 0.051) << "the dialog follows";
   dialog->findChild<QPushButton*>("wholeImage")->click();
   EXPECT_FALSE(clipping().crop);
+  dialog->close();
+}
+
+// Their range begins far from 0, so that the first digit alone is none of it.
+TEST_F(ClippingBox, NumbersAreTypedAndJudgedWhenTheyAreEnded)
+{
+  saveBall("ball");
+  openWindow("ball");
+  action("Crop box in numbers…")->trigger();
+  auto* dialog = window().findChild<QDialog*>("cropBoxDialog");
+  ASSERT_TRUE(dialog);
+  auto* x0 = dialog->findChild<QDoubleSpinBox*>("x0");
+  ASSERT_TRUE(x0);
+  EXPECT_EQ(dialog->focusWidget(), x0) << "the first number is to be typed over";
+  enterNumber(*x0, "-39.8"); // of -45.75 to -14.25
+  EXPECT_NEAR(x0->value(), -39.75, 0.051);
+  ASSERT_TRUE(clipping().crop);
+  EXPECT_EQ(clipping().crop->lower[0], 12); // 6 mm, at 0.5 mm
+  EXPECT_FALSE(x0->property("refused").toBool());
+
+  const double before = x0->value();
+  enterNumber(*x0, "7"); // on the wrong side of 0
+  EXPECT_EQ(x0->value(), before);
+  EXPECT_TRUE(x0->property("refused").toBool());
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("above the most"))
+      << window().statusBar()->currentMessage().toStdString();
+  enterNumber(*x0, "-38");
+  EXPECT_NEAR(x0->value(), -38.0, 0.3);
+  EXPECT_FALSE(x0->property("refused").toBool());
+  EXPECT_FALSE(window().statusBar()->currentMessage().contains("above the most"))
+      << "it was mended";
+  // Of z, from 29.25 to 60.75 mm, 5 is none.
+  auto* z1 = dialog->findChild<QDoubleSpinBox*>("z1");
+  ASSERT_TRUE(z1);
+  enterNumber(*z1, "50");
+  EXPECT_NEAR(z1->value(), 50.0, 0.3);
+  enterNumber(*z1, "50.123"); // more decimals than it has
+  EXPECT_TRUE(z1->property("refused").toBool());
+  EXPECT_NEAR(z1->value(), 50.0, 0.3);
   dialog->close();
 }
 
@@ -385,4 +444,167 @@ TEST_F(ClippingBox, APlaneIsDraggedByItsArrow)
   EXPECT_EQ(clipping().planes.front().normal, plane.normal);
   undo();
   EXPECT_EQ(clipping(), before);
+}
+
+// The lower part of the ball is drawn: above its face, 6.25 mm below the middle, there is nothing.
+TEST_F(ClippingBox, AClickMeansWhatIsDrawn)
+{
+  scene::Case ball = ballCase("ball");
+  ball.view.clipping.crop = core::IndexBox{{0, 0, 0}, {64, 64, 20}};
+  library().save(ball);
+  openWindow("ball");
+  ASSERT_TRUE(waitFor([this] { return window().model().ready(); }));
+  picture();
+  const QPoint hidden = inView(kBallCenter + Vector3d(0.0, 0.0, 6.0));
+  const QPoint drawn = inView(kBallCenter - Vector3d(0.0, 0.0, 9.0));
+  const auto click = [this](const QPoint& at)
+  {
+    QTest::mouseMove(&view(), at);
+    QTest::mouseClick(&view(), Qt::LeftButton, Qt::NoModifier, at);
+  };
+  const Vector3d before = window().model().crosshair();
+  click(hidden);
+  EXPECT_EQ(window().model().crosshair(), before);
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("cut away"))
+      << window().statusBar()->currentMessage().toStdString();
+  click(drawn);
+  const Vector3d after = window().model().crosshair();
+  EXPECT_NE(after, before);
+  EXPECT_NEAR((after - kBallCenter).norm(), kBallRadius, 0.1);
+  EXPECT_LT(after.z(), kBallCenter.z() - 6.2);
+
+  action("Distance")->trigger();
+  auto* measure = window().findChild<MeasureController*>();
+  ASSERT_TRUE(measure && measure->active());
+  click(hidden);
+  EXPECT_FALSE(measure->hasPoints());
+  click(drawn);
+  EXPECT_TRUE(measure->hasPoints());
+  measure->leaveTool();
+
+  // The pointer feels all of it, and the window shows all.
+  QTest::keyClick(&view(), Qt::Key_P);
+  ASSERT_TRUE(waitFor([this] { return view().tool().GetProbeMode() != 0; }));
+  picture();
+  click(hidden);
+  EXPECT_GT(window().model().crosshair().z(), kBallCenter.z());
+}
+
+TEST_F(ClippingBox, IsMovedAsAWholeByItsMiddleAndByShift)
+{
+  scene::Case ball = ballCase("ball");
+  const core::IndexBox box{{16, 16, 16}, {48, 48, 48}};
+  ball.view.clipping.crop = box;
+  library().save(ball);
+  openWindow("ball");
+  action("Crop box")->trigger();
+  picture();
+  const auto middle = [this]
+  {
+    const presenters::CropFrame frame(window().model().value().ct.geometry);
+    return Vector3d(frame.box(clipping().crop).box.center());
+  };
+  // From the side of the ear the head is up; the middle is one of the faces' handles, too, but
+  // those would be dragged along the line of sight.
+  const Vector3d before = middle();
+  const QPoint from = inView(before);
+  const double pixelsPerMm = (from.y() - inView(before + Vector3d(0.0, 0.0, 4.0)).y()) / 4.0;
+  ASSERT_GT(pixelsPerMm, 1.0);
+  drag(view(), from, from - QPoint(0, static_cast<int>(std::lround(3.0 * pixelsPerMm))));
+  ASSERT_TRUE(clipping().crop);
+  EXPECT_EQ(clipping().crop->size(), box.size());
+  EXPECT_NEAR((middle() - before - Vector3d(0.0, 0.0, 3.0)).norm(), 0.0, 0.5);
+  undo(); // one step
+  EXPECT_EQ(clipping().crop, box);
+
+  // In a slice, by an edge with Shift; within the slice only.
+  const QPoint edge = leftEdge(box);
+  const double mmPerPixel = axial().slice().mmPerPixel();
+  const int pixels = static_cast<int>(std::lround(4.0 / mmPerPixel)); // 8 voxels
+  const auto shifted = [this](QEvent::Type type, const QPoint& at)
+  {
+    QMouseEvent event(type, at, type == QEvent::MouseMove ? Qt::NoButton : Qt::LeftButton,
+                      type == QEvent::MouseButtonRelease ? Qt::NoButton : Qt::LeftButton,
+                      Qt::ShiftModifier);
+    QApplication::sendEvent(&axial(), &event);
+  };
+  shifted(QEvent::MouseButtonPress, edge);
+  shifted(QEvent::MouseMove, edge - QPoint(pixels / 2, 0));
+  shifted(QEvent::MouseMove, edge - QPoint(pixels, 0));
+  shifted(QEvent::MouseButtonRelease, edge - QPoint(pixels, 0));
+  ASSERT_TRUE(clipping().crop);
+  EXPECT_EQ(clipping().crop->size(), box.size());
+  EXPECT_NEAR((middle() - before - Vector3d(-4.0, 0.0, 0.0)).norm(), 0.0, 0.5 + mmPerPixel);
+  undo();
+  EXPECT_EQ(clipping().crop, box);
+}
+
+TEST_F(ClippingBox, APlaneThatIsDraggedTellsHowDeepItIs)
+{
+  ASSERT_NO_FATAL_FAILURE(openCut());
+  const scene::ViewState::Clipping::Plane plane = clipping().planes.front();
+  action("Anterior")->trigger();
+  picture();
+  const Vector3d tip = plane.point + 8.0 * plane.normal;
+  const QPoint from = inView(tip);
+  const QPoint to = inView(tip + 3.0 * plane.normal);
+  const auto isRead = [](const QString& text) { return text.contains("mm deep in the bone"); };
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, from);
+  moveTo(view(), (from + to) / 2);
+  moveTo(view(), to);
+  QStringList texts = textsInView();
+  EXPECT_TRUE(std::any_of(texts.begin(), texts.end(), isRead)) << texts.join("; ").toStdString();
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, to);
+  texts = textsInView();
+  EXPECT_FALSE(std::any_of(texts.begin(), texts.end(), isRead));
+  // The line through the plane's point along its normal enters the ball at the square root.
+  const Vector3d at = clipping().planes.front().point - kBallCenter;
+  const double along = at.dot(plane.normal);
+  const double half = std::sqrt(kBallRadius * kBallRadius - (at.squaredNorm() - along * along));
+  action("Cut deeper")->trigger();
+  const QString said = window().statusBar()->currentMessage();
+  EXPECT_TRUE(said.contains(QString::number(along + half + 0.5, 'f', 1) + " mm deep") ||
+              said.contains(QString::number(along + half + 0.6, 'f', 1) + " mm deep") ||
+              said.contains(QString::number(along + half + 0.4, 'f', 1) + " mm deep"))
+      << said.toStdString() << ", expected " << along + half + 0.5;
+  EXPECT_TRUE(said.contains("moved by 0.5 mm")) << said.toStdString();
+}
+
+TEST_F(ClippingBox, ThePlaneIsALineInTheSlices)
+{
+  ASSERT_NO_FATAL_FAILURE(openCut());
+  action("Anterior")->trigger();
+  ASSERT_TRUE(waitFor([this] { return axial().isFine(); }));
+  const auto violet = [this] // smoothed, it is darker
+  {
+    const QImage image = axial().grab().toImage();
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x)
+      {
+        const QColor one = image.pixelColor(x, y);
+        count += one.blue() > 130 && one.red() > one.green() + 20 && one.blue() > one.red() + 20;
+      }
+    return count;
+  };
+  EXPECT_GT(violet(), 30);
+  action("Show what was cut away")->trigger();
+  EXPECT_LT(violet(), 5);
+}
+
+TEST_F(ClippingBox, ItsSizeInASliceLiesOnNoOtherText)
+{
+  saveBall("ball");
+  openWindow("ball");
+  const presenters::CropFrame frame(window().model().value().ct.geometry);
+  const presenters::HandledBox box = frame.box(core::IndexBox{{4, 4, 4}, {60, 60, 60}});
+  const presenters::SliceGeometry slice = axial().slice();
+  QImage image(slice.width(), slice.height(), QImage::Format_RGB32);
+  QPainter painter(&image);
+  const QRectF first = paintBox(painter, box, false, slice, {});
+  ASSERT_FALSE(first.isEmpty());
+  const QRectF second = paintBox(painter, box, false, slice, {first});
+  EXPECT_FALSE(second.isEmpty());
+  EXPECT_FALSE(second.intersects(first));
+  EXPECT_TRUE(QRectF(image.rect()).contains(second));
 }

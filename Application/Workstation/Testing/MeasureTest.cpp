@@ -22,9 +22,11 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkTextActor.h>
+#include <vtkUnsignedCharArray.h>
 
 #include "MeasureController.h"
 #include "MeasureOverlay.h"
+#include "PixelsPerPoint.h"
 #include "SliceColumn.h"
 #include "SliceMarks.h"
 #include "SliceView.h"
@@ -167,6 +169,49 @@ TEST(MeasureOverlay, LabelsLieOnNoHandleAndOverAllLines)
             << label->GetInput() << " on " << handle.transpose();
       }
   }
+}
+
+// Points of measurements, faces of a box and its middle differ: by their area, for a radius of
+// 4.5 px.
+TEST(MeasureOverlay, HandlesHaveFormsOfTheirOwn)
+{
+  vtkNew<vtkRenderWindow> target;
+  target->SetOffScreenRendering(1);
+  target->SetMultiSamples(0);
+  target->SetSize(200, 200);
+  vtkNew<vtkRenderer> renderer;
+  target->AddRenderer(renderer);
+  vtkCamera* camera = renderer->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetPosition(0.0, 0.0, 100.0);
+  camera->SetFocalPoint(0.0, 0.0, 0.0);
+  camera->SetViewUp(0.0, 1.0, 0.0);
+  camera->SetParallelScale(10.0); // 10 px a mm
+  camera->SetClippingRange(1.0, 200.0);
+  MeasureOverlay overlay(*renderer);
+  DrawnMeasure measure;
+  measure.points = {{0.0, 0.0, 0.0}};
+  measure.handles = {0};
+  measure.color = QColor(0, 255, 255);
+  measure.chosen = true;
+  const auto area = [&](DrawnMeasure::Form form)
+  {
+    measure.form = form;
+    overlay.set({measure});
+    overlay.place();
+    target->Render();
+    vtkNew<vtkUnsignedCharArray> pixels;
+    target->GetRGBACharPixelData(0, 0, 199, 199, 0, pixels);
+    int count = 0;
+    for (vtkIdType n = 0; n < pixels->GetNumberOfTuples(); ++n)
+      count += pixels->GetValue(4 * n) < 100 && pixels->GetValue(4 * n + 1) > 150;
+    return count;
+  };
+  const double scale = pixelsPerPoint(*renderer);
+  const double squared = scale * scale * 4.5 * 4.5;
+  EXPECT_NEAR(area(DrawnMeasure::Form::Square), 4.0 * squared, 0.2 * squared);
+  EXPECT_NEAR(area(DrawnMeasure::Form::Dot), 3.06 * squared, 0.3 * squared);
+  EXPECT_NEAR(area(DrawnMeasure::Form::Diamond), 2.0 * 1.8 * 1.8 * squared, 0.9 * squared);
 }
 
 // Compared with 3D Slicer and ITK-SNAP: at most three events for a distance.

@@ -10,6 +10,7 @@
 #include <QDoubleSpinBox>
 #include <QKeyEvent>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QScopedValueRollback>
 #include <QSlider>
 #include <QTimer>
@@ -121,18 +122,40 @@ namespace
 class NumberBox : public QDoubleSpinBox
 {
 public:
+  explicit NumberBox(bool judgedAtEnd)
+    : m_judgedAtEnd(judgedAtEnd)
+  {
+  }
+
+  QValidator::State validate(QString& text, int& at) const override
+  {
+    const QValidator::State state = QDoubleSpinBox::validate(text, at);
+    if (state != QValidator::Invalid || !m_judgedAtEnd)
+      return state;
+    const QString number =
+        (text.endsWith(suffix()) ? text.chopped(suffix().size()) : text).trimmed();
+    const QRegularExpression form(QRegularExpression::anchoredPattern(
+        QString("[-+]?\\d*(%1\\d{0,%2})?")
+            .arg(QRegularExpression::escape(QString(locale().decimalPoint())))
+            .arg(decimals())));
+    return form.match(number).hasMatch() ? QValidator::Intermediate : QValidator::Invalid;
+  }
+
   QString textFromValue(double value) const override
   {
     const bool isZero = std::abs(value) < 0.5 * std::pow(10.0, -decimals());
     return QDoubleSpinBox::textFromValue(isZero ? 0.0 : value);
   }
+
+private:
+  bool m_judgedAtEnd;
 };
 
 } // namespace
 
 QDoubleSpinBox* numberBox(const char* name, const QString& tip, const NumberRange& range)
 {
-  QDoubleSpinBox* box = new NumberBox;
+  QDoubleSpinBox* box = new NumberBox(range.judgedAtEnd);
   box->setObjectName(name);
   box->setToolTip(tip);
   box->setDecimals(range.decimals);

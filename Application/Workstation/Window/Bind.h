@@ -73,6 +73,9 @@ struct NumberRange
   int decimals = 1;
   double step = 0.0;    ///< 0: adaptive
   QString atLeast = {}; ///< in place of the smallest number, such as "none"
+  /// A number beyond the range is refused when it is ended; else where it is typed, which in a
+  /// range that begins far from 0 may be its first digit.
+  bool judgedAtEnd = false;
 };
 
 /// Widgets of a panel. `name`: object name, for tests and style. A box takes a number when it is

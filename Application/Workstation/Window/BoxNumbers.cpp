@@ -32,7 +32,7 @@ BoxNumbers::BoxNumbers(QWidget* parent)
     {
       const QByteArray name = QString("%1%2").arg("xyz"[axis]).arg(end).toLatin1();
       QDoubleSpinBox* number =
-          numberBox(name.constData(), tips[end], {0.0, 99.9, tr(" mm"), 1, kUsualStep});
+          numberBox(name.constData(), tips[end], {0.0, 99.9, tr(" mm"), 1, kUsualStep, {}, true});
       number->setEnabled(false);
       m_numbers[static_cast<std::size_t>(2 * axis + end)] = number;
       grid->addWidget(number, axis, 1 + end);
@@ -48,6 +48,7 @@ BoxNumbers::BoxNumbers(QWidget* parent)
     }
   }
   grid->setColumnStretch(3, 1);
+  setFocusProxy(m_numbers.front());
 }
 
 void BoxNumbers::setBounds(const core::PatientBox& bounds)

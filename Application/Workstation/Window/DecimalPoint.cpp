@@ -6,6 +6,7 @@
 
 #include <QApplication>
 #include <QClipboard>
+#include <QDialog>
 #include <QDoubleSpinBox>
 #include <QKeyEvent>
 #include <QLineEdit>
@@ -73,14 +74,21 @@ QString whyNot(const QAbstractSpinBox& box, const QString& typed)
       .arg(typed, possibleIn(box));
 }
 
-// In the window's status bar, also for a field in a dialog or a floating panel.
-void say(const QAbstractSpinBox& box, const QString& text)
+// The window's, also of a field in a dialog or a floating panel; nullptr: it has none.
+QStatusBar* statusBarOf(const QAbstractSpinBox& box)
 {
   const QMainWindow* window = nullptr;
   for (const QWidget* one = &box; one && !window; one = one->parentWidget())
     window = qobject_cast<const QMainWindow*>(one);
-  if (auto* bar = window ? window->findChild<QStatusBar*>() : nullptr)
-    bar->showMessage(text, kSaid);
+  return window ? window->findChild<QStatusBar*>() : nullptr;
+}
+
+// Below the field, or below a dialog, whose other fields it would cover.
+QPoint placeOfReason(const QAbstractSpinBox& box)
+{
+  const auto* dialog = qobject_cast<const QDialog*>(box.window());
+  return dialog ? dialog->mapToGlobal(QPoint(0, dialog->height()))
+                : box.mapToGlobal(QPoint(0, box.height()));
 }
 
 } // namespace
@@ -129,10 +137,23 @@ void DecimalPoint::refuse(QAbstractSpinBox& box, const QString& what)
   mark(box, true);
   m_isRest = true;
   QString why = whyNot(box, what);
-  say(box, why);
+  m_said = why;
+  if (QStatusBar* bar = statusBarOf(box))
+    bar->showMessage(why, kSaid);
   if (const QString possible = possibleIn(box); !why.contains(possible))
     why += ". " + possible + '.';
-  QToolTip::showText(box.mapToGlobal(QPoint(0, box.height())), why, &box);
+  QToolTip::showText(placeOfReason(box), why, &box);
+}
+
+void DecimalPoint::mended(QAbstractSpinBox& box)
+{
+  mark(box, false);
+  if (m_said.isEmpty())
+    return;
+  if (QStatusBar* bar = statusBarOf(box); bar && bar->currentMessage() == m_said)
+    bar->clearMessage();
+  m_said.clear();
+  QToolTip::hideText();
 }
 
 // True: the field has had it.
@@ -177,7 +198,7 @@ bool DecimalPoint::typed(QAbstractSpinBox& box, const QString& text)
     refuse(box, shown);
     return true;
   }
-  mark(box, false);
+  mended(box);
   if (points == text)
     return false; // as it is
   for (const QChar point : points)
@@ -219,7 +240,7 @@ bool DecimalPoint::eventFilter(QObject* watched, QEvent* event)
       code == Qt::Key_Backspace || (code >= Qt::Key_Escape && code < Qt::Key_Shift))
   {
     m_isRest = false;
-    mark(*box, false);
+    mended(*box);
   }
   return false;
 }

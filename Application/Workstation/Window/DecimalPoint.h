@@ -19,7 +19,8 @@ namespace petrous::workstation
 /// A number that a field cannot take never becomes another one by losing characters: the field goes
 /// back to what it had, says what is possible, also in the status bar of its window, is marked for
 /// some seconds (property "refused"), and takes no more of that number until it is left by the
-/// mouse, or Return, Tab, an arrow or a deleting key is pressed. The Return or Tab that ends a
+/// mouse, or Return, Tab, an arrow or a deleting key is pressed. What is said goes with the next
+/// number that it takes. The Return or Tab that ends a
 /// refused number leaves the focus in the field, with all of its text selected; the next one leaves
 /// it.
 class DecimalPoint : public QObject
@@ -37,12 +38,14 @@ private:
   void refuse(QAbstractSpinBox& box, const QString& what);
   void mark(QAbstractSpinBox& box, bool refused);
   void unmark();
+  void mended(QAbstractSpinBox& box);
 
   QPointer<QAbstractSpinBox> m_box; ///< in which a number is being typed
   QVariant m_before;                ///< its value before that
   bool m_isRest = false;            ///< it was refused, and what follows is its rest
   QPointer<QAbstractSpinBox> m_marked;
   QTimer m_marks; ///< until the mark goes
+  QString m_said; ///< of the last refusal
 };
 
 } // namespace petrous::workstation

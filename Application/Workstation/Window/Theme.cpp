@@ -286,6 +286,11 @@ QColor boxColor()
   return {"#5ec8ff"};
 }
 
+QColor cutColor()
+{
+  return {"#c08cff"};
+}
+
 QString words(const std::string& text)
 {
   return QString::fromUtf8(text.data(), static_cast<int>(text.size()));

@@ -55,8 +55,8 @@ QIcon swatch(const QColor& color, int size);
 
 /// The colour of a slice plane in every view.
 QColor planeColor(presenters::SliceOrientation orientation);
-/// Of a box that is dragged.
-QColor boxColor();
+QColor boxColor(); ///< of a box that is dragged
+QColor cutColor(); ///< of a clipping plane
 
 /// Conversion between UTF-8 and QString.
 QString words(const std::string& text);

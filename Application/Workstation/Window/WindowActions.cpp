@@ -174,8 +174,9 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
     action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
   cropBox = make(m_view, tr("Crop bo&x"), Qt::SHIFT + Qt::Key_V,
                  tr("A box whose edges are dragged in the slices, and its faces in the 3D view: "
-                    "only what is in it is shown, until a tool is taken up. A double click on an "
-                    "edge shows all of the image"));
+                    "only what is in it is shown, until a tool is taken up. Its middle in the 3D "
+                    "view, or a drag with Shift, moves all of it. A double click on an edge shows "
+                    "all of the image"));
   cropBox->setCheckable(true);
   cropNumbers = make(m_view, tr("Crop &box in numbers…"), {},
                      tr("Where the crop box begins and ends, in mm"));

@@ -43,6 +43,11 @@ QString boxSizeText(const Eigen::Vector3d& millimetres)
            numberText(millimetres[2], 1));
 }
 
+QString cutAwayText()
+{
+  return QObject::tr("The view is cut away there; nothing is drawn under the pointer.");
+}
+
 QString volumeText(double volume)
 {
   const int decimals = volume < 100.0 ? 2 : volume < 10000.0 ? 1 : 0;

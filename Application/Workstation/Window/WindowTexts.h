@@ -18,6 +18,7 @@ QString numberText(double value, int decimals);
 /// "0,5; 12,0" for "0.5, 12.0".
 QString numberText(const std::string& text);
 QString boxSizeText(const Eigen::Vector3d& millimetres); ///< "40.0 × 38.0 × 30.0 mm"
+QString cutAwayText(); ///< why a click in the 3D view means nothing
 
 /// "12.34 mm³", with decimals as its size deserves.
 QString volumeText(double cubicMillimetres);

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 
 #include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Core/HullClip.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Presenters/LabelledPicture.h"
 #include "petrous/Presenters/ProvenanceText.h"
@@ -73,6 +76,36 @@ void clip(rendering::SceneContents& contents, const scene::ViewState::Clipping& 
   for (const scene::ViewState::Clipping::Plane& plane : clipping.planes)
     contents.clipping.push_back({plane.point, plane.normal});
   contents.crop = cropOf(clipping, grid);
+}
+
+// As the renderer's rays are clipped (OpticalModel.h).
+std::pair<double, double> shownPart(const interaction::PickRay& line,
+                                    const scene::ViewState::Clipping& clipping,
+                                    const core::GridGeometry& grid)
+{
+  constexpr double kParallel = 1e-14; // cosine below which a line is parallel to a plane
+  constexpr std::pair<double, double> kNothing{1.0, 0.0};
+  const core::GridGeometry box = grid.cropped(cropOf(clipping, grid).value_or(grid.fullBox()));
+  if (std::any_of(box.dims().begin(), box.dims().end(), [](int voxels) { return voxels < 2; }))
+    return kNothing; // without thickness
+  const Eigen::Vector3d start = box.voxelFromPatient(line.origin);
+  auto [first, last] = core::clipToHull(box, start, box.voxelFromPatient(line.at(1.0)) - start, 0.0,
+                                        std::numeric_limits<double>::max());
+  for (const scene::ViewState::Clipping::Plane& plane : clipping.planes)
+  {
+    const double height = plane.normal.dot(line.origin - plane.point);
+    const double slope = plane.normal.dot(line.direction);
+    if (std::abs(slope) < kParallel)
+    {
+      if (height < 0.0)
+        return kNothing;
+    }
+    else if (slope > 0.0)
+      first = std::max(first, -height / slope);
+    else
+      last = std::min(last, -height / slope);
+  }
+  return {first, last};
 }
 
 void illuminate(rendering::SceneContents& contents,

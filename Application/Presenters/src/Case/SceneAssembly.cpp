@@ -235,6 +235,29 @@ std::string softTissueMissing(const scene::Case& value)
   return drawnSoftTissue(value, drawnImages(value, shownStructures(value))).why;
 }
 
+bool drawsSoftFace(const scene::Case& value, const Eigen::Vector3d& patient)
+{
+  if (!value.softTissue.shown)
+    return false;
+  if (const auto mask = value.dissection.sharedMask();
+      mask && mask->sample(value.ct.geometry.voxelFromPatient(patient)) <= 0.5)
+    return false;
+  const Images images = drawnImages(value, shownStructures(value));
+  const std::optional<Material> material = drawnSoftTissue(value, images).material;
+  if (!material)
+    return false;
+  std::shared_ptr<const volume::IntensityVolume> image = value.ct.volume.get();
+  Eigen::Vector3d at = patient;
+  for (std::size_t n = 0; n < images.size(); ++n)
+    if (material->source == kOthers[n])
+    {
+      image = images[n]->volume.get();
+      at = images[n]->mrFromCt * patient;
+    }
+  const double intensity = image->sample(image->geometry().voxelFromPatient(at));
+  return material->transfer.at(intensity).extinction > rendering::optics::kSoftInSection;
+}
+
 std::vector<std::string> drawnMrs(const scene::Case& value)
 {
   std::vector<std::string> names;

@@ -8,6 +8,7 @@
 #include "petrous/Core/InputFile.h"
 #include "petrous/Library/Attachments.h"
 #include "petrous/Library/LibraryFiles.h"
+#include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/Recordings.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Scene/VideoNotes.h"
@@ -524,8 +525,26 @@ std::optional<double> WorkstationModel::wallBehind(const Eigen::Vector3d& surfac
 
 std::optional<Eigen::Vector3d> WorkstationModel::surfaceAt(const interaction::PickRay& line)
 {
-  const auto hit = tissueAlong(line);
-  return hit ? std::optional<Eigen::Vector3d>(line.at(*hit)) : std::nullopt;
+  constexpr double kOfImage = 1e-6; // mm, up to which a face is one of the image
+  if (!m_case || !ready())
+    return std::nullopt;
+  const core::GridGeometry& grid = m_case->ct.geometry;
+  const scene::ViewState::Clipping& clipping = m_case->view.clipping;
+  const auto [first, last] = shownPart(line, clipping, grid);
+  if (!(first < last))
+    return std::nullopt;
+  const Eigen::Vector3d entry = line.at(first);
+  const volume::TissueField& field = session().field();
+  const bool isFace = !clipping.empty() && first > shownPart(line, {}, grid).first + kOfImage;
+  if (isFace && field.uncut(entry) <= 0.0 && drawsSoftFace(*m_case, entry))
+    return entry;
+  const auto hit = field.firstHit(entry, line.at(last));
+  return hit ? std::optional<Eigen::Vector3d>(line.at(first + *hit)) : std::nullopt;
+}
+
+bool WorkstationModel::isCutAway(const interaction::PickRay& line)
+{
+  return tissueAlong(line) && !surfaceAt(line);
 }
 
 bool WorkstationModel::toolReady(const session::TouchTool& tool) const

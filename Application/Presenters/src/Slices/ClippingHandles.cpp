@@ -1,6 +1,8 @@
 #include "petrous/Presenters/ClippingHandles.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace petrous::presenters
 {
@@ -38,6 +40,52 @@ Eigen::Vector3d planeCenter(const Clipping::Plane& plane, const core::GridGeomet
     return plane.point;
   const Eigen::Vector3d middle = grid.center();
   return middle - plane.normal.dot(middle - plane.point) * plane.normal;
+}
+
+std::optional<CutLine> lineInSlice(const Clipping::Plane& plane, const SliceGeometry& slice)
+{
+  constexpr double kParallel = 0.002; // sine
+  // The height over the plane, mm, is linear in the pixel.
+  const double origin = plane.normal.dot(slice.patientFromPixel(0.0, 0.0) - plane.point);
+  const Eigen::Vector2d slope(plane.normal.dot(slice.axes().right),
+                              plane.normal.dot(slice.axes().down));
+  const double sine = slope.norm();
+  if (!(sine > kParallel))
+    return std::nullopt;
+  CutLine line;
+  line.kept = slope / sine;
+  const Eigen::Vector2d along(-line.kept[1], line.kept[0]);
+  const Eigen::Vector2d foot = -origin / (sine * slice.mmPerPixel()) * line.kept;
+  double first = -std::numeric_limits<double>::max();
+  double last = std::numeric_limits<double>::max();
+  const Eigen::Vector2d size(slice.width(), slice.height());
+  for (Eigen::Index axis = 0; axis < 2; ++axis)
+    if (std::abs(along[axis]) < 1e-12)
+    {
+      if (foot[axis] < 0.0 || foot[axis] > size[axis])
+        return std::nullopt;
+    }
+    else
+    {
+      const double a = -foot[axis] / along[axis];
+      const double b = (size[axis] - foot[axis]) / along[axis];
+      first = std::max(first, std::min(a, b));
+      last = std::min(last, std::max(a, b));
+    }
+  if (!(first < last))
+    return std::nullopt;
+  line.from = foot + first * along;
+  line.to = foot + last * along;
+  return line;
+}
+
+std::optional<double> depthOf(const Clipping::Plane& plane, const core::GridGeometry& grid,
+                              const interaction::TissueQuery& tissue)
+{
+  const Eigen::Vector3d at = planeCenter(plane, grid);
+  const double reach = (at - grid.center()).norm() + grid.patientBounds().diagonal().norm();
+  const auto hit = tissue({at - reach * plane.normal, plane.normal});
+  return hit ? std::optional(reach - *hit) : std::nullopt;
 }
 
 } // namespace petrous::presenters

@@ -87,9 +87,6 @@ constexpr double kWetShininess = 240.0;
 
 constexpr double kOccupancyThreshold = 0.5 - 1e-3;
 
-/// Extinction of soft tissue, 1/mm, above which a section shows it.
-constexpr double kSoftInSection = 0.002;
-
 /// Surface opacity from which slice steps are smoothed when shading the CT's surface. They are less
 /// visible on more transparent surfaces, and a ray meets many of those.
 constexpr double kSmoothOpacity = 0.5;

@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "petrous/Core/Progress.h"
+#include "petrous/Interaction/PickRay.h"
 #include "petrous/Rendering/SceneContents.h"
 #include "petrous/Rendering/StandardViews.h"
 #include "petrous/Scene/Case.h"
@@ -31,6 +33,12 @@ core::CameraPose currentCamera(const scene::Case& value);
 /// Cuts away from the scene what the view does not show; a box beyond the CT's is none.
 void clip(rendering::SceneContents& contents, const scene::ViewState::Clipping& clipping,
           const core::GridGeometry& grid);
+
+/// Of a line, mm from its origin, what a view shows of the image: the part in the crop box and on
+/// the drawn side of every plane. second <= first: nothing.
+std::pair<double, double> shownPart(const interaction::PickRay& line,
+                                    const scene::ViewState::Clipping& clipping,
+                                    const core::GridGeometry& grid);
 
 /// Lights the scene as a view was saved; nullopt: by the defaults.
 void illuminate(rendering::SceneContents& contents,

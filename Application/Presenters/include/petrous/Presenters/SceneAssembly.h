@@ -60,4 +60,9 @@ std::string mrMissing(const scene::Case& value, const std::string& mr);
 /// is. Reads no image.
 std::string softTissueMissing(const scene::Case& value);
 
+/// Whether a face that a crop box or a clipping plane cuts through soft tissue is drawn at a place,
+/// patient LPS mm (OpticalModel.h): soft tissue is, has an extinction there, and was not removed.
+/// The place is one without bone or structure. Reads the CT or the MR that soft tissue is drawn of.
+bool drawsSoftFace(const scene::Case& value, const Eigen::Vector3d& patient);
+
 } // namespace petrous::presenters

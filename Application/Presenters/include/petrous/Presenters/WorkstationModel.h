@@ -349,10 +349,15 @@ public:
                                    const Eigen::Vector3d& direction);
   static constexpr double kThickWall = 5.0; ///< mm
 
-  /// Distance from the ray's origin to tissue, mm.
+  /// Distance from the ray's origin to tissue, mm, also to what is cut away from the view: what a
+  /// tool meets.
   std::optional<double> tissueAlong(const interaction::PickRay& line);
-  /// The same as a point, patient LPS mm.
+  /// What a click in the 3D view means without a tool, patient LPS mm: the first tissue that
+  /// ViewState::clipping leaves, at a face that it cuts also soft tissue that is drawn there;
+  /// nullopt where no such tissue is left. Whether structures are shown does not count.
   std::optional<Eigen::Vector3d> surfaceAt(const interaction::PickRay& line);
+  /// There is tissue, and surfaceAt is none.
+  bool isCutAway(const interaction::PickRay& line);
 
   /// Whether `startTouch` takes this tool up at once; otherwise it does what `toolPreparation` does
   /// first.

@@ -111,6 +111,12 @@ struct SectionWindow
   double level = 700.0;
 };
 
+namespace optics
+{
+/// Extinction of soft tissue, 1/mm, above which a section shows it.
+constexpr double kSoftInSection = 0.002;
+} // namespace optics
+
 /// The negative side is not drawn; patient LPS mm.
 struct ClippingPlane
 {

@@ -109,6 +109,31 @@ TEST_F(ViewCommand, ComesBackToTheBitFromAnArchive)
   EXPECT_EQ(back, here);
 }
 
+TEST_F(ViewCommand, IsThatOfEachBranchAsItWasLeft)
+{
+  const Json main = json("view ear --view superior --crop 0,47,0,40,0,44 --window 1500,300.25");
+  const auto seen = drawn("render ear");
+  ASSERT_EQ(run("branch ear other").code, 0);
+  EXPECT_EQ(drawn("render ear"), seen) << "a new one goes on from what is seen";
+  json("view ear --clear clipping --view lateral --window 400,40");
+  const auto other = drawn("render ear");
+  EXPECT_NE(other, seen);
+  ASSERT_EQ(run("branch ear main").code, 0);
+  const Json back = json("view ear");
+  for (const char* part : {"camera", "slices", "clipping"})
+    EXPECT_EQ(back.at(part), main.at(part)) << part;
+  EXPECT_EQ(drawn("render ear"), seen);
+  const Json& left = back.at("branches").at("other");
+  EXPECT_EQ(left.at("slices").at("window").at("width"), 400.0);
+  EXPECT_TRUE(left.at("clipping").is_null());
+
+  const std::string archive = quoted(m_folder / "ear.petrous");
+  ASSERT_EQ(run("archive ear " + archive).code, 0);
+  ASSERT_EQ(run("restore " + archive + " --as back").code, 0);
+  ASSERT_EQ(run("branch back other").code, 0);
+  EXPECT_EQ(drawn("render back"), other);
+}
+
 TEST_F(ViewCommand, RefusesWhatIsWrong)
 {
   for (const char* bad :

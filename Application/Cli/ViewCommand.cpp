@@ -207,24 +207,38 @@ nlohmann::json slicesJson(const Slices& slices)
           {"overlay", std::move(overlay)}};
 }
 
+// null: nothing is cut away.
+nlohmann::json clippingJson(const ViewState::Clipping& clipping)
+{
+  if (clipping.empty())
+    return nullptr;
+  nlohmann::json planes = nlohmann::json::array();
+  for (const auto& plane : clipping.planes)
+    planes.push_back({{"point_mm", vectorJson(plane.point)}, {"normal", vectorJson(plane.normal)}});
+  nlohmann::json crop = nullptr;
+  if (const auto& box = clipping.crop)
+    crop = {box->lower[0],     box->upper[0] - 1, box->lower[1],
+            box->upper[1] - 1, box->lower[2],     box->upper[2] - 1};
+  return {{"planes", std::move(planes)}, {"crop", std::move(crop)}};
+}
+
+nlohmann::json savedJson(const ViewState::Saved& saved)
+{
+  return {{"camera", saved.camera ? cameraJson(*saved.camera) : nlohmann::json(nullptr)},
+          {"slices", saved.slices ? slicesJson(*saved.slices) : nlohmann::json(nullptr)}};
+}
+
 nlohmann::json viewJson(const scene::Case& value)
 {
   const auto orNull = [](const std::optional<double>& number)
   { return number ? nlohmann::json(*number) : nlohmann::json(nullptr); };
   const ViewState& view = value.view;
-  nlohmann::json planes = nlohmann::json::array();
-  for (const auto& plane : view.clipping.planes)
-    planes.push_back({{"point_mm", vectorJson(plane.point)}, {"normal", vectorJson(plane.normal)}});
-  nlohmann::json crop = nullptr;
-  if (const auto& box = view.clipping.crop)
-    crop = {box->lower[0],     box->upper[0] - 1, box->lower[1],
-            box->upper[1] - 1, box->lower[2],     box->upper[2] - 1};
-  nlohmann::json clipping = nullptr;
-  if (!view.clipping.empty())
-    clipping = {{"planes", std::move(planes)}, {"crop", std::move(crop)}};
   nlohmann::json branches = nlohmann::json::object();
-  for (const auto& [name, camera] : view.branchCameras)
-    branches[name] = cameraJson(camera);
+  for (const auto& [name, one] : view.branches)
+  {
+    branches[name] = savedJson(one);
+    branches[name]["clipping"] = clippingJson(one.clipping.value_or(ViewState::Clipping()));
+  }
   nlohmann::json light = nullptr;
   if (view.light)
     light = {{"falloff_mm", view.light->falloff},   {"wetness", view.light->wetness},
@@ -250,15 +264,14 @@ nlohmann::json viewJson(const scene::Case& value)
                   {"object", view.instrument->object}};
   nlohmann::json saved = nlohmann::json::object();
   for (const auto& [name, one] : view.saved)
-    saved[name] = {{"camera", cameraJson(one.camera)},
-                   {"slices", one.slices ? slicesJson(*one.slices) : nlohmann::json(nullptr)}};
+    saved[name] = savedJson(one);
   return {{"saved", std::move(saved)},
           {"camera", value.camera ? cameraJson(*value.camera) : nlohmann::json(nullptr)},
           {"branches", std::move(branches)},
           {"slices", view.slices ? slicesJson(*view.slices) : nlohmann::json(nullptr)},
           {"light", std::move(light)},
           {"stereo", std::move(stereo)},
-          {"clipping", std::move(clipping)},
+          {"clipping", clippingJson(view.clipping)},
           {"tool", std::move(tool)},
           {"instrument", std::move(instrument)}};
 }

@@ -1732,6 +1732,14 @@
         <translation>die Struktur „%1“ ist schon im Fall; entfernen Sie sie erst</translation>
     </message>
     <message>
+        <source>change to the main approach</source>
+        <translation>Wechsel zum Hauptzugang</translation>
+    </message>
+    <message>
+        <source>change to approach %1</source>
+        <translation>Wechsel zum Zugang %1</translation>
+    </message>
+    <message>
         <source>name of approach %1</source>
         <translation>Name des Zugangs %1</translation>
     </message>
@@ -9113,12 +9121,28 @@
         <translation>das MR über den Schichten braucht einen Namen, die Weise blend, edges oder checker und eine Deckkraft von 0 bis 1</translation>
     </message>
     <message>
+        <source>there are at most %#1 clipping planes</source>
+        <translation>es gibt höchstens %#1 Schnittebenen</translation>
+    </message>
+    <message>
+        <source>point_mm of a clipping plane must lie within 10 km, and its normal have length 1</source>
+        <translation>point_mm einer Schnittebene muss innerhalb von 10 km liegen, und ihre Normale die Länge 1 haben</translation>
+    </message>
+    <message>
+        <source>the box of voxels that are shown must not be empty</source>
+        <translation>der Bereich der gezeigten Voxel darf nicht leer sein</translation>
+    </message>
+    <message>
         <source>a name must be 1 to %#1 bytes of UTF-8 without characters that are not seen and without spaces around it</source>
         <translation>ein Name muss 1 bis %#1 Byte UTF-8 sein, ohne unsichtbare Zeichen und ohne Leerzeichen an den Enden</translation>
     </message>
     <message>
         <source>there are at most %#1 saved views</source>
         <translation>es gibt höchstens %#1 gespeicherte Ansichten</translation>
+    </message>
+    <message>
+        <source>a saved view must have a camera</source>
+        <translation>eine gespeicherte Ansicht muss eine Kamera haben</translation>
     </message>
     <message>
         <source>the light's falloff_mm must be 0 to 10000 mm, the wetness 0 to 1</source>
@@ -9139,18 +9163,6 @@
     <message>
         <source>eyes must be 0 to 200 mm apart, and converge at 1 to 10000 mm</source>
         <translation>die Augen müssen 0 bis 200 mm auseinander stehen und sich bei 1 bis 10000 mm treffen</translation>
-    </message>
-    <message>
-        <source>there are at most %#1 clipping planes</source>
-        <translation>es gibt höchstens %#1 Schnittebenen</translation>
-    </message>
-    <message>
-        <source>point_mm of a clipping plane must lie within 10 km, and its normal have length 1</source>
-        <translation>point_mm einer Schnittebene muss innerhalb von 10 km liegen, und ihre Normale die Länge 1 haben</translation>
-    </message>
-    <message>
-        <source>the box of voxels that are shown must not be empty</source>
-        <translation>der Bereich der gezeigten Voxel darf nicht leer sein</translation>
     </message>
     <message>
         <source>a burr must be 0.01 to 100 mm wide and turn at 0 to 1000000 rpm, with a thrust of 0 to 100 N</source>

@@ -18,6 +18,7 @@
 #include "NerveBenchmark.h"
 #include "NodeBenchmark.h"
 #include "Numbers.h"
+#include "OpenBenchmark.h"
 #include "Program.h"
 #include "QpBenchmark.h"
 #include "RegistrationBenchmarkScenes.h"
@@ -87,8 +88,21 @@ constexpr Benchmark kBenchmarks[] = {
      }},
     {"save", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      { return library::runSaveBenchmark(work, options.quick, progress); }},
-    {"library", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
-     { return library::runLibraryBenchmark(work, options.quick, progress); }},
+    {"library",
+     [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     {
+       auto report = library::runLibraryBenchmark(work, options.quick, progress.part(0.0, 0.7));
+       try
+       {
+         const auto opened = openToPicture(work / "open", options.quick, progress.part(0.7, 1.0));
+         report.points.insert(report.points.end(), opened.begin(), opened.end());
+       }
+       catch (const rendering::RenderingError& error)
+       {
+         report.machine["first picture"] = error.what();
+       }
+       return report;
+     }},
     {"node", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      { return network::runNodeBenchmark(work, options.quick, progress); }},
     {"qp", [](const auto&, const BenchOptions& options, const core::Progress& progress)

@@ -178,7 +178,12 @@ TEST_F(EditUndoTest, EveryStepHasAGermanName)
   expectGerman();
   model->removeView("from behind");
   expectGerman();
-  EXPECT_EQ(steps, 24);
+  model->startBranch("other");
+  model->goToBranch("main");
+  expectGerman();
+  model->goToBranch("other");
+  expectGerman();
+  EXPECT_EQ(steps, 26);
   for (const auto& property : appearance::kStructureProperties)
     for (const char* of : {" of sigmoid sinus", " of bone", " of 3 parts", " of soft tissue"})
     {
@@ -490,6 +495,65 @@ TEST_F(EditUndoTest, AnApproachThatWasDeletedComesBackWithItsStrokes)
   EXPECT_EQ(again.value().removedVolume(), model->value().removedVolume());
 }
 
+TEST_F(EditUndoTest, GoingToAnotherApproachIsTakenBackWithWhatWasSeenThere)
+{
+  open();
+  stroke();
+  model->startBranch("other");
+  stroke();
+  scene::ViewState::Clipping cropped;
+  cropped.crop = core::IndexBox{{0, 0, 0}, {20, 40, 40}};
+  model->setClipping(cropped);
+  core::CameraPose seen; // by the window
+  seen.viewAngle = 11.0;
+  int shown = 0;
+  model->events.viewWanted = [&] { model->setCamera(seen); };
+  model->events.viewChanged = [&]
+  {
+    seen = model->value().camera.value();
+    ++shown;
+  };
+  const auto branch = [this] { return model->value().dissection.history().branch().name; };
+  const auto clipping = [this]() -> const scene::ViewState::Clipping&
+  { return model->value().view.clipping; };
+
+  model->goToBranch("main");
+  EXPECT_EQ(shown, 1);
+  EXPECT_TRUE(clipping().empty());
+  EXPECT_EQ(model->undoText(), "change to the main approach");
+  EXPECT_TRUE(model->undoChangesParts()) << "the tool is put away";
+  seen.viewAngle = 22.0;
+  stroke();
+  EXPECT_EQ(model->undoText(), "stroke 3");
+  model->undo();
+  model->undo();
+  EXPECT_EQ(branch(), "other");
+  EXPECT_EQ(model->value().applied(), 2u);
+  EXPECT_TRUE(clipping() == cropped);
+  EXPECT_EQ(seen.viewAngle, 11.0);
+  EXPECT_EQ(model->undoText(), "stroke 2") << "in its order again";
+
+  model->redo();
+  EXPECT_EQ(branch(), "main");
+  EXPECT_TRUE(clipping().empty());
+  EXPECT_EQ(seen.viewAngle, 22.0);
+  EXPECT_EQ(model->redoText(), "stroke 3");
+  model->redo();
+  EXPECT_EQ(model->value().applied(), 2u);
+
+  // To a state of another one, too; and what is saved is what was left.
+  model->goToState("other", 0);
+  EXPECT_EQ(model->undoText(), "change to approach other");
+  EXPECT_EQ(shown, 4);
+  model->undo();
+  EXPECT_EQ(branch(), "main");
+  EXPECT_EQ(seen.viewAngle, 22.0);
+  model->save();
+  const scene::Case saved = library::Library(folder).open("block");
+  EXPECT_TRUE(saved.view.branches.at("other").clipping == cropped);
+  EXPECT_EQ(saved.view.branches.at("other").camera->viewAngle, 11.0);
+}
+
 TEST_F(EditUndoTest, GoingToAStateIsAsUndoingOrRedoingItsStrokes)
 {
   open();
@@ -530,7 +594,7 @@ TEST_F(EditUndoTest, AViewThatIsReplacedOrRemovedComesBack)
 {
   open();
   const auto positionOf = [this](const char* view)
-  { return model->value().view.saved.at(view).camera.position; };
+  { return model->value().view.saved.at(view).camera->position; };
   core::CameraPose camera;
   camera.position = {1, 0, 0};
   model->saveView("recess", camera, slices());

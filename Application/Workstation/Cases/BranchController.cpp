@@ -274,11 +274,7 @@ bool BranchController::change(const std::function<void()>& what)
   const std::string before = m_model.value().dissection.history().branch().name;
   try
   {
-    if (camera)
-      m_model.setCamera(camera());
     what();
-    if (showCamera && m_model.value().camera)
-      showCamera(*m_model.value().camera);
   }
   catch (const std::exception& fault)
   {

@@ -26,9 +26,6 @@ public:
   /// Called before the approach is left: ends an open stroke and puts the tool away; whether one
   /// was in the hand.
   std::function<bool()> settle;
-  /// The camera of the picture, which the approach is left with; and how to show that of another.
-  std::function<core::CameraPose()> camera;
-  std::function<void(const core::CameraPose&)> showCamera;
 
   void stateChanged(); ///< strokes, approaches or the case changed
 

@@ -152,7 +152,8 @@ void ViewStateController::showSaved(const std::string& name)
   if (found == m_model.value().view.saved.end())
     return;
   const scene::ViewState::Saved saved = found->second;
-  m_view.setCamera(saved.camera);
+  if (saved.camera)
+    m_view.setCamera(*saved.camera);
   if (saved.slices)
     m_slices.setShown(*saved.slices);
   emit statusMessage(tr("View “%1”").arg(words(name)));
@@ -219,17 +220,29 @@ void ViewStateController::collect()
   m_shown = now;
 }
 
-core::CameraPose ViewStateController::camera() const
+void ViewStateController::collectPlace()
 {
-  const core::CameraPose now = m_view.picture().camera();
-  const auto& saved = m_model.value().camera;
-  return saved && isSame(now, m_shown.camera) ? *saved : now;
+  const scene::Case& value = m_model.value();
+  const State now = present();
+  if (!value.camera || !isSame(now.camera, m_shown.camera))
+    m_model.setCamera(now.camera);
+  scene::ViewState view = value.view;
+  take(view.slices, now.view.slices, m_shown.view.slices, !m_slices.isFraming());
+  m_model.setView(view);
+  m_shown.camera = now.camera;
+  m_shown.view.slices = now.view.slices;
 }
 
-void ViewStateController::showCamera(const core::CameraPose& camera)
+void ViewStateController::showPlace()
 {
-  m_view.setCamera(camera);
-  m_shown.camera = m_view.picture().camera();
+  const scene::Case& value = m_model.value();
+  if (value.camera)
+    m_view.setCamera(*value.camera);
+  if (value.view.slices)
+    m_slices.setShown(scene::ViewState::Slices(*value.view.slices));
+  const State now = present();
+  m_shown.camera = now.camera;
+  m_shown.view.slices = now.view.slices;
 }
 
 } // namespace petrous::workstation

@@ -43,8 +43,9 @@ public:
   std::function<std::optional<scene::ViewState::Instrument>()> instrument;
   std::function<void(const std::optional<scene::ViewState::Instrument>&)> showInstrument;
 
-  core::CameraPose camera() const; ///< as a save would store it
-  void showCamera(const core::CameraPose& camera);
+  // Camera and slices alone, which an approach has of its own.
+  void collectPlace(); ///< before the approach is left
+  void showPlace();    ///< of the approach that the case is on now
 
 signals:
   void statusMessage(const QString& line);

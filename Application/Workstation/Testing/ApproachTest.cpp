@@ -158,7 +158,7 @@ TEST_F(Approaches, ArrowKeysGoToTheStatesLive)
   EXPECT_EQ(value().applied(), 2u);
   EXPECT_DOUBLE_EQ(value().removedVolume(), 22.0);
   EXPECT_EQ(current(), "3");
-  EXPECT_EQ(window().model().undoText(), "stroke 3");
+  EXPECT_EQ(window().model().undoText(), "change to approach above");
   press(Qt::Key_Up); // the approach itself
   EXPECT_EQ(branch(), "above");
   press(Qt::Key_Up); // 1 of main

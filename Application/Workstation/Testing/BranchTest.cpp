@@ -9,6 +9,8 @@
 #include <QPushButton>
 #include <QTimer>
 
+#include "SliceView.h"
+
 using namespace petrous;
 using namespace petrous::workstation;
 
@@ -87,6 +89,69 @@ TEST_F(Branches, BeginAtThePresentStateAndLeaveTheOtherAsItWas)
   const scene::Case saved = library().open("ball");
   EXPECT_EQ(saved.dissection.history().branch().name, "other");
   EXPECT_EQ(saved.dissection.history().branches().size(), 2u);
+}
+
+TEST_F(Branches, AreShownAsEachWasLeftAlsoByUndo)
+{
+  saveBall("ball");
+  openWindow();
+  ASSERT_TRUE(settled());
+  auto& axial = *window().findChild<SliceView*>("axialView");
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  const Eigen::Vector3d crosshair = model.crosshair();
+  const double zoom = axial.plane().zoom;
+  const core::CameraPose camera = view().picture().camera();
+  const auto isAt = [this](const core::CameraPose& pose)
+  { return (view().picture().camera().position - pose.position).norm() < 1e-6; };
+
+  startBranch("other");
+  EXPECT_TRUE(isAt(camera)) << "a new one goes on from what is seen";
+  core::CameraPose close = camera;
+  close.position = 0.5 * (camera.position + camera.focalPoint);
+  view().setCamera(close);
+  scene::ViewState::Clipping cropped;
+  cropped.crop = core::IndexBox{{0, 0, 0}, {48, 64, 64}};
+  model.setClipping(cropped);
+  const Eigen::Vector3d beside = crosshair + Eigen::Vector3d(2.0, 0.0, 0.0);
+  model.setCrosshair(beside);
+  axial.setPlane({2.0 * zoom, Eigen::Vector3d::Zero()});
+  const auto expectMain = [&]
+  {
+    EXPECT_EQ(value().dissection.history().branch().name, "main");
+    EXPECT_TRUE(value().view.clipping.empty());
+    EXPECT_TRUE(isAt(camera));
+    EXPECT_LT((model.crosshair() - crosshair).norm(), 1e-9);
+    EXPECT_EQ(axial.plane().zoom, zoom);
+  };
+  const auto expectOther = [&]
+  {
+    EXPECT_EQ(value().dissection.history().branch().name, "other");
+    EXPECT_TRUE(value().view.clipping == cropped);
+    EXPECT_TRUE(isAt(close));
+    EXPECT_LT((model.crosshair() - beside).norm(), 1e-9);
+    EXPECT_EQ(axial.plane().zoom, 2.0 * zoom);
+  };
+  QTest::keyClick(&window(), Qt::Key_PageDown, Qt::ControlModifier);
+  expectMain();
+  ASSERT_TRUE(settled());
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  expectOther();
+  ASSERT_TRUE(settled());
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  expectMain();
+  ASSERT_TRUE(settled());
+  const scene::Case saved = library().open("ball");
+  ASSERT_EQ(saved.view.branches.count("other"), 1u);
+  EXPECT_TRUE(saved.view.branches.at("other").clipping == cropped);
+
+  closeWindow();
+  openWindow();
+  ASSERT_TRUE(settled());
+  QTest::keyClick(&window(), Qt::Key_PageDown, Qt::ControlModifier);
+  EXPECT_TRUE(value().view.clipping == cropped);
+  EXPECT_TRUE(isAt(close));
+  EXPECT_LT((window().model().crosshair() - beside).norm(), 1e-9);
+  EXPECT_EQ(window().findChild<SliceView*>("axialView")->plane().zoom, 2.0 * zoom);
 }
 
 // Putting the tool away ends the stroke, and so moves the history from which the name comes.

@@ -312,9 +312,6 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
                         findChild<QDockWidget*>("approachDock")->toggleViewAction()};
   m_comparison->keys += m_actions->approaches->actions();
   m_branches->settle = [this] { return m_drill->releaseTool(); };
-  m_branches->camera = [this] { return m_viewState->camera(); };
-  m_branches->showCamera = [this](const core::CameraPose& camera)
-  { m_viewState->showCamera(camera); };
   m_viewState->instrument = [this] { return m_drill->caseInstrument(); };
   m_viewState->showInstrument = [this](const auto& kept) { m_drill->setCaseInstrument(kept); };
   m_share->releaseTool = [this] { m_drill->releaseTool(); };
@@ -671,6 +668,8 @@ void MainWindow::connectModel()
       panel->appearanceChanged();
   };
   m_model.events.savedViewsChanged = [this] { m_viewState->savedViewsChanged(); };
+  m_model.events.viewWanted = [this] { m_viewState->collectPlace(); };
+  m_model.events.viewChanged = [this] { m_viewState->showPlace(); };
   m_model.events.measurementsChanged = [this] { m_measure->measurementsChanged(); };
   m_model.events.toolPutAway = [this]
   { statusBar()->showMessage(tr("Tool put away: what was drawn on the MR moved"), kMessage); };

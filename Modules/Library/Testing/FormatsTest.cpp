@@ -112,7 +112,19 @@ void expectCase(const scene::Case& value, int format, bool isArchived = false)
   EXPECT_EQ(value.description.tags,
             format >= 5 ? std::vector<std::string>{"teaching"} : std::vector<std::string>{});
   EXPECT_EQ(value.description.date, format >= 5 ? "2026-03-31" : "");
-  EXPECT_EQ(value.view.branchCameras.count("main"), format >= 5 ? 1U : 0U);
+  ASSERT_EQ(value.view.branches.count("main"), format >= 5 ? 1U : 0U);
+  if (format >= 5)
+  {
+    const scene::ViewState::Saved& left = value.view.branches.at("main");
+    EXPECT_EQ(left.camera->viewAngle, 25.0);
+    EXPECT_EQ(left.slices.has_value(), format >= 10);
+    ASSERT_EQ(left.clipping.has_value(), format >= 10);
+    if (format >= 10)
+    {
+      EXPECT_EQ(left.slices->width, 400.0);
+      EXPECT_EQ(left.clipping->crop, (core::IndexBox{{0, 1, 2}, {5, 6, 6}}));
+    }
+  }
   EXPECT_EQ(value.view.light.has_value(), format >= 6);
   ASSERT_EQ(value.attachments.size(), format >= 8 ? 2U : format >= 6 ? 1U : 0U);
   if (format >= 8)
@@ -209,8 +221,8 @@ TEST_F(Formats, ACaseOfANewerFormatIsRefusedInWordsAndStays)
   {
     EXPECT_EQ(error.reason, scene::ManifestError::Reason::NewerFormat);
     EXPECT_NE(std::string(error.what())
-                  .find("format-10.json: written by format 10; this program "
-                        "reads up to 9"),
+                  .find("format-11.json: written by format 11; this program "
+                        "reads up to 10"),
               std::string::npos)
         << error.what();
   }
@@ -345,6 +357,6 @@ TEST_F(Formats, AnArchiveOfANewerFormatIsRefusedInWords)
   };
   EXPECT_NE(refusedAs("archive-2.petrous").find("written by a newer version of this program"),
             std::string::npos);
-  EXPECT_NE(refusedAs("archive-1-case-10.petrous").find("written by format 10"), std::string::npos);
+  EXPECT_NE(refusedAs("archive-1-case-11.petrous").find("written by format 11"), std::string::npos);
   EXPECT_TRUE(m_library.list().empty());
 }

@@ -916,6 +916,19 @@ TEST_F(Maintenance, AManifestThatIsNoneCannotBeRepaired)
   EXPECT_EQ(repaired.done, std::vector<std::string>{"the index holds 1 of 2 cases"});
 }
 
+TEST_F(Maintenance, AManifestThatLeadsToNoFileCannotBeRepaired)
+{
+  make("a");
+  fs::create_symlink(m_folder.path() / "nowhere.json", manifest("b"));
+  fs::create_directory(manifest("c"));
+  fs::create_symlink(manifest("a"), manifest("d")); // to a case
+  const Repaired repaired = m_library.repair();
+  ASSERT_EQ(repaired.lost.size(), 2U);
+  EXPECT_NE(repaired.lost[0].find("b.json"), std::string::npos) << repaired.lost[0];
+  EXPECT_NE(repaired.lost[1].find("c.json"), std::string::npos) << repaired.lost[1];
+  EXPECT_EQ(repaired.done, std::vector<std::string>{"the index holds 2 of 4 cases"});
+}
+
 // Without permission to look, nothing is known to be lost.
 TEST_F(Maintenance, WhereTheObjectsCannotBeReadNothingIsCalledLost)
 {

@@ -86,18 +86,19 @@ TEST(Branches, ThatWereTakenOutComeBackToTheirPlace)
   scene::startBranch(value, "other", 1);
   drill(value, {4, 4, 8}, 5.0);
   scene::goToBranch(value, "main");
-  value.view.branchCameras["other"].position = {1, 2, 3};
+  value.view.branches["other"].camera.emplace();
+  value.view.branches["other"].camera->position = {1, 2, 3};
   EXPECT_THROW(scene::takeBranch(value, "main"), core::InvalidParameter) << "the present one";
   scene::TakenBranch taken = scene::takeBranch(value, "other");
   EXPECT_FALSE(value.dissection.history().find("other"));
   EXPECT_EQ(value.dissection.strokes().size(), 3u);
-  EXPECT_EQ(value.view.branchCameras.count("other"), 0u);
+  EXPECT_EQ(value.view.branches.count("other"), 0u);
   drill(value, {4, 8, 4}, 7.0);
   // Stored and read, what no branch leads to is still there.
   const scene::Case read = scene::fromManifest(scene::toManifest(value), "m");
   EXPECT_EQ(read.dissection.strokes().size(), 4u);
   EXPECT_EQ(scene::putBranch(value, taken), "other");
-  EXPECT_EQ(value.view.branchCameras.at("other").position, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(value.view.branches.at("other").camera->position, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(value.dissection.history().branch().name, "main");
   EXPECT_DOUBLE_EQ(value.removedVolume(), 28.0);
   scene::goToBranch(value, "other");
@@ -185,7 +186,60 @@ TEST(Branches, AreShownAsTheyWereLeft)
   EXPECT_EQ(x(back), 3.0);
 
   scene::removeBranch(back, "zweiter Zugang ü");
-  EXPECT_TRUE(back.view.branchCameras.empty());
+  EXPECT_TRUE(back.view.branches.empty());
+}
+
+TEST(Branches, KeepTheirSlicesAndWhatIsCutAway)
+{
+  using Slices = scene::ViewState::Slices;
+  scene::Case value = drilledCase(2);
+  scene::startBranch(value, "second", 1);
+  value.view.slices = Slices{{1.0, 2.0, 3.0}, 400.0, 40.0};
+  value.view.slices->planes.emplace();
+  value.view.slices->planes->front().zoom = 7.0 / 3.0;
+  value.view.slices->overlay = Slices::Overlay{"T2", "blend", 0.5};
+  value.view.clipping.crop = core::IndexBox{{1, 1, 1}, {5, 6, 7}};
+  value.view.clipping.planes = {{{1.0, 2.0, 3.0}, {0.0, 0.6, 0.8}}};
+  const scene::ViewState second = value.view;
+
+  // main was left with nothing cut away, without slices: those stay.
+  scene::goToBranch(value, "main");
+  EXPECT_TRUE(value.view.clipping.empty());
+  EXPECT_TRUE(*value.view.slices == *second.slices);
+  value.view.slices->crosshair = {9.0, 9.0, 9.0};
+  value.view.slices->overlay->opacity = 0.25;
+  value.view.clipping.crop = core::IndexBox{{0, 0, 0}, {2, 2, 2}};
+
+  // Also after a save, and under another name. The MR over the slices is the case's.
+  value.dissection.unload();
+  scene::Case back = scene::fromManifest(scene::toManifest(value), "m.json");
+  scene::renameBranch(back, "second", "deep");
+  scene::goToBranch(back, "deep");
+  EXPECT_TRUE(back.view.clipping == second.clipping);
+  EXPECT_EQ(back.view.slices->crosshair, second.slices->crosshair);
+  EXPECT_EQ(back.view.slices->planes->front().zoom, 7.0 / 3.0);
+  ASSERT_TRUE(back.view.slices->overlay);
+  EXPECT_EQ(back.view.slices->overlay->opacity, 0.25);
+  EXPECT_EQ(back.view.branches.count("deep"), 0u) << "it is the present one";
+  scene::goToBranch(back, "main");
+  EXPECT_EQ(back.view.slices->crosshair, Eigen::Vector3d(9.0, 9.0, 9.0));
+  EXPECT_EQ(back.view.clipping.crop, (core::IndexBox{{0, 0, 0}, {2, 2, 2}}));
+  EXPECT_TRUE(back.view.clipping.planes.empty());
+}
+
+// As older programs left it: what else is seen stays.
+TEST(Branches, OfWhichTheCameraAloneIsKnownChangeNothingElse)
+{
+  scene::Case value = drilledCase(2);
+  scene::startBranch(value, "second", 1);
+  value.view.branches["main"] = {core::CameraPose{}, std::nullopt, std::nullopt};
+  value.view.branches["main"].camera->viewAngle = 17.0;
+  value.view.clipping.crop = core::IndexBox{{1, 1, 1}, {5, 6, 7}};
+  scene::Case back = scene::fromManifest(scene::toManifest(value), "m.json");
+  EXPECT_FALSE(back.view.branches.at("main").clipping);
+  scene::goToBranch(back, "main");
+  EXPECT_EQ(back.camera->viewAngle, 17.0);
+  EXPECT_EQ(back.view.clipping.crop, (core::IndexBox{{1, 1, 1}, {5, 6, 7}}));
 }
 
 // A branch that nobody left: as its last stroke was drilled.

@@ -332,7 +332,9 @@ TEST(Manifest, RefusesANumberOfTheViewThatIsOutOfItsRangeAndNamesIt)
   using nlohmann::json;
   scene::Case value = fullCase();
   value.camera = core::CameraPose{};
-  value.view.branchCameras["zweiter Zugang ü"].parallelScale = 12.0;
+  auto& other = value.view.branches["zweiter Zugang ü"];
+  other.camera.emplace();
+  other.camera->parallelScale = 12.0;
   value.view.slices.emplace();
   value.view.slices->width = 4000.0;
   value.view.slices->planes.emplace();
@@ -527,7 +529,7 @@ TEST(Manifest, RefusesANewerFormatInWords)
   std::string text = scene::toManifest(fullCase());
   const auto at = text.find("\"petrous_case\": 3");
   ASSERT_NE(at, std::string::npos);
-  text.replace(at, 17, "\"petrous_case\": 10");
+  text.replace(at, 17, "\"petrous_case\": 11");
   try
   {
     scene::fromManifest(text, "m.json");
@@ -536,7 +538,7 @@ TEST(Manifest, RefusesANewerFormatInWords)
   catch (const scene::ManifestError& error)
   {
     EXPECT_EQ(error.reason, scene::ManifestError::Reason::NewerFormat);
-    EXPECT_NE(std::string(error.what()).find("format 10"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("format 11"), std::string::npos);
   }
 }
 
@@ -788,8 +790,9 @@ TEST(Manifest, KeepsHowTheCaseWasLookedAt)
   scene::Case value = fullCase();
   EXPECT_FALSE(nlohmann::json::parse(scene::toManifest(value)).contains("view"));
   value.view.slices = {Vector3d(1.0 / 3.0, -2.5, 1e-7), 4000.0 / 7.0, -0.1};
-  value.view.branchCameras["main"].position = Vector3d(0.1, 0.2, 0.3);
-  value.view.branchCameras["no branch"].position = Vector3d(9, 9, 9);
+  core::CameraPose camera;
+  camera.position = Vector3d(0.1, 0.2, 0.3);
+  value.view.branches["main"].camera = value.view.branches["no branch"].camera = camera;
   const std::string text = scene::toManifest(value);
   EXPECT_NE(text.find("\"petrous_case\": 3"), std::string::npos);
   const scene::Case back = scene::fromManifest(text, "m.json");
@@ -797,8 +800,8 @@ TEST(Manifest, KeepsHowTheCaseWasLookedAt)
   EXPECT_EQ(back.view.slices->crosshair, value.view.slices->crosshair);
   EXPECT_EQ(back.view.slices->width, 4000.0 / 7.0);
   EXPECT_EQ(back.view.slices->level, -0.1);
-  ASSERT_EQ(back.view.branchCameras.size(), 1U);
-  EXPECT_EQ(back.view.branchCameras.at("main").position, Vector3d(0.1, 0.2, 0.3));
+  ASSERT_EQ(back.view.branches.size(), 1U);
+  EXPECT_EQ(back.view.branches.at("main").camera->position, Vector3d(0.1, 0.2, 0.3));
 
   const auto refused = [&text](const char* pointer, const nlohmann::json& bad)
   {
@@ -829,7 +832,7 @@ TEST(Manifest, GivesTheDescriptionAlone)
   EXPECT_EQ(scene::descriptionFromManifest(j.dump(), "m"), value.description);
   j["description"]["side"] = "up";
   EXPECT_THROW(scene::descriptionFromManifest(j.dump(), "m"), scene::ManifestError);
-  j["petrous_case"] = 10;
+  j["petrous_case"] = 11;
   EXPECT_THROW(scene::descriptionFromManifest(j.dump(), "m"), scene::ManifestError);
   EXPECT_THROW(scene::descriptionFromManifest(text.substr(0, text.size() / 2), "m"),
                scene::ManifestError);
@@ -1000,7 +1003,7 @@ TEST(Manifest, KeepsSavedViewsByNameWithoutTheMrOverTheSlices)
   value.view.slices->crosshair += Vector3d(5, 5, 5);
   const scene::Case back = scene::fromManifest(scene::toManifest(value), "m");
   const auto& saved = back.view.saved.at("Facial recess");
-  EXPECT_EQ(saved.camera.position, camera.position);
+  EXPECT_EQ(saved.camera->position, camera.position);
   EXPECT_EQ(saved.slices->crosshair, crosshair);
   EXPECT_FALSE(saved.slices->overlay);
   scene::Case shown = back;
@@ -1008,10 +1011,63 @@ TEST(Manifest, KeepsSavedViewsByNameWithoutTheMrOverTheSlices)
   EXPECT_EQ(shown.camera->position, camera.position);
   EXPECT_EQ(shown.view.slices->crosshair, crosshair);
   EXPECT_EQ(shown.view.slices->overlay.has_value(), value.view.slices->overlay.has_value());
+  auto without = nlohmann::json::parse(scene::toManifest(value));
+  without["view"]["saved"]["Facial recess"].erase("camera");
+  EXPECT_NE(refusalOf(without).find("camera"), std::string::npos);
   for (const std::string& bad : {std::string(), std::string(" x"), std::string("a\nb"),
                                  std::string(101, 'a'), std::string("\xff")})
     EXPECT_THROW(scene::saveView(value, bad, camera), core::InvalidParameter);
   EXPECT_EQ(value.view.saved.size(), 1u);
+}
+
+TEST(Manifest, KeepsAllOfABranchsViewAndIsOfFormat10OnlyWithMoreThanItsCamera)
+{
+  const auto formatOf = [](const scene::Case& value)
+  { return nlohmann::json::parse(scene::toManifest(value)).at("petrous_case").get<int>(); };
+  scene::Case value = viewedCase();
+  scene::ViewState::Saved& left = value.view.branches["main"];
+  left.camera.emplace();
+  left.camera->position = Vector3d(1.0 / 3.0, 0.1, 7.0);
+  EXPECT_EQ(formatOf(value), 6);
+  value.view.branches["no branch"] = scene::presentView(value);
+  EXPECT_EQ(formatOf(value), 6) << "it is not saved";
+
+  left.clipping.emplace();
+  EXPECT_EQ(formatOf(value), 10) << "that nothing is cut away is known";
+  scene::Case back = scene::fromManifest(scene::toManifest(value), "m");
+  ASSERT_TRUE(back.view.branches.at("main").clipping);
+  EXPECT_TRUE(back.view.branches.at("main").clipping->empty());
+  EXPECT_FALSE(back.view.branches.at("main").slices);
+
+  left.slices = value.view.slices;
+  left.slices->overlay.reset();
+  left.slices->crosshair = Vector3d(0.1, 0.2, 0.30000000000000004);
+  left.clipping->crop = core::IndexBox{{1, 2, 3}, {4, 5, 7}};
+  left.clipping->planes = {{Vector3d(0.1, 0.2, 0.3), Vector3d(0.6, 0.0, 0.8)}};
+  const std::string text = scene::toManifest(value);
+  back = scene::fromManifest(text, "m");
+  EXPECT_EQ(scene::toManifest(back), text);
+  const scene::ViewState::Saved& read = back.view.branches.at("main");
+  EXPECT_EQ(read.camera->position, left.camera->position);
+  EXPECT_TRUE(*read.slices == *left.slices);
+  EXPECT_TRUE(*read.clipping == *left.clipping);
+
+  const auto refused = [&text](const char* place, const nlohmann::json& bad)
+  {
+    auto j = nlohmann::json::parse(text);
+    const nlohmann::json::json_pointer pointer(std::string("/view/branches/main") + place);
+    ASSERT_TRUE(j.contains(pointer)) << place;
+    j[pointer] = bad;
+    EXPECT_FALSE(refusalOf(j).empty()) << place << " " << bad;
+  };
+  refused("/camera/view_angle_deg", 180.0);
+  refused("/slices/window_width", 0.0);
+  refused("/slices/crosshair_mm/0", 1e308);
+  refused("/clipping/planes/0/normal", {0, 0, 0});
+  refused("/clipping/planes/0/point_mm/0", 1e308);
+  refused("/clipping/crop/upper", {1, 1, 1});
+  refused("/clipping", 7);
+  refused("", nlohmann::json::object());
 }
 
 TEST(Manifest, RefusesAHostileViewOrAttachment)

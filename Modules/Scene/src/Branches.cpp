@@ -46,19 +46,14 @@ void follow(Case& value, const History& next)
   const std::string& name = next.branch().name;
   if (name == left)
     return;
-  auto& cameras = value.view.branchCameras;
-  if (value.camera)
-    cameras[left] = *value.camera;
+  value.view.branches[left] = presentView(value);
+  ViewState::Saved view;
+  if (const auto own = value.view.branches.extract(name); !own.empty())
+    view = own.mapped();
   const std::vector<std::size_t> line = next.lineTo(next.position());
-  if (const auto own = cameras.find(name); own != cameras.end())
-  {
-    value.camera = own->second;
-    cameras.erase(own);
-  }
-  else if (const auto& info = line.empty() ? dissection::StrokeInfo()
-                                           : value.dissection.strokes()[line.back()]->info;
-           info.camera)
-    value.camera = info.camera;
+  if (!view.camera && !line.empty())
+    view.camera = value.dissection.strokes()[line.back()]->info.camera;
+  showSaved(value, view);
 }
 
 } // namespace
@@ -80,8 +75,7 @@ void startBranch(Case& value, const std::string& name, std::optional<std::size_t
   const std::string left = next.branch().name;
   next.start(name, state);
   value.dissection.follow(next);
-  if (value.camera)
-    value.view.branchCameras[left] = *value.camera;
+  value.view.branches[left] = presentView(value);
 }
 
 void goToBranch(Case& value, const std::string& name)
@@ -102,10 +96,10 @@ void renameBranch(Case& value, const std::string& from, const std::string& to)
   History next = value.dissection.history();
   next.rename(from, to);
   value.dissection.follow(next);
-  if (auto camera = value.view.branchCameras.extract(from); !camera.empty())
+  if (auto view = value.view.branches.extract(from); !view.empty())
   {
-    camera.key() = to;
-    value.view.branchCameras.insert(std::move(camera));
+    view.key() = to;
+    value.view.branches.insert(std::move(view));
   }
 }
 
@@ -113,7 +107,7 @@ std::size_t removeBranch(Case& value, const std::string& name)
 {
   const std::size_t before = value.dissection.strokes().size();
   const std::size_t removed = before - value.dissection.removeBranch(name).size();
-  value.view.branchCameras.erase(name);
+  value.view.branches.erase(name);
   return removed;
 }
 
@@ -137,8 +131,8 @@ TakenBranch takeBranch(Case& value, const std::string& name)
   branches.erase(branches.begin() + static_cast<std::ptrdiff_t>(place));
   present -= place < present;
   value.dissection.follow({parentsOf(history), std::move(branches), present});
-  if (auto camera = value.view.branchCameras.extract(name); !camera.empty())
-    taken.camera = camera.mapped();
+  if (const auto view = value.view.branches.extract(name); !view.empty())
+    taken.view = view.mapped();
   return taken;
 }
 
@@ -153,8 +147,8 @@ std::string putBranch(Case& value, TakenBranch taken)
   branches.insert(branches.begin() + static_cast<std::ptrdiff_t>(place), taken.branch);
   present += place <= present;
   value.dissection.follow({parentsOf(history), std::move(branches), present});
-  if (taken.camera)
-    value.view.branchCameras[taken.branch.name] = *taken.camera;
+  if (taken.view)
+    value.view.branches[taken.branch.name] = *taken.view;
   return taken.branch.name;
 }
 

@@ -309,16 +309,27 @@ void saveView(Case& value, const std::string& name, const core::CameraPose& came
 {
   ViewState view = value.view;
   ViewState::Saved& saved = view.saved[name];
-  saved = {camera, view.slices};
+  saved = {camera, view.slices, std::nullopt};
   if (saved.slices)
     saved.slices->overlay.reset();
   checkView(view);
   value.view = std::move(view);
 }
 
+ViewState::Saved presentView(const Case& value)
+{
+  ViewState::Saved view{value.camera, value.view.slices, value.view.clipping};
+  if (view.slices)
+    view.slices->overlay.reset();
+  return view;
+}
+
 void showSaved(Case& value, const ViewState::Saved& saved)
 {
-  value.camera = saved.camera;
+  if (saved.camera)
+    value.camera = saved.camera;
+  if (saved.clipping)
+    value.view.clipping = *saved.clipping;
   if (!saved.slices)
     return;
   const auto overlay = value.view.slices ? value.view.slices->overlay : std::nullopt;

@@ -206,6 +206,7 @@ constexpr int kFormatWithoutAttachments = 5;
 constexpr int kFormatWithoutMeasurements = 6; // and without saved views
 constexpr int kFormatWithoutVideoNotes = 7;
 constexpr int kFormatWithoutInstrument = 8;
+constexpr int kFormatWithCamerasOfBranches = 9; // and with nothing else of their views
 constexpr const char* kPlanes[] = {"axial", "coronal", "sagittal"};
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
 constexpr const char* kPatient = "patient_salted_sha256";
@@ -732,14 +733,62 @@ ViewState::Light lightIn(const json& j)
   return light;
 }
 
+json savedOut(const ViewState::Saved& saved)
+{
+  json j = json::object();
+  if (saved.camera)
+    j["camera"] = cameraOut(*saved.camera);
+  if (saved.slices)
+    j["slices"] = slicesOut(*saved.slices);
+  if (saved.clipping)
+    j["clipping"] = clippingOut(*saved.clipping);
+  return j;
+}
+
+ViewState::Saved savedIn(const json& j)
+{
+  ViewState::Saved saved;
+  if (j.contains("camera"))
+    saved.camera = cameraIn(j.at("camera"));
+  if (j.contains("slices"))
+    saved.slices = slicesIn(j.at("slices"));
+  if (j.contains("clipping"))
+    saved.clipping = clippingIn(j.at("clipping"));
+  return saved;
+}
+
+// The view of a branch as programs before format 10 left it, which is written as they did.
+bool isCameraAlone(const ViewState::Saved& saved)
+{
+  return !saved.slices && !saved.clipping;
+}
+
+json branchViewOut(const ViewState::Saved& saved)
+{
+  return isCameraAlone(saved) ? cameraOut(saved.camera.value()) : savedOut(saved);
+}
+
+ViewState::Saved branchViewIn(const json& j)
+{
+  if (j.contains("slices") || j.contains("clipping"))
+    return savedIn(j);
+  return {cameraIn(j), std::nullopt, std::nullopt};
+}
+
+bool isOfABranch(const Case& value, const std::pair<const std::string, ViewState::Saved>& view)
+{
+  return value.dissection.history().find(view.first) &&
+         (view.second.camera || !isCameraAlone(view.second));
+}
+
 json viewOut(const Case& value)
 {
   const ViewState& view = value.view;
   checkView(view);
   json j = json::object();
-  for (const auto& [name, camera] : view.branchCameras)
-    if (value.dissection.history().find(name) != nullptr)
-      j["branches"][name] = cameraOut(camera);
+  for (const auto& branch : view.branches)
+    if (isOfABranch(value, branch))
+      j["branches"][branch.first] = branchViewOut(branch.second);
   if (view.slices)
     j["slices"] = slicesOut(*view.slices);
   if (view.light)
@@ -763,12 +812,7 @@ json viewOut(const Case& value)
   if (view.instrument)
     j["instrument"] = instrumentOut(*view.instrument);
   for (const auto& [name, saved] : view.saved)
-  {
-    json& one = j["saved"][name];
-    one["camera"] = cameraOut(saved.camera);
-    if (saved.slices)
-      one["slices"] = slicesOut(*saved.slices);
-  }
+    j["saved"][name] = savedOut(saved);
   return j;
 }
 
@@ -776,8 +820,8 @@ ViewState viewIn(const json& j)
 {
   ViewState view;
   if (j.contains("branches"))
-    for (const auto& [name, camera] : j.at("branches").items())
-      view.branchCameras[name] = cameraIn(camera);
+    for (const auto& [name, one] : j.at("branches").items())
+      view.branches[name] = branchViewIn(one);
   if (j.contains("slices"))
     view.slices = slicesIn(j.at("slices"));
   if (j.contains("light"))
@@ -792,12 +836,7 @@ ViewState viewIn(const json& j)
     view.instrument = instrumentIn(j.at("instrument"));
   if (j.contains("saved"))
     for (const auto& [name, one] : j.at("saved").items())
-    {
-      ViewState::Saved& saved = view.saved[name];
-      saved.camera = cameraIn(one.at("camera"));
-      if (one.contains("slices"))
-        saved.slices = slicesIn(one.at("slices"));
-    }
+      view.saved[name] = savedIn(one);
   checkView(view);
   return view;
 }
@@ -829,6 +868,18 @@ bool needsFormat8(const Case& value)
 bool needsFormat9(const Case& value)
 {
   return value.view.instrument.has_value();
+}
+
+// Likewise before format 10, which read the views of branches as cameras, and nothing else as one.
+bool needsFormat10(const Case& value)
+{
+  const auto& branches = value.view.branches;
+  const auto& saved = value.view.saved;
+  return std::any_of(branches.begin(), branches.end(),
+                     [&value](const auto& one)
+                     { return isOfABranch(value, one) && !isCameraAlone(one.second); }) ||
+         std::any_of(saved.begin(), saved.end(),
+                     [](const auto& one) { return one.second.clipping.has_value(); });
 }
 
 json stillOut(const VideoNotes::Still& still)
@@ -1084,7 +1135,8 @@ std::string toManifest(const Case& value)
   checkAttachments(value.attachments);
   checkMeasurements(value.measurements);
   const bool isDescribed = !value.description.empty();
-  json j{{"petrous_case", needsFormat9(value)   ? kManifestFormat
+  json j{{"petrous_case", needsFormat10(value)  ? kManifestFormat
+                          : needsFormat9(value) ? kFormatWithCamerasOfBranches
                           : needsFormat8(value) ? kFormatWithoutInstrument
                           : needsFormat7(value) ? kFormatWithoutVideoNotes
                           : needsFormat6(value) ? kFormatWithoutMeasurements

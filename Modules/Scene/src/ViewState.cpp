@@ -78,6 +78,28 @@ void checkSlices(const Slices& slices)
           "of 0 to 1");
 }
 
+void checkClipping(const ViewState::Clipping& clipping)
+{
+  require(clipping.planes.size() <= ViewState::kMaxClippingPlanes,
+          "there are at most " + std::to_string(ViewState::kMaxClippingPlanes) +
+              " clipping planes");
+  for (const ViewState::Clipping::Plane& plane : clipping.planes)
+    require(isPlace(plane.point) && std::abs(plane.normal.norm() - 1.0) < 1e-6,
+            "point_mm of a clipping plane must lie within 10 km, and its normal have length 1");
+  if (clipping.crop)
+    for (std::size_t a = 0; a < 3; ++a)
+      require(clipping.crop->lower[a] >= 0 && clipping.crop->lower[a] < clipping.crop->upper[a],
+              "the box of voxels that are shown must not be empty");
+}
+
+void checkSaved(const ViewState::Saved& saved)
+{
+  if (saved.slices)
+    checkSlices(*saved.slices);
+  if (saved.clipping)
+    checkClipping(*saved.clipping);
+}
+
 } // namespace
 
 bool operator==(const Slices& a, const Slices& b)
@@ -168,9 +190,11 @@ void checkView(const ViewState& view)
   for (const auto& [name, saved] : view.saved)
   {
     checkViewName(name);
-    if (saved.slices)
-      checkSlices(*saved.slices);
+    require(saved.camera.has_value(), "a saved view must have a camera");
+    checkSaved(saved);
   }
+  for (const auto& branch : view.branches)
+    checkSaved(branch.second);
   if (view.slices)
     checkSlices(*view.slices);
   if (view.light)
@@ -191,17 +215,7 @@ void checkView(const ViewState& view)
                 isWithin(view.stereo->convergence.value_or(1.0), 1.0, 1e4),
             "eyes must be 0 to 200 mm apart, and converge at 1 to 10000 mm");
   }
-  const auto& clipping = view.clipping;
-  require(clipping.planes.size() <= ViewState::kMaxClippingPlanes,
-          "there are at most " + std::to_string(ViewState::kMaxClippingPlanes) +
-              " clipping planes");
-  for (const ViewState::Clipping::Plane& plane : clipping.planes)
-    require(isPlace(plane.point) && std::abs(plane.normal.norm() - 1.0) < 1e-6,
-            "point_mm of a clipping plane must lie within 10 km, and its normal have length 1");
-  if (clipping.crop)
-    for (std::size_t a = 0; a < 3; ++a)
-      require(clipping.crop->lower[a] >= 0 && clipping.crop->lower[a] < clipping.crop->upper[a],
-              "the box of voxels that are shown must not be empty");
+  checkClipping(view.clipping);
   if (view.tool)
     require(isWithin(view.tool->burr.diameter, 0.01, 100.0) &&
                 isWithin(view.tool->burr.rpm, 0.0, 1e6) && isWithin(view.tool->thrust, 0.0, 100.0),

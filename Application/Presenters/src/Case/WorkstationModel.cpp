@@ -185,12 +185,12 @@ void WorkstationModel::setView(const scene::ViewState& view)
 {
   if (!m_case)
     return;
-  auto cameras = std::move(m_case->view.branchCameras);
+  auto branches = std::move(m_case->view.branches);
   const auto instrument = m_case->view.instrument;
   m_case->view = view;
   if (instrument && view.instrument && *instrument == *view.instrument)
     m_case->view.instrument = instrument; // which may be stored already
-  m_case->view.branchCameras = std::move(cameras);
+  m_case->view.branches = std::move(branches);
 }
 
 void WorkstationModel::saveView(const std::string& name, const core::CameraPose& camera,

@@ -66,24 +66,55 @@ void WorkstationModel::forgetNearby()
   m_nearby.reset();
 }
 
+// To another branch, with its view.
+void WorkstationModel::changeBranch(const std::function<void()>& change)
+{
+  stopTouch();
+  notify(events.viewWanted);
+  const scene::ViewState::Clipping before = m_case->view.clipping;
+  change();
+  followHistory();
+  notify(events.viewChanged);
+  if (!(m_case->view.clipping == before))
+    notify(events.appearanceChanged);
+}
+
+// A step from the branch that was left to the present one, in the state in which it is then.
+void WorkstationModel::recordBranch(const std::string& left)
+{
+  const std::string name = m_case->dissection.history().branch().name;
+  if (name == left)
+    return;
+  const auto go = [this](const std::string& to)
+  { changeBranch([this, &to] { scene::goToBranch(*m_case, to); }); };
+  recordEdit({name == dissection::History::kMain ? "change to the main approach"
+                                                 : "change to approach " + name,
+              {},
+              [go, left] { go(left); },
+              [go, name] { go(name); },
+              true});
+}
+
 void WorkstationModel::goToBranch(const std::string& name)
 {
   if (!m_case)
     return;
-  stopTouch();
-  scene::goToBranch(*m_case, name);
-  m_edits.forgetStrokes();
-  followHistory();
+  stopTouch(); // which may move the history
+  const std::string left = m_case->dissection.history().branch().name;
+  changeBranch([this, &name] { scene::goToBranch(*m_case, name); });
+  recordBranch(left);
 }
 
 void WorkstationModel::startBranch(const std::string& name)
 {
   if (!m_case)
     return;
-  stopTouch();
-  scene::startBranch(*m_case, name);
-  m_edits.forgetStrokes();
-  followHistory();
+  changeBranch(
+      [this, &name]
+      {
+        scene::startBranch(*m_case, name);
+        m_edits.forgetStrokes();
+      });
 }
 
 void WorkstationModel::goToState(const std::string& branch, std::size_t state)
@@ -92,19 +123,20 @@ void WorkstationModel::goToState(const std::string& branch, std::size_t state)
     return;
   stopTouch();
   const dissection::History& history = m_case->dissection.history();
-  const bool isPresent = history.branch().name == branch;
+  const std::string left = history.branch().name;
   const std::size_t before = history.position();
-  scene::goToState(*m_case, branch, state);
-  if (isPresent)
+  const auto go = [&] { scene::goToState(*m_case, branch, state); };
+  if (left != branch)
   {
-    const auto path = history.path(before, state);
-    for (std::size_t n = 0; n < path.undone.size(); ++n)
-      m_edits.strokeStepped(true);
-    for (std::size_t n = 0; n < path.redone.size(); ++n)
-      m_edits.strokeStepped(false);
+    changeBranch(go);
+    return recordBranch(left);
   }
-  else
-    m_edits.forgetStrokes();
+  go();
+  const auto path = history.path(before, state);
+  for (std::size_t n = 0; n < path.undone.size(); ++n)
+    m_edits.strokeStepped(true);
+  for (std::size_t n = 0; n < path.redone.size(); ++n)
+    m_edits.strokeStepped(false);
   followHistory();
 }
 

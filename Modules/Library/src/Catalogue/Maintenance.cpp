@@ -571,6 +571,17 @@ std::string misnamedText(const fs::path& manifest, const std::string& name)
   }
 }
 
+// Whether it is there and leads to no file: a link to nowhere, a folder. Not one that may not be
+// looked at, nor one that was removed meanwhile.
+bool isNoFile(const fs::path& manifest)
+{
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(manifest, error)))
+    return false;
+  const fs::file_type type = fs::status(manifest, error).type();
+  return type == fs::file_type::not_found || type == fs::file_type::directory;
+}
+
 } // namespace
 
 Inspection Library::verify(const core::Progress& progress) const
@@ -861,7 +872,7 @@ Repaired Library::repair(const core::Progress& progress, bool acceptChanged)
     }
     catch (const core::Error& error)
     {
-      done.push_back(error.what());
+      (isNoFile(manifestPath(name)) ? result.lost : done).emplace_back(error.what());
     }
   if (names.empty())
     return result;

@@ -24,7 +24,11 @@ struct WorkstationEvents
   std::function<void()> attachmentsChanged;
   std::function<void()> measurementsChanged;
   std::function<void()> savedViewsChanged; ///< kept, removed, or that undone
-  std::function<void()> mrMoved;           ///< an MR's registration or its sign-off changed
+  /// Before a branch is left: what is seen is to be given to the case (setCamera, setView), as the
+  /// view that the branch is left with.
+  std::function<void()> viewWanted;
+  std::function<void()> viewChanged; ///< to another branch's: camera and slices of the case
+  std::function<void()> mrMoved;     ///< an MR's registration or its sign-off changed
   std::function<void()> toolPutAway; ///< since a structure drawn on an MR moved; before mrMoved
   /// One stroke undone (true) or redone, on request; the case's history is already updated.
   std::function<void(bool back)> stepped;

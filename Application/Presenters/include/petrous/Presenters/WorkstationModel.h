@@ -188,7 +188,7 @@ public:
 
   bool unsaved() const noexcept { return m_unsaved; }
   void setCamera(const core::CameraPose& camera); ///< stored with the next save
-  /// The view, without the cameras of branches, which stay. Stored with the next save.
+  /// The view, without those of branches, which stay. Stored with the next save.
   void setView(const scene::ViewState& view);
   // These two can be undone.
   /// Keeps `camera` and `slices` under a name (scene::saveView), in place of what was kept under
@@ -254,7 +254,8 @@ public:
   /// What they would take on next: "colour of facial nerve", "stroke 3"; empty: nothing.
   std::string undoText() const;
   std::string redoText() const;
-  /// Whether that adds, removes or renames parts; then it puts the tool away.
+  /// Whether that adds, removes or renames parts or goes to another branch; then it puts the tool
+  /// away.
   bool undoChangesParts() const noexcept;
   bool redoChangesParts() const noexcept;
   bool undoesStroke() const noexcept; ///< or closes and undoes an open one
@@ -270,11 +271,11 @@ public:
   /// EditHistory::takeBack: a change that was only tried.
   void takeBack(std::uint64_t step);
 
-  /// Puts the tool away first. Throws as scene::goToBranch and scene::startBranch do.
-  void goToBranch(const std::string& name);
+  // These put the tool away first; the view that a branch is left with is asked for and shown
+  // (WorkstationEvents::viewWanted, viewChanged). Throw as the functions of scene do.
+  void goToBranch(const std::string& name);  ///< can be undone
   void startBranch(const std::string& name); ///< at the case's current state
-  /// Puts the tool away first. Throws as scene::goToState does. On the present branch it is as if
-  /// the strokes had been undone or redone.
+  /// On the present branch it is as if the strokes had been undone or redone; else can be undone.
   void goToState(const std::string& branch, std::size_t state);
   // These two put the tool away and can be undone. They throw as scene::renameBranch and
   // scene::takeBranch do, without effect.
@@ -437,6 +438,8 @@ private:
   void labelsChanged();
   void forgetTissue();
   void forgetReader();
+  void changeBranch(const std::function<void()>& change);
+  void recordBranch(const std::string& left);
   void changeView(const std::string& name, const std::optional<scene::ViewState::Saved>& to,
                   const std::string& what);
   void putView(const std::string& name, const std::optional<scene::ViewState::Saved>& saved);

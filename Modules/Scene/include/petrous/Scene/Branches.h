@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "petrous/Core/CameraPose.h"
 #include "petrous/Scene/Case.h"
 
 namespace petrous::scene
@@ -17,9 +16,9 @@ namespace petrous::scene
 void startBranch(Case& value, const std::string& name,
                  std::optional<std::size_t> after = std::nullopt);
 
-/// Switches to a branch, in the state in which it was left, and to the camera that it was left with
-/// (ViewState::branchCameras), else that of its last applied stroke, else none other. Throws
-/// InvalidParameter.
+/// Switches to a branch, in the state in which it was left, and to the view that it was left with
+/// (ViewState::branches); without a camera in that, to the one of its last applied stroke, else
+/// none other. Throws InvalidParameter.
 void goToBranch(Case& value, const std::string& name);
 
 /// Goes to a state of a branch, between the start and its tip, as goToBranch does if that is
@@ -44,7 +43,7 @@ struct TakenBranch
 {
   dissection::History::Branch branch;
   std::size_t index = 0; ///< its place among the branches
-  std::optional<core::CameraPose> camera;
+  std::optional<ViewState::Saved> view;
 };
 
 /// Takes out a branch other than the current one. Its strokes stay in the case, numbered as they

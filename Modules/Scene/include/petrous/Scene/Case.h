@@ -194,7 +194,10 @@ void checkPersonName(const std::string& name);
 /// the same name is replaced. Throws InvalidParameter naming a name or number that is not valid.
 void saveView(Case& value, const std::string& name, const core::CameraPose& camera);
 
-/// Makes a saved view's camera and slices those of the case; the MR over the slices stays.
+/// Camera, slices without the MR over them, and clipping, as a branch is left with them.
+ViewState::Saved presentView(const Case& value);
+
+/// Makes what a saved view has the case's own; the MR over the slices stays.
 void showSaved(Case& value, const ViewState::Saved& saved);
 
 } // namespace petrous::scene

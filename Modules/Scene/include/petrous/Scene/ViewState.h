@@ -129,20 +129,23 @@ struct ViewState
     bool empty() const { return planes.empty() && !crop; }
   };
 
-  /// A view that the user named.
+  /// A view that is kept beside the present one: that the user named, or that a branch was left
+  /// with. What is absent stays as it is where the view is shown.
   struct Saved
   {
-    core::CameraPose camera;
-    std::optional<Slices> slices; ///< without an MR over them
+    std::optional<core::CameraPose> camera; ///< one that the user named has it
+    std::optional<Slices> slices;           ///< without an MR over them
+    /// Of a branch; an empty one cuts nothing away. One that the user named has none.
+    std::optional<Clipping> clipping;
   };
   static constexpr std::size_t kMaxSaved = 100;
   static constexpr std::size_t kLongestName = 100; ///< of a saved view, bytes
 
   std::map<std::string, Saved> saved; ///< by name
 
-  /// Of the branches other than the current one, by name, as they were left. Names of no branch are
-  /// not saved.
-  std::map<std::string, core::CameraPose> branchCameras;
+  /// Of the branches other than the current one, by name, as they were left; of those left in older
+  /// programs the camera alone. Names of no branch are not saved.
+  std::map<std::string, Saved> branches;
   std::optional<Slices> slices;
   std::optional<Light> light;
   std::optional<Stereo> stereo;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "Codestream.h"
@@ -40,23 +41,30 @@ bool isDecodable(const std::string& syntax)
   return std::find(std::begin(kKnown), std::end(kKnown), syntax) != std::end(kKnown);
 }
 
-/// SOP classes of slices: CT, MR, their enhanced forms, PET, CR, secondary capture.
-bool isSliceClass(const std::string& sopClass)
+/// Whether a SOP class is one of those, by the ends of their UIDs.
+template <std::size_t Count>
+bool isStorage(std::string_view sopClass, const std::array<std::string_view, Count>& ends)
 {
-  static const std::string kStorage = "1.2.840.10008.5.1.4.1.1.";
-  static const char* const kKnown[] = {"1", "2", "2.1", "2.2", "4", "4.1", "4.4", "7", "128"};
-  return std::any_of(std::begin(kKnown), std::end(kKnown),
-                     [&](const char* known) { return sopClass == kStorage + known; });
+  constexpr std::string_view kStorage = "1.2.840.10008.5.1.4.1.1.";
+  return sopClass.substr(0, kStorage.size()) == kStorage &&
+         std::find(ends.begin(), ends.end(), sopClass.substr(kStorage.size())) != ends.end();
+}
+
+/// SOP classes of slices: CT, MR, their enhanced forms, PET, CR, secondary capture.
+bool isSliceClass(std::string_view sopClass)
+{
+  static constexpr std::array<std::string_view, 9> kEnds = {"1",   "2",   "2.1", "2.2", "4",
+                                                            "4.1", "4.4", "7",   "128"};
+  return isStorage(sopClass, kEnds);
 }
 
 /// SOP classes whose frames are slices placed by functional groups: enhanced and legacy converted
 /// CT and MR, X-ray 3D (cone beam).
-bool isEnhancedClass(const std::string& sopClass)
+bool isEnhancedClass(std::string_view sopClass)
 {
-  static const std::string kStorage = "1.2.840.10008.5.1.4.1.1.";
-  static const char* const kKnown[] = {"2.1", "2.2", "4.1", "4.4", "13.1.1", "13.1.2"};
-  return std::any_of(std::begin(kKnown), std::end(kKnown),
-                     [&](const char* known) { return sopClass == kStorage + known; });
+  static constexpr std::array<std::string_view, 6> kEnds = {"2.1", "2.2",    "4.1",
+                                                            "4.4", "13.1.1", "13.1.2"};
+  return isStorage(sopClass, kEnds);
 }
 
 /// Parametric maps: the frames of those with floating-point pixels are read as an image.

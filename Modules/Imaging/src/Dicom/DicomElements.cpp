@@ -65,13 +65,14 @@ bool isWanted(Tag tag)
 /// The functional groups whose values are used here; a private group may hold a whole other header.
 bool isGroup(Tag tag)
 {
-  static constexpr Tag kGroups[] = {0x00209113,        0x00209116, 0x00289110,
-                                    0x00289145,        0x00209111, // place, values, frame content
-                                    0x00189117,        0x00189076, 0x00189114,
-                                    0x00189112,        0x00189118, // diffusion, echo, timing, heart
-                                    0x00189226,        0x00189329, 0x00189314,
-                                    0x00189325,        0x00209310,  // type, kernel, tube, time
-                                    kRealWorldMapping, 0x004008ea}; // real world values, their unit
+  static constexpr Tag kGroups[] = {
+      0x00209113,        0x00209116, 0x00289110,
+      0x00289145,        0x00209111, // place, values, frame content
+      0x00189117,        0x00189076, 0x00189114,
+      0x00189112,        0x00189118, // diffusion, echo, timing, heart
+      0x00189226,        0x00189329, 0x00189314,
+      0x00189325,        0x00209310, 0x00189301, // type, kernel, tube, time, helix
+      kRealWorldMapping, 0x004008ea};            // real world values, their unit
   return std::find(std::begin(kGroups), std::end(kGroups), tag) != std::end(kGroups);
 }
 

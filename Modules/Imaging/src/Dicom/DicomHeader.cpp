@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "Codestream.h"
+#include "DicomDataSet.h"
 #include "DicomElements.h"
 #include "DicomItem.h"
+#include "FileHelpers.h"
 #include "PixelCodec.h"
 #include "SegmentationReader.h"
 #include "petrous/Core/NumberText.h"
@@ -297,12 +299,22 @@ void readPixelFormat(const DicomElements& elements, SliceHeader& slice)
   slice.paddingRangeLimit = paddingOf(0x00280121, 0x00280124, 0x00280125);
 }
 
+/// Whether the table moved while the source turned, which it does in no cone-beam scanner.
+bool isHelical(const DicomElements& elements)
+{
+  const std::string options = elements.text(0x00180022); // "HELICAL MODE", "HELICAL_CT"
+  return elements.text(0x00189302) == "SPIRAL" || elements.real(0x00189311).value_or(0.0) > 0.0 ||
+         options.find("HELI") != std::string::npos || options.find("SPIRAL") != std::string::npos;
+}
+
 /// What is wrong with the rescale, or an empty string.
 const char* readRescale(const DicomElements& elements, SliceHeader& slice)
 {
   constexpr Tag kSlope = 0x00281053;
   constexpr Tag kIntercept = 0x00281052;
   slice.rescaleType = elements.text(0x00281054);
+  slice.isCalibrated = slice.rescaleType == kHounsfield && elements.text(0x00080060) == "CT" &&
+                       (elements.text(0x00080070) == kManufacturer || isHelical(elements));
   slice.hasRescale = !elements.text(kSlope).empty() || !elements.text(kIntercept).empty();
   if (!slice.hasRescale)
     return "";

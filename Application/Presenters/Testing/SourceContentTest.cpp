@@ -261,6 +261,16 @@ TEST_F(SourceContent, SeriesAreToldApartByTheirPlaces)
     return folders;
   };
   EXPECT_EQ(foldersOf(), (std::set<std::string>{"first/dicom/001", "second/dicom/001"}));
+  // One of them gives a case the name of its folder; both, or one of a single folder, none.
+  std::vector<presenters::SeriesContent> images;
+  for (const presenters::SeriesContent& one : presenters::lookAt(all, {}).series)
+    if (one.files.empty())
+      images.push_back(one);
+  ASSERT_EQ(images.size(), 2u);
+  EXPECT_EQ(presenters::namingFolder({images[1]}, images).parent_path().parent_path().filename(),
+            images[1].content == Content::Mr ? "second" : "first");
+  EXPECT_TRUE(presenters::namingFolder(images, images).empty());
+  EXPECT_TRUE(presenters::namingFolder({images[0]}, {images[0]}).empty());
   std::filesystem::rename(all / "second" / "dicom", all / "second" / "mr");
   EXPECT_EQ(foldersOf(), (std::set<std::string>{"dicom/001", "mr/001"}));
   std::filesystem::rename(all / "second" / "mr" / "001", all / "second" / "mr" / "002");

@@ -438,6 +438,20 @@ std::string sequenceName(const std::string& description)
   return name;
 }
 
+fs::path namingFolder(const std::vector<SeriesContent>& chosen,
+                      const std::vector<SeriesContent>& series)
+{
+  const auto isImage = [](const SeriesContent& one) { return one.files.empty(); };
+  const auto image = std::find_if(chosen.begin(), chosen.end(), isImage);
+  if (std::count_if(chosen.begin(), chosen.end(), isImage) != 1)
+    return {};
+  const bool hasOthers =
+      std::any_of(series.begin(), series.end(),
+                  [&](const SeriesContent& one)
+                  { return isImage(one) && !one.place.empty() && one.place != image->place; });
+  return hasOthers ? image->place : fs::path();
+}
+
 SourceContent lookAt(const fs::path& path, const core::Progress& progress,
                      std::optional<Content> expected)
 {

@@ -53,6 +53,11 @@ struct SeriesContent
   bool isBeside = false; ///< of parts: not below what was opened, but in a folder beside it
 };
 
+/// The folder that names a case of what was chosen of `series`: that of the image, if one alone was
+/// chosen and others lie in other folders. Else empty: what was opened names the case.
+std::filesystem::path namingFolder(const std::vector<SeriesContent>& chosen,
+                                   const std::vector<SeriesContent>& series);
+
 /// A file or folder that the user opens or drops, and its content.
 struct SourceContent
 {
@@ -76,6 +81,8 @@ struct SourceContent
   /// A file that leaves open which side of the patient is left (imaging::assumedRasOf).
   bool isSideOpen = false;
   imaging::UnitDoubt unitDoubt = {}; ///< of a file of voxels
+  /// Of a series that was chosen: namingFolder.
+  std::filesystem::path naming = {};
   std::string description = {}; ///< of a DICOM series: as SeriesContent's, for local display only
   /// Of a DICOM series that cannot be used, repaired or not: why. Else empty.
   std::vector<imaging::Finding> refused = {};

@@ -194,7 +194,7 @@ std::string deletedName(const library::Library& library, const scene::Case& valu
 {
   try
   {
-    return value.revision == 0 ? std::string() : library.deletedName(value.id);
+    return value.revision == 0 ? std::string() : library.deletedName(value.id, value.name);
   }
   catch (const std::exception&) // which is why it is not saved
   {

@@ -10,6 +10,8 @@
 
 #include "../../../Modules/Imaging/Testing/TestDicom.h"
 #include "SharedSample.h"
+#include "petrous/Core/SystemMemory.h"
+#include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
@@ -312,6 +314,50 @@ TEST_F(SourceContent, ASeriesThatNothingPlacesIsListedWithTheReason)
 }
 
 // The elements of an RT structure set that tell what it is (PS3.3 A.19), explicit little endian.
+// Slices of more than the machine's memory, of which the disk holds the headers alone.
+TEST_F(SourceContent, ASeriesThatTheMemoryDoesNotHoldIsKnownBeforeItIsRead)
+{
+  constexpr int kEdge = 32000;
+  constexpr std::uint64_t kBytes = std::uint64_t{2} * kEdge * kEdge;
+  const std::uint64_t memory = core::systemMemory().total;
+  if (memory == 0)
+    GTEST_SKIP() << "its size is not known";
+  imaging::test::writeSeries(m_folder / "small", 5);
+  EXPECT_FALSE(presenters::lookAt(m_folder / "small", {}).isTooLarge);
+  const auto count = static_cast<int>(memory / kBytes) + 3;
+  const auto folder = m_folder / "large";
+  std::filesystem::create_directories(folder);
+  for (int k = 0; k < count; ++k)
+  {
+    imaging::test::TestSlice slice;
+    slice.z = 0.5 * k;
+    slice.rows = slice.columns = kEdge;
+    slice.pixels = false;
+    std::string bytes = slice.bytes();
+    slice.element(bytes, 0x7fe00010, "OW", {});
+    bytes.resize(bytes.size() - 4); // the length of nothing
+    slice.append(bytes, static_cast<std::uint32_t>(kBytes), 4);
+    const auto file = folder / ("s" + std::to_string(k) + ".dcm");
+    imaging::test::writeText(file, bytes);
+    std::filesystem::resize_file(file, bytes.size() + kBytes);
+  }
+  const auto found = presenters::lookAt(folder, {});
+  EXPECT_EQ(found.content, Content::Ct);
+  EXPECT_TRUE(found.isTooLarge);
+  presenters::CaseSources sources;
+  sources.ct = folder;
+  try
+  {
+    presenters::buildCase("ear", sources, {});
+    ADD_FAILURE() << "read";
+  }
+  catch (const imaging::DicomError& error)
+  {
+    EXPECT_EQ(error.reason(), imaging::DicomError::Reason::TooLarge) << error.what();
+    EXPECT_EQ(error.fault(), core::Fault::Internal);
+  }
+}
+
 TEST_F(SourceContent, OffersTheStructureSetsOfAFolder)
 {
   phantom::SampleOptions options;

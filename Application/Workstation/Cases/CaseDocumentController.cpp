@@ -606,6 +606,7 @@ bool CaseDocumentController::chooseSeries(const SourceContent& source, const Pur
     item.source.content = series.content;
     item.source.name = series.name;
     item.source.naming = naming;
+    item.source.isTooLarge = source.isTooLarge || series.isTooLarge;
     if (series.isDicom && series.files.empty())
       item.source.description = series.description;
     if (series.verdict == imaging::Verdict::Repairable)

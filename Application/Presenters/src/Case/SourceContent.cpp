@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "petrous/Core/AsciiCase.h"
+#include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImageFile.h"
@@ -114,6 +115,11 @@ std::string whyOf(const std::string& modality)
   return modality.empty() ? "says no modality" : "says modality " + modality;
 }
 
+bool isTooLarge(const imaging::DicomSeries& series)
+{
+  return !imaging::mayFitMemory(series, series.geometry.verdict == imaging::Verdict::Repairable);
+}
+
 SeriesContent contentOf(const imaging::DicomSeries& series)
 {
   SeriesContent result;
@@ -138,6 +144,7 @@ SeriesContent contentOf(const imaging::DicomSeries& series)
   }
   result.verdict = series.geometry.grid ? series.geometry.verdict : imaging::Verdict::Refused;
   result.findings = series.geometry.findings;
+  result.isTooLarge = isTooLarge(series);
   return result;
 }
 
@@ -303,6 +310,7 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
   result.why = whyOf(series.modality);
   result.name = sequenceName(series.description);
   result.description = series.description;
+  result.isTooLarge = isTooLarge(series);
   if (readable == 0)
     result.refused = series.geometry.findings;
   else if (series.geometry.verdict == imaging::Verdict::Repairable)

@@ -670,6 +670,17 @@ void requireMemory(const DicomSeries& series, const GridGeometry& grid, const In
 
 } // namespace
 
+bool mayFitMemory(const DicomSeries& series, bool isRepaired, std::uint64_t memory)
+{
+  if (!series.geometry.grid)
+    return true;
+  const std::uint64_t most = memory > 0 ? memory : core::systemMemory().available;
+  const std::uint64_t needed =
+      sizeof(std::int16_t) * std::uint64_t{isRepaired ? 2U : 1U} *
+      series.geometry.grid->fullBox().count(); // the stack, and what it becomes
+  return most == 0 || needed <= most;
+}
+
 IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options,
                            const core::Progress& progress, std::vector<std::string>* notes,
                            volume::ImageProvenance* provenance)

@@ -44,6 +44,7 @@ struct SeriesContent
   std::string folder;
   imaging::Verdict verdict = imaging::Verdict::Ok; ///< Refused: cannot be chosen
   std::vector<imaging::Finding> findings;          ///< the reasons for it
+  bool isTooLarge = false;                         ///< as SourceContent's
   std::string name;                                ///< see sequenceName
   /// Of parts: a file, a folder of masks, or several meshes; else empty.
   std::vector<std::filesystem::path> files;
@@ -77,7 +78,7 @@ struct SourceContent
   std::size_t unnamed = 0;
   std::size_t structureCount = 0;           ///< of a label map; objects of a mesh; 0: not known
   std::vector<std::string> structures = {}; ///< of a folder of masks (maskNames)
-  bool isTooLarge = false; ///< an image file that the memory does not hold: a region of it may do
+  bool isTooLarge = false; ///< an image that the memory does not hold: a region of it may do
   /// A file that leaves open which side of the patient is left (imaging::assumedRasOf).
   bool isSideOpen = false;
   imaging::UnitDoubt unitDoubt = {}; ///< of a file of voxels

@@ -115,9 +115,10 @@ std::string whyOf(const std::string& modality)
   return modality.empty() ? "says no modality" : "says modality " + modality;
 }
 
+// So that a region may do: repair reads all slices.
 bool isTooLarge(const imaging::DicomSeries& series)
 {
-  return !imaging::mayFitMemory(series, series.geometry.verdict == imaging::Verdict::Repairable);
+  return series.geometry.verdict == imaging::Verdict::Ok && !imaging::mayFitMemory(series);
 }
 
 SeriesContent contentOf(const imaging::DicomSeries& series)

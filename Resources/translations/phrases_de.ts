@@ -204,6 +204,10 @@
         <translation>%~1 Luft und Weichteile haben darin die Werte eines CT, deshalb liegt die Knochenoberfläche bei %#2, aber kein Wert wird HU genannt. Ist es ein CT in Hounsfield-Einheiten, öffnen Sie es noch einmal und geben Sie es auf die Frage an.</translation>
     </message>
     <message>
+        <source>Its histogram shows neither air nor soft tissue as a CT has them, as that of a small part of one. The file states that its values are Hounsfield units, and is of a helical CT or was exported by Petrous, so the surface of bone is put at 300 HU; 'petrous appearance --iso' moves it.</source>
+        <translation>Sein Histogramm zeigt weder Luft noch Weichteile, wie ein CT sie hat, wie das eines kleinen Teils eines CT. Die Datei sagt, dass ihre Werte Hounsfield-Einheiten sind, und stammt von einem Spiral-CT oder wurde von Petrous exportiert, also liegt die Oberfläche des Knochens bei 300 HU; die Knochenschwelle (F9) verschiebt sie.</translation>
+    </message>
+    <message>
         <source>Its histogram has no peaks of air and soft tissue, as that of a small part of a CT. It was judged by its values: soft tissue is near 40, and nothing below air, so they are taken for Hounsfield units, and the surface of bone is put at 300 HU; 'petrous appearance --iso' moves it.</source>
         <translation>Sein Histogramm hat keine Gipfel von Luft und Weichteilen, wie das eines kleinen Teils eines CT. Beurteilt wurde es nach seinen Werten: Weichteile liegen nahe 40, und nichts unter Luft, also gelten sie als Hounsfield-Einheiten, und die Oberfläche des Knochens liegt bei 300 HU; die Knochenschwelle (F9) verschiebt sie.</translation>
     </message>
@@ -4446,8 +4450,16 @@
         <translation>der gewünschte Bereich (%~1 mm) trifft das Bild nicht (%~2 mm, LPS des Patienten)</translation>
     </message>
     <message>
+        <source>series %1: %#2 x %#3 x %#4 voxels, of which the region need %#5 of memory, and %#6 are free; repair reads all of it, so close other programs</source>
+        <translation>Serie %1: %#2 x %#3 x %#4 Voxel, deren Bereich %#5 Speicher braucht, %#6 sind frei; die Reparatur liest alle Schichten, schließen Sie deshalb andere Programme</translation>
+    </message>
+    <message>
         <source>series %1: %#2 x %#3 x %#4 voxels, of which the region need %#5 of memory, and %#6 are free; choose a smaller region of it (--roi)</source>
         <translation>Serie %1: %#2 x %#3 x %#4 Voxel, deren Bereich %#5 Speicher braucht, %#6 sind frei; wählen Sie einen kleineren Bereich</translation>
+    </message>
+    <message>
+        <source>series %1: %#2 x %#3 x %#4 voxels need %#5 of memory, and %#6 are free; repair reads all of it, so close other programs</source>
+        <translation>Serie %1: %#2 x %#3 x %#4 Voxel brauchen %#5 Speicher, %#6 sind frei; die Reparatur liest alle Schichten, schließen Sie deshalb andere Programme</translation>
     </message>
     <message>
         <source>series %1: %#2 x %#3 x %#4 voxels need %#5 of memory, and %#6 are free; choose a region of it (--roi)</source>

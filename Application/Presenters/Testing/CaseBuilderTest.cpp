@@ -343,6 +343,69 @@ TEST_F(CaseBuilder, AFileOfABoxHasTheUnitThatItStatesOrShows)
   EXPECT_TRUE(presenters::calibratedScale(caseOf(false, false)).calibrated);
 }
 
+// Cone beam states Hounsfield units, too, and has others: a helical CT has them, and what this
+// program exported.
+TEST_F(CaseBuilder, ADicomSeriesOfABoxHasTheUnitThatAHelicalCtStates)
+{
+  const core::GridGeometry grid({40, 40, 40}, Vector3d::Ones(), Vector3d::Zero());
+  const auto noise = [](int i, int j, int k, int range)
+  { return (i * 7919 + j * 104729 + k * 1299709) % range; };
+  const auto caseOf = [&](const std::string& maker, bool isHelical, std::int16_t fat)
+  {
+    auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid, fat);
+    for (int k = 0; k < 40; ++k)
+      for (int j = 0; j < 40; ++j)
+        for (int i = 0; i < 40; ++i)
+          if (noise(i, j, k, 400) > 0)
+            voxels->at(i, j, k) = static_cast<std::int16_t>(100 + noise(i, j, k, 1500));
+    imaging::SeriesDescription series;
+    series.studyUid = "1.2.3";
+    series.seriesUid = "1.2.3.4";
+    series.frameOfReferenceUid = "1.2.3.9";
+    const auto folder = m_folder / (maker + (isHelical ? "helical" : "") + std::to_string(fat));
+    imaging::writeDicomSeries(
+        folder,
+        volume::IntensityVolume(std::shared_ptr<const volume::Volume<std::int16_t>>(voxels)),
+        series);
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+    {
+      std::ifstream in(entry.path(), std::ios::binary);
+      std::string bytes((std::istreambuf_iterator<char>(in)), {});
+      in.close();
+      const std::string own = "Petrous ";
+      bytes.replace(bytes.find(own), own.size(), maker);
+      const std::string number("\x18\x00\x20\x10LO", 6);
+      const std::string options("\x18\x00\x22\x00"
+                                "CS\x0c\x00"
+                                "HELICAL MODE",
+                                20);
+      bytes.insert(bytes.find(number), isHelical ? options : std::string());
+      std::ofstream(entry.path(), std::ios::binary) << bytes;
+    }
+    presenters::CaseSources sources;
+    sources.ct = folder;
+    return presenters::buildCase("ear", sources, {});
+  };
+  const auto says = [](const scene::Case& value, const char* words)
+  {
+    return std::any_of(value.ct.notes.begin(), value.ct.notes.end(),
+                       [words](const auto& note) { return note.find(words) != std::string::npos; });
+  };
+  for (const bool isOwn : {true, false})
+  {
+    const auto stated = caseOf(isOwn ? "Petrous " : "Another ", !isOwn, -60);
+    EXPECT_EQ(stated.iso, 300.0) << isOwn;
+    EXPECT_TRUE(presenters::calibratedScale(stated).calibrated) << isOwn;
+    EXPECT_TRUE(says(stated, "The file states that its values are Hounsfield units")) << isOwn;
+  }
+  const auto unknown = caseOf("Another ", false, -60);
+  EXPECT_FALSE(presenters::calibratedScale(unknown).calibrated);
+  EXPECT_GT(unknown.iso, 400.0);
+  // Nothing below zero, as of a CT that another program moved to begin at air.
+  const auto moved = caseOf("Another ", true, 100);
+  EXPECT_FALSE(presenters::calibratedScale(moved).calibrated);
+}
+
 TEST_F(CaseBuilder, PutsTheSurfaceOfAnMrWhereTissueBegins)
 {
   // Air of 10, a head of 400 with a skull of 20 and fluid of 1500 in it.

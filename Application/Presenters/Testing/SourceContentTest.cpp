@@ -10,6 +10,8 @@
 
 #include "../../../Modules/Imaging/Testing/TestDicom.h"
 #include "SharedSample.h"
+#include "petrous/Core/SystemMemory.h"
+#include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
@@ -261,6 +263,16 @@ TEST_F(SourceContent, SeriesAreToldApartByTheirPlaces)
     return folders;
   };
   EXPECT_EQ(foldersOf(), (std::set<std::string>{"first/dicom/001", "second/dicom/001"}));
+  // One of them gives a case the name of its folder; both, or one of a single folder, none.
+  std::vector<presenters::SeriesContent> images;
+  for (const presenters::SeriesContent& one : presenters::lookAt(all, {}).series)
+    if (one.files.empty())
+      images.push_back(one);
+  ASSERT_EQ(images.size(), 2u);
+  EXPECT_EQ(presenters::namingFolder({images[1]}, images).parent_path().parent_path().filename(),
+            images[1].content == Content::Mr ? "second" : "first");
+  EXPECT_TRUE(presenters::namingFolder(images, images).empty());
+  EXPECT_TRUE(presenters::namingFolder({images[0]}, {images[0]}).empty());
   std::filesystem::rename(all / "second" / "dicom", all / "second" / "mr");
   EXPECT_EQ(foldersOf(), (std::set<std::string>{"dicom/001", "mr/001"}));
   std::filesystem::rename(all / "second" / "mr" / "001", all / "second" / "mr" / "002");
@@ -302,6 +314,50 @@ TEST_F(SourceContent, ASeriesThatNothingPlacesIsListedWithTheReason)
 }
 
 // The elements of an RT structure set that tell what it is (PS3.3 A.19), explicit little endian.
+// Slices of more than the machine's memory, of which the disk holds the headers alone.
+TEST_F(SourceContent, ASeriesThatTheMemoryDoesNotHoldIsKnownBeforeItIsRead)
+{
+  constexpr int kEdge = 32000;
+  constexpr std::uint64_t kBytes = std::uint64_t{2} * kEdge * kEdge;
+  const std::uint64_t memory = core::systemMemory().total;
+  if (memory == 0)
+    GTEST_SKIP() << "its size is not known";
+  imaging::test::writeSeries(m_folder / "small", 5);
+  EXPECT_FALSE(presenters::lookAt(m_folder / "small", {}).isTooLarge);
+  const auto count = static_cast<int>(memory / kBytes) + 3;
+  const auto folder = m_folder / "large";
+  std::filesystem::create_directories(folder);
+  for (int k = 0; k < count; ++k)
+  {
+    imaging::test::TestSlice slice;
+    slice.z = 0.5 * k;
+    slice.rows = slice.columns = kEdge;
+    slice.pixels = false;
+    std::string bytes = slice.bytes();
+    slice.element(bytes, 0x7fe00010, "OW", {});
+    bytes.resize(bytes.size() - 4); // the length of nothing
+    slice.append(bytes, static_cast<std::uint32_t>(kBytes), 4);
+    const auto file = folder / ("s" + std::to_string(k) + ".dcm");
+    imaging::test::writeText(file, bytes);
+    std::filesystem::resize_file(file, bytes.size() + kBytes);
+  }
+  const auto found = presenters::lookAt(folder, {});
+  EXPECT_EQ(found.content, Content::Ct);
+  EXPECT_TRUE(found.isTooLarge);
+  presenters::CaseSources sources;
+  sources.ct = folder;
+  try
+  {
+    presenters::buildCase("ear", sources, {});
+    ADD_FAILURE() << "read";
+  }
+  catch (const imaging::DicomError& error)
+  {
+    EXPECT_EQ(error.reason(), imaging::DicomError::Reason::TooLarge) << error.what();
+    EXPECT_EQ(error.fault(), core::Fault::Internal);
+  }
+}
+
 TEST_F(SourceContent, OffersTheStructureSetsOfAFolder)
 {
   phantom::SampleOptions options;

@@ -194,7 +194,7 @@ std::string deletedName(const library::Library& library, const scene::Case& valu
 {
   try
   {
-    return value.revision == 0 ? std::string() : library.deletedName(value.id);
+    return value.revision == 0 ? std::string() : library.deletedName(value.id, value.name);
   }
   catch (const std::exception&) // which is why it is not saved
   {
@@ -597,12 +597,16 @@ bool CaseDocumentController::chooseSeries(const SourceContent& source, const Pur
   SeriesDialog dialog(source, m_model.hasCase(), &m_window);
   if (dialog.exec() != QDialog::Accepted)
     return false;
-  for (const presenters::SeriesContent& series : dialog.chosen())
+  const std::vector<presenters::SeriesContent> chosen = dialog.chosen();
+  const fs::path naming = presenters::namingFolder(chosen, source.series);
+  for (const presenters::SeriesContent& series : chosen)
   {
     Item item{source, purpose.region || dialog.wantsRegion()};
     item.source.selector = series.selector;
     item.source.content = series.content;
     item.source.name = series.name;
+    item.source.naming = naming;
+    item.source.isTooLarge = source.isTooLarge || series.isTooLarge;
     if (series.isDicom && series.files.empty())
       item.source.description = series.description;
     if (series.verdict == imaging::Verdict::Repairable)
@@ -982,7 +986,9 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
       part.unit = item.unit;
     }
   const std::string name =
-      ct ? presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(ct->path))
+      ct ? presenters::freeCaseName(
+               m_model.library(),
+               presenters::caseNameFrom(ct->naming.empty() ? ct->path : ct->naming))
          : std::string();
   if (!askNames(sources, others, name) || (!ct && !askTaken(sources.parts, others)))
     return;

@@ -122,6 +122,29 @@ TEST_F(Import, AFolderOfSeveralSeriesAsksWhich)
   EXPECT_EQ(value.mr[0].name, "T2 3D") << "of “T2 3D inner ear right” what names a sequence";
 }
 
+// Of one series alone its folder names the case, as if that had been opened.
+TEST_F(Import, ASeriesOfATreeNamesTheCaseByItsFolder)
+{
+  phantom::SampleOptions options;
+  options.spacing = 1.5;
+  petrous::testing::writeSharedSample(folder() / "visit", options);
+  for (const char* part : {"labels", "labels.seg.nrrd", "meshes"})
+    fs::remove_all(folder() / "visit" / part);
+  openWindow();
+  onDialog(
+      [](QDialog& dialog)
+      {
+        if (!dialog.findChild<QTreeWidget*>("series"))
+          return false;
+        dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open)->click();
+        return true;
+      });
+  dropPath(folder() / "visit");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  EXPECT_EQ(window().model().value().name, "ct");
+  EXPECT_TRUE(window().model().value().mr.empty());
+}
+
 // A sound CT, its structures, and structures of something else, in one tree.
 TEST_F(Import, StructuresOfADroppedTreeAreOfferedWithItsSeries)
 {

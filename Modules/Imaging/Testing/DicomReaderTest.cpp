@@ -351,6 +351,8 @@ TEST(DicomReader, RefusesWhatDoesNotFitTheMemoryBeforeItIsRead)
   ReadOptions options;
   options.memory = bytes;
   EXPECT_NO_THROW(readSeries(series, options, {}));
+  EXPECT_TRUE(mayFitMemory(series, bytes));
+  EXPECT_FALSE(mayFitMemory(series, bytes - 1));
   options.memory = bytes - 1;
   for (int k = 0; k < 10; ++k)
     fs::remove(folder.path() / ("s" + std::to_string(k) + ".dcm")); // none is read

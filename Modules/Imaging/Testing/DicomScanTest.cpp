@@ -696,6 +696,46 @@ TEST(DicomScan, DoesNotFollowAFolderLinkThatLeadsOut)
   EXPECT_EQ(scanDicom(folder.path() / "out", {}).series.front().files, 3U);
 }
 
+// Headers are read in parts; an element may lie across the end of one, in any way.
+TEST(DicomScan, ReadsHeadersOfAnyLength)
+{
+  const TemporaryFolder folder;
+  constexpr int kLengths = 70;
+  for (const std::uint32_t fillers : {36U, 200U}) // of 108 bytes each
+    for (int k = 0; k < kLengths; ++k)
+    {
+      TestSlice slice;
+      slice.seriesUid = "1.2." + std::to_string(fillers);
+      slice.z = 0.5 * k;
+      slice.cell = [k](int, int) { return static_cast<std::uint32_t>(k); };
+      for (std::uint32_t n = 0; n < fillers; ++n)
+        slice.element(slice.extra, 0x00091000 + n, "LO", std::string(100, 'x'));
+      slice.element(slice.extra, 0x00091100, "UN",
+                    std::string(2 * static_cast<std::size_t>(k), 'x'));
+      writeText(folder.path() / (std::to_string(fillers) + "-" + std::to_string(k) + ".dcm"),
+                slice.bytes());
+    }
+  const ScanResult result = scanDicom(folder.path(), {});
+  ASSERT_EQ(result.series.size(), 2U);
+  for (const DicomSeries& series : result.series)
+  {
+    EXPECT_EQ(series.geometry.verdict, Verdict::Ok);
+    ASSERT_EQ(series.geometry.slices.size(), static_cast<std::size_t>(kLengths));
+    for (std::size_t k = 0; k < series.geometry.slices.size(); ++k)
+    {
+      const SliceHeader& slice = series.geometry.slices[k];
+      EXPECT_EQ(*slice.position, Eigen::Vector3d(-10.0, 20.5, 0.5 * static_cast<double>(k)));
+      EXPECT_EQ(slice.rows, 6);
+      EXPECT_EQ(slice.columns, 8);
+      EXPECT_EQ(slice.frameOfReferenceUid, "1.2.3.9");
+    }
+    const auto voxels = std::get<std::shared_ptr<const volume::Volume<std::int16_t>>>(
+        readSeries(series, {}, {}).voxels());
+    for (int k = 0; k < kLengths; ++k)
+      EXPECT_EQ(voxels->at(0, 0, k), k);
+  }
+}
+
 // Without this file the volume would be one slice shorter, with no other indication.
 TEST(DicomScan, NamesALostFirstOrLastSlice)
 {

@@ -100,7 +100,9 @@ TEST_F(Maintenance, ARenamedCaseIsSavedUnderItsNewName)
   m_library.rename("a", "b");
   make("a", 20);
   m_library.remove("a");
-  EXPECT_EQ(m_library.deletedName(id), "") << "another case was deleted";
+  // Under its own name, that of another case and that of none.
+  for (const char* name : {"", "b", "a", "z"})
+    EXPECT_EQ(m_library.deletedName(id, name), "") << "another case was deleted; " << name;
   value.iso = 250;
   m_library.save(value);
   EXPECT_EQ(value.name, "b");
@@ -121,7 +123,8 @@ TEST_F(Maintenance, ARenamedCaseIsSavedUnderItsNewName)
   m_library.copy("c", "copy");
   m_library.remove("c");
   EXPECT_EQ(refusal([&] { m_library.save(value); }).first, LibraryError::Reason::Conflict);
-  EXPECT_EQ(m_library.deletedName(id), "c");
+  for (const char* name : {"", "c", "b"}) // of the deleted one, and that of another case
+    EXPECT_EQ(m_library.deletedName(id, name), "c") << name;
 }
 
 // Of hundreds of cases whose manifests are known, none is read to find one by its ID.
@@ -137,6 +140,7 @@ TEST_F(Maintenance, CasesAreFoundByTheirIdInTheCatalogue)
     std::ifstream file(path, std::ios::binary);
     text.assign(std::istreambuf_iterator<char>(file), {});
   }
+  EXPECT_EQ(m_library.deletedName(other, "b"), "") << "asked itself";
   const std::size_t at = text.find(other);
   ASSERT_NE(at, std::string::npos);
   ASSERT_EQ(id.size(), other.size());

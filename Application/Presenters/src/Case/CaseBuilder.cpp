@@ -424,6 +424,7 @@ struct ReadImage
   /// Of the whole image where the part is a box of it.
   std::optional<volume::IntensityHistogram> whole = std::nullopt;
   bool isHounsfield = false; // as its file states, which this program wrote
+  bool isCalibrated = false; // likewise, or the slices of a helical CT
 };
 
 // Of every few of all slices, as a box may have neither air nor soft tissue, by which values are
@@ -543,6 +544,8 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
     read.patient = patientOf(series);
     part.patient = patientHash(read.patient);
     read.otherQuantity = otherQuantity(series);
+    read.isCalibrated = std::all_of(series.geometry.slices.begin(), series.geometry.slices.end(),
+                                    [](const auto& slice) { return slice.isCalibrated; });
     if (isPrimary && options.roi)
       read.whole = histogramOf(series, progress.part(0.9, 1.0));
     part.modality = series.modality == "MR"   ? scene::Modality::Mr
@@ -647,7 +650,12 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const ReadImage& r
     return;
   }
   noteBeyondCt(image);
-  const auto scale = read.isHounsfield ? volume::IntensityScale() : volume::suggestScale(histogram);
+  constexpr double kBelowZero = -30.0; // HU; nothing of an image whose air is at 0
+  auto scale = read.isHounsfield ? volume::IntensityScale() : volume::suggestScale(histogram);
+  const bool isBelieved = read.isCalibrated && !isOther && !scale.calibrated && !scale.soft &&
+                          mayBePart(histogram) && histogram.range().min < kBelowZero;
+  if (isBelieved)
+    scale = {};
   if (scale.calibrated && isOther)
   {
     // Bone looks as in Hounsfield units; calibratedScale tells these by the value of dense bone.
@@ -664,6 +672,12 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const ReadImage& r
   if (scale.calibrated)
   {
     image.modality = Modality::Ct;
+    if (isBelieved)
+      image.notes.push_back(
+          "Its histogram shows neither air nor soft tissue as a CT has them, as that of a small "
+          "part of one. The file states that its values are Hounsfield units, and is of a helical "
+          "CT or was exported by Petrous, so the surface of bone is put at 300 HU; 'petrous "
+          "appearance --iso' moves it.");
     if (scale.isOfPart)
       image.notes.push_back(
           "Its histogram has no peaks of air and soft tissue, as that of a small part of a CT. It "

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "petrous/Core/AsciiCase.h"
+#include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImageFile.h"
@@ -114,6 +115,12 @@ std::string whyOf(const std::string& modality)
   return modality.empty() ? "says no modality" : "says modality " + modality;
 }
 
+// So that a region may do: repair reads all slices.
+bool isTooLarge(const imaging::DicomSeries& series)
+{
+  return series.geometry.verdict == imaging::Verdict::Ok && !imaging::mayFitMemory(series);
+}
+
 SeriesContent contentOf(const imaging::DicomSeries& series)
 {
   SeriesContent result;
@@ -138,6 +145,7 @@ SeriesContent contentOf(const imaging::DicomSeries& series)
   }
   result.verdict = series.geometry.grid ? series.geometry.verdict : imaging::Verdict::Refused;
   result.findings = series.geometry.findings;
+  result.isTooLarge = isTooLarge(series);
   return result;
 }
 
@@ -303,6 +311,7 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
   result.why = whyOf(series.modality);
   result.name = sequenceName(series.description);
   result.description = series.description;
+  result.isTooLarge = isTooLarge(series);
   if (readable == 0)
     result.refused = series.geometry.findings;
   else if (series.geometry.verdict == imaging::Verdict::Repairable)
@@ -436,6 +445,20 @@ std::string sequenceName(const std::string& description)
     before = lower;
   }
   return name;
+}
+
+fs::path namingFolder(const std::vector<SeriesContent>& chosen,
+                      const std::vector<SeriesContent>& series)
+{
+  const auto isImage = [](const SeriesContent& one) { return one.files.empty(); };
+  const auto image = std::find_if(chosen.begin(), chosen.end(), isImage);
+  if (std::count_if(chosen.begin(), chosen.end(), isImage) != 1)
+    return {};
+  const bool hasOthers =
+      std::any_of(series.begin(), series.end(),
+                  [&](const SeriesContent& one)
+                  { return isImage(one) && !one.place.empty() && one.place != image->place; });
+  return hasOthers ? image->place : fs::path();
 }
 
 SourceContent lookAt(const fs::path& path, const core::Progress& progress,

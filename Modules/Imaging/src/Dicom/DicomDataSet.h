@@ -17,6 +17,9 @@ class Writer;
 namespace petrous::imaging
 {
 
+/// Manufacturer (0008,0070) of the files that are written.
+constexpr const char* kManufacturer = "Petrous";
+
 // Elements of DICOM files that are written; `vr` is the value representation ("UI").
 
 /// A decimal string (DS): as many digits as its 16 characters hold.
@@ -54,7 +57,7 @@ template <class Description>
 void putIdentification(gdcm::DataSet& data, const Description& of)
 {
   put(data, {{0x0008, 0x0050, "SH", ""},
-             {0x0008, 0x0070, "LO", "Petrous"},
+             {0x0008, 0x0070, "LO", kManufacturer},
              {0x0008, 0x0090, "PN", ""},
              {0x0010, 0x0010, "PN", of.patientName},
              {0x0010, 0x0020, "LO", of.patientId},

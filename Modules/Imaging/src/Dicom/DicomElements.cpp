@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <string_view>
 
+#include "FileHelpers.h"
 #include "petrous/Imaging/DicomReader.h"
 
 namespace petrous::imaging
@@ -36,10 +36,10 @@ bool isUpper(unsigned char c)
 
 bool hasLongLength(const unsigned char* vr)
 {
-  static const char* const kLong[] = {"OB", "OD", "OF", "OL", "OV", "OW", "SQ",
-                                      "SV", "UC", "UN", "UR", "UT", "UV"};
-  return std::any_of(std::begin(kLong), std::end(kLong),
-                     [vr](const char* name) { return std::memcmp(vr, name, 2) == 0; });
+  const auto isOneOf = [second = static_cast<char>(vr[1])](std::string_view letters)
+  { return letters.find(second) != std::string_view::npos; };
+  return (vr[0] == 'O' && isOneOf("BDFLVW")) || (vr[0] == 'S' && isOneOf("QV")) ||
+         (vr[0] == 'U' && isOneOf("CNRTV"));
 }
 
 bool isWanted(Tag tag)
@@ -65,13 +65,14 @@ bool isWanted(Tag tag)
 /// The functional groups whose values are used here; a private group may hold a whole other header.
 bool isGroup(Tag tag)
 {
-  static constexpr Tag kGroups[] = {0x00209113,        0x00209116, 0x00289110,
-                                    0x00289145,        0x00209111, // place, values, frame content
-                                    0x00189117,        0x00189076, 0x00189114,
-                                    0x00189112,        0x00189118, // diffusion, echo, timing, heart
-                                    0x00189226,        0x00189329, 0x00189314,
-                                    0x00189325,        0x00209310,  // type, kernel, tube, time
-                                    kRealWorldMapping, 0x004008ea}; // real world values, their unit
+  static constexpr Tag kGroups[] = {
+      0x00209113,        0x00209116, 0x00289110,
+      0x00289145,        0x00209111, // place, values, frame content
+      0x00189117,        0x00189076, 0x00189114,
+      0x00189112,        0x00189118, // diffusion, echo, timing, heart
+      0x00189226,        0x00189329, 0x00189314,
+      0x00189325,        0x00209310, 0x00189301, // type, kernel, tube, time, helix
+      kRealWorldMapping, 0x004008ea};            // real world values, their unit
   return std::find(std::begin(kGroups), std::end(kGroups), tag) != std::end(kGroups);
 }
 
@@ -233,6 +234,8 @@ void DicomElements::readDataSet(std::uint64_t offset)
     return;
   m_explicit = isUpper(head[4]) && isUpper(head[5]);
   m_dataStart = offset;
+  constexpr std::size_t kUsual = 96; // elements of a slice that are kept
+  m_values.reserve(kUsual);
   if (m_syntax.empty())
     m_syntax = m_bigEndian  ? "1.2.840.10008.1.2.2"
                : m_explicit ? "1.2.840.10008.1.2.1"
@@ -408,48 +411,47 @@ const std::string* DicomElements::find(Tag tag) const
 namespace
 {
 
+std::string_view withoutSpaces(std::string_view text)
+{
+  const std::size_t first = text.find_first_not_of(' ');
+  return first == std::string_view::npos
+             ? std::string_view()
+             : text.substr(first, text.find_last_not_of(' ') + 1 - first);
+}
+
 /// Without padding and control characters.
 std::string textOf(const std::string& value)
 {
-  std::string result;
-  for (const char c : value)
-    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f)
-      result += c;
-  result.erase(result.find_last_not_of(' ') + 1);
-  result.erase(0, result.find_first_not_of(' '));
-  return result;
+  const auto isControl = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  std::string result = value;
+  result.erase(std::remove_if(result.begin(), result.end(), isControl), result.end());
+  const std::string_view text = withoutSpaces(result);
+  return text.size() == result.size() ? result : std::string(text);
 }
 
-/// The values of a text, which backslashes divide.
-std::vector<std::string> wordsOf(std::string rest)
+/// The values of a text, which backslashes divide: views of it.
+std::vector<std::string_view> wordsOf(std::string_view rest)
 {
-  std::vector<std::string> result;
+  std::vector<std::string_view> result;
   while (!rest.empty())
   {
     const std::size_t end = std::min(rest.find('\\'), rest.size());
-    std::string word = rest.substr(0, end);
-    word.erase(word.find_last_not_of(' ') + 1);
-    word.erase(0, word.find_first_not_of(' '));
-    result.push_back(std::move(word));
-    rest.erase(0, end + 1);
+    result.push_back(withoutSpaces(rest.substr(0, end)));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return result;
 }
 
 /// Decimal strings; empty if one is malformed.
-std::vector<double> numbersOf(const std::vector<std::string>& parts)
+std::vector<double> numbersOf(const std::vector<std::string_view>& parts)
 {
-  std::vector<double> result(parts.size());
-  for (std::size_t i = 0; i < parts.size(); ++i)
-  {
-    const char* first = parts[i].data();
-    const char* last = first + parts[i].size();
-    if (first != last && *first == '+')
-      ++first;
-    const auto end = std::from_chars(first, last, result[i]); // unlike strtod, locale-independent
-    if (end.ec != std::errc() || end.ptr != last || !std::isfinite(result[i]))
+  std::vector<double> result;
+  result.reserve(parts.size());
+  for (const std::string_view part : parts)
+    if (const auto value = parseDouble(part))
+      result.push_back(*value);
+    else
       return {};
-  }
   return result;
 }
 
@@ -486,19 +488,21 @@ std::string DicomElements::text(Tag tag) const
 
 std::vector<std::string> DicomElements::words(Tag tag) const
 {
-  return wordsOf(text(tag));
+  const std::string all = text(tag);
+  const std::vector<std::string_view> parts = wordsOf(all);
+  return {parts.begin(), parts.end()};
 }
 
 std::vector<double> DicomElements::numbers(Tag tag, std::size_t count) const
 {
-  const std::vector<std::string> parts = words(tag);
+  const std::string all = text(tag);
+  const std::vector<std::string_view> parts = wordsOf(all);
   return parts.size() == count ? numbersOf(parts) : std::vector<double>();
 }
 
 std::optional<double> DicomElements::number(Tag tag) const
 {
-  const std::vector<double> one = numbers(tag, 1);
-  return one.empty() ? std::nullopt : std::optional<double>(one.front());
+  return parseDouble(text(tag)); // several are none
 }
 
 std::optional<double> DicomElements::real(Tag tag) const

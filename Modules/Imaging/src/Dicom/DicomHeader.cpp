@@ -5,11 +5,14 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "Codestream.h"
+#include "DicomDataSet.h"
 #include "DicomElements.h"
 #include "DicomItem.h"
+#include "FileHelpers.h"
 #include "PixelCodec.h"
 #include "SegmentationReader.h"
 #include "petrous/Core/NumberText.h"
@@ -40,23 +43,30 @@ bool isDecodable(const std::string& syntax)
   return std::find(std::begin(kKnown), std::end(kKnown), syntax) != std::end(kKnown);
 }
 
-/// SOP classes of slices: CT, MR, their enhanced forms, PET, CR, secondary capture.
-bool isSliceClass(const std::string& sopClass)
+/// Whether a SOP class is one of those, by the ends of their UIDs.
+template <std::size_t Count>
+bool isStorage(std::string_view sopClass, const std::array<std::string_view, Count>& ends)
 {
-  static const std::string kStorage = "1.2.840.10008.5.1.4.1.1.";
-  static const char* const kKnown[] = {"1", "2", "2.1", "2.2", "4", "4.1", "4.4", "7", "128"};
-  return std::any_of(std::begin(kKnown), std::end(kKnown),
-                     [&](const char* known) { return sopClass == kStorage + known; });
+  constexpr std::string_view kStorage = "1.2.840.10008.5.1.4.1.1.";
+  return sopClass.substr(0, kStorage.size()) == kStorage &&
+         std::find(ends.begin(), ends.end(), sopClass.substr(kStorage.size())) != ends.end();
+}
+
+/// SOP classes of slices: CT, MR, their enhanced forms, PET, CR, secondary capture.
+bool isSliceClass(std::string_view sopClass)
+{
+  static constexpr std::array<std::string_view, 9> kEnds = {"1",   "2",   "2.1", "2.2", "4",
+                                                            "4.1", "4.4", "7",   "128"};
+  return isStorage(sopClass, kEnds);
 }
 
 /// SOP classes whose frames are slices placed by functional groups: enhanced and legacy converted
 /// CT and MR, X-ray 3D (cone beam).
-bool isEnhancedClass(const std::string& sopClass)
+bool isEnhancedClass(std::string_view sopClass)
 {
-  static const std::string kStorage = "1.2.840.10008.5.1.4.1.1.";
-  static const char* const kKnown[] = {"2.1", "2.2", "4.1", "4.4", "13.1.1", "13.1.2"};
-  return std::any_of(std::begin(kKnown), std::end(kKnown),
-                     [&](const char* known) { return sopClass == kStorage + known; });
+  static constexpr std::array<std::string_view, 6> kEnds = {"2.1", "2.2",    "4.1",
+                                                            "4.4", "13.1.1", "13.1.2"};
+  return isStorage(sopClass, kEnds);
 }
 
 /// Parametric maps: the frames of those with floating-point pixels are read as an image.
@@ -289,12 +299,22 @@ void readPixelFormat(const DicomElements& elements, SliceHeader& slice)
   slice.paddingRangeLimit = paddingOf(0x00280121, 0x00280124, 0x00280125);
 }
 
+/// Whether the table moved while the source turned, which it does in no cone-beam scanner.
+bool isHelical(const DicomElements& elements)
+{
+  const std::string options = elements.text(0x00180022); // "HELICAL MODE", "HELICAL_CT"
+  return elements.text(0x00189302) == "SPIRAL" || elements.real(0x00189311).value_or(0.0) > 0.0 ||
+         options.find("HELI") != std::string::npos || options.find("SPIRAL") != std::string::npos;
+}
+
 /// What is wrong with the rescale, or an empty string.
 const char* readRescale(const DicomElements& elements, SliceHeader& slice)
 {
   constexpr Tag kSlope = 0x00281053;
   constexpr Tag kIntercept = 0x00281052;
   slice.rescaleType = elements.text(0x00281054);
+  slice.isCalibrated = slice.rescaleType == kHounsfield && elements.text(0x00080060) == "CT" &&
+                       (elements.text(0x00080070) == kManufacturer || isHelical(elements));
   slice.hasRescale = !elements.text(kSlope).empty() || !elements.text(kIntercept).empty();
   if (!slice.hasRescale)
     return "";

@@ -651,10 +651,9 @@ void requireMemory(const DicomSeries& series, const GridGeometry& grid, const In
                    bool isRepaired, const ReadOptions& options, std::size_t bytes)
 {
   const std::uint64_t most = options.memory > 0 ? options.memory : core::systemMemory().available;
-  const double needed =
-      static_cast<double>(bytes) *
-      (static_cast<double>(box.count()) +
-       (isRepaired ? static_cast<double>(series.geometry.grid->fullBox().count()) : 0.0));
+  const double stack = // which repair reads whole
+      isRepaired ? static_cast<double>(bytes * series.geometry.grid->fullBox().count()) : 0.0;
+  const double needed = static_cast<double>(bytes * box.count()) + stack;
   if (most == 0 || needed <= static_cast<double>(most))
     return;
   const auto gigabytes = [](double count) { return decimals(1e-9 * count, 1) + " GB"; };
@@ -663,12 +662,22 @@ void requireMemory(const DicomSeries& series, const GridGeometry& grid, const In
                    "series " + series.uid + ": " + std::to_string(dims[0]) + " x " +
                        std::to_string(dims[1]) + " x " + std::to_string(dims[2]) + " voxels" +
                        (options.roi ? ", of which the region" : "") + " need " + gigabytes(needed) +
-                       " of memory, and " + gigabytes(static_cast<double>(most)) +
-                       " are free; choose a " + (options.roi ? "smaller " : "") +
-                       "region of it (--roi)");
+                       " of memory, and " + gigabytes(static_cast<double>(most)) + " are free; " +
+                       (stack > static_cast<double>(most)
+                            ? "repair reads all of it, so close other programs"
+                        : options.roi ? "choose a smaller region of it (--roi)"
+                                      : "choose a region of it (--roi)"));
 }
 
 } // namespace
+
+bool mayFitMemory(const DicomSeries& series, std::uint64_t memory)
+{
+  if (!series.geometry.grid)
+    return true;
+  const std::uint64_t most = memory > 0 ? memory : core::systemMemory().available;
+  return most == 0 || sizeof(std::int16_t) * series.geometry.grid->fullBox().count() <= most;
+}
 
 IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options,
                            const core::Progress& progress, std::vector<std::string>* notes,

@@ -59,7 +59,7 @@ public:
     m_root = fs::canonical(path, error);
     Entry root{path};
     root.look();
-    visit(root, true);
+    visit(std::move(root), true);
     while (!m_folders.empty())
     {
       const fs::path folder = std::move(m_folders.back());
@@ -80,12 +80,15 @@ public:
                           for (std::size_t n = range.begin(); n != range.end(); ++n)
                             entries[n].look();
                         });
-      for (const Entry& each : entries)
-        visit(each, false);
+      const auto known = static_cast<std::ptrdiff_t>(m_folders.size());
+      for (Entry& each : entries)
+        visit(std::move(each), false);
+      std::reverse(m_folders.begin() + known, m_folders.end()); // the last is the next
     }
-    std::sort(files.begin(), files.end(),
-              [](const ListedFile& a, const ListedFile& b)
-              { return precedes(a.path.native(), b.path.native()); });
+    const auto before = [](const ListedFile& a, const ListedFile& b)
+    { return precedes(a.path.native(), b.path.native()); };
+    if (!std::is_sorted(files.begin(), files.end(), before))
+      std::sort(files.begin(), files.end(), before);
   }
 
   std::vector<ListedFile> files;
@@ -113,9 +116,9 @@ private:
     return rank(*one) < rank(*other);
   }
 
-  void visit(const Entry& entry, bool isRoot)
+  void visit(Entry entry, bool isRoot)
   {
-    const fs::path& path = entry.path;
+    fs::path& path = entry.path;
     const struct stat& status = entry.status;
     if (entry.problem != 0)
     {
@@ -140,9 +143,9 @@ private:
     }
     m_seen.insert({status.st_dev, status.st_ino});
     if (S_ISDIR(status.st_mode))
-      m_folders.push_back(path);
+      m_folders.push_back(std::move(path));
     else if (S_ISREG(status.st_mode)) // a pipe or device would block
-      files.push_back({path, stampOf(status)});
+      files.push_back({std::move(path), stampOf(status)});
     else
       notes.push_back("'" + path.filename().string() +
                       "' is not an ordinary file (a pipe or a device) and was not read.");

@@ -244,15 +244,17 @@ template <class Archive>
 void pass(Archive& archive, SliceHeader& value)
 {
   auto& [file, stamp, position, row, column, pixelSpacing, rows, columns, frames, slope, intercept,
-         hasRescale, rescaleType, isLossy, isLossUnknown, lossyRatio, burnedIn, declaredSpacing,
-         thickness, declaredTilt, padding, paddingLimit, taken, patientPosition, instance,
-         stackPosition, count, isImage, imageType, frameOfReference, patient, study, modality,
-         kernel, tube, seriesNumber, acquisition, traits, step, hasLut, pixels, damage] = value;
+         hasRescale, rescaleType, isCalibrated, isLossy, isLossUnknown, lossyRatio, burnedIn,
+         declaredSpacing, thickness, declaredTilt, padding, paddingLimit, taken, patientPosition,
+         instance, stackPosition, count, isImage, imageType, frameOfReference, patient, study,
+         modality, kernel, tube, seriesNumber, acquisition, traits, step, hasLut, pixels, damage] =
+      value;
   passAll(archive, file, stamp, position, row, column, pixelSpacing, rows, columns, frames, slope,
-          intercept, hasRescale, rescaleType, isLossy, isLossUnknown, lossyRatio, burnedIn,
-          declaredSpacing, thickness, declaredTilt, padding, paddingLimit, taken, patientPosition,
-          instance, stackPosition, count, isImage, imageType, frameOfReference, patient, study,
-          modality, kernel, tube, seriesNumber, acquisition, traits, step, hasLut, pixels, damage);
+          intercept, hasRescale, rescaleType, isCalibrated, isLossy, isLossUnknown, lossyRatio,
+          burnedIn, declaredSpacing, thickness, declaredTilt, padding, paddingLimit, taken,
+          patientPosition, instance, stackPosition, count, isImage, imageType, frameOfReference,
+          patient, study, modality, kernel, tube, seriesNumber, acquisition, traits, step, hasLut,
+          pixels, damage);
 }
 
 template <class Archive>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -71,7 +72,7 @@ std::size_t fingerprintOf(const std::string& text)
 /// 0 for what names nobody, as this program and others write where an identity was removed.
 std::size_t hashOf(const std::string& text)
 {
-  static const char* const kNobody[] = {
+  static constexpr std::string_view kNobody[] = {
       "",        "ANONYMOUS", "ANONYMIZED",       "ANONYMISED", "ANON",    "ANONYM",
       "UNKNOWN", "NONE",      "IDENTITY REMOVED", "REMOVED",    "NO NAME", "NONAME"};
   const std::string what = plain(text);
@@ -130,6 +131,11 @@ std::string unaccented(const std::string& capitals)
   for (std::size_t at = 0; at < capitals.size();)
   {
     const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(capitals[at + n]); };
+    if (byte(0) < 0x80)
+    {
+      result += capitals[at++];
+      continue;
+    }
     const std::size_t wanted = (byte(0) & 0xE0) == 0xC0 ? 2 : (byte(0) & 0xF0) == 0xE0 ? 3 : 1;
     const std::size_t bytes = at + wanted <= capitals.size() ? wanted : 1;
     unsigned code = 0;
@@ -163,10 +169,10 @@ std::string folded(const std::string& capitals)
 /// Particles, titles and what stands in the names of phantoms.
 bool isNoName(const std::string& capitals)
 {
-  static const char* const kNoName[] = {"VON",  "VAN",     "DER",     "DEN",  "DES",  "DEL",
-                                        "DOS",  "ZUR",     "ZUM",     "UND",  "THE",  "AND",
-                                        "TEST", "PHANTOM", "PETROUS", "DEMO", "MRS",  "HERR",
-                                        "FRAU", "PATIENT", "SAMPLE",  "CASE", "PROF", "NAME"};
+  static constexpr std::string_view kNoName[] = {
+      "VON", "VAN",  "DER",  "DEN",     "DES",    "DEL",     "DOS",     "ZUR",
+      "ZUM", "UND",  "THE",  "AND",     "TEST",   "PHANTOM", "PETROUS", "DEMO",
+      "MRS", "HERR", "FRAU", "PATIENT", "SAMPLE", "CASE",    "PROF",    "NAME"};
   return std::find(std::begin(kNoName), std::end(kNoName), capitals) != std::end(kNoName);
 }
 

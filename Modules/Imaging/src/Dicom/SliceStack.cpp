@@ -154,9 +154,20 @@ SliceStack::SliceStack(std::vector<SliceHeader>& slices)
 {
   m_direction = axesOf(slices.front());
   const Eigen::Vector3d normal = m_direction.col(2);
-  std::stable_sort(slices.begin(), slices.end(),
-                   [&normal](const SliceHeader& a, const SliceHeader& b)
-                   { return normal.dot(*a.position) < normal.dot(*b.position); });
+  // Sorted by index, as headers are large.
+  std::vector<std::pair<double, std::size_t>> order;
+  order.reserve(slices.size());
+  for (const SliceHeader& slice : slices)
+    order.emplace_back(normal.dot(*slice.position), order.size());
+  if (!std::is_sorted(order.begin(), order.end()))
+  {
+    std::sort(order.begin(), order.end());
+    std::vector<SliceHeader> sorted;
+    sorted.reserve(slices.size());
+    for (const auto& [place, n] : order)
+      sorted.push_back(std::move(slices[n]));
+    slices = std::move(sorted);
+  }
   for (const SliceHeader& slice : slices)
   {
     m_place.push_back(normal.dot(*slice.position));

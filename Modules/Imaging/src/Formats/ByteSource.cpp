@@ -15,7 +15,8 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr std::size_t kWindow = 16384;                // large enough for most headers
+constexpr std::size_t kFirstWindow = 4096;            // the header of most single slices
+constexpr std::size_t kWindow = 16384;                // what follows of longer ones
 constexpr std::size_t kLargestInflated = 256UL << 20; // bytes; a slice of 8192^2 and its header
 constexpr std::size_t kLargestDeflated = kLargestInflated;
 
@@ -99,7 +100,8 @@ bool ByteSource::readNear(std::uint64_t offset, void* bytes, std::size_t count)
     return false;
   if (offset < m_windowStart || offset + count > m_windowStart + m_window.size())
   {
-    m_window.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kWindow, m_size - offset)));
+    const std::size_t window = m_window.empty() ? std::max(kFirstWindow, count) : kWindow;
+    m_window.resize(static_cast<std::size_t>(std::min<std::uint64_t>(window, m_size - offset)));
     m_windowStart = offset;
     if (!read(offset, m_window.data(), m_window.size()))
     {

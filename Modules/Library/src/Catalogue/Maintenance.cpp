@@ -337,10 +337,11 @@ std::vector<DeletedCase> Library::deleted() const
   return cases;
 }
 
-std::string Library::deletedName(const std::string& id) const
+std::string Library::deletedName(const std::string& id, const std::string& name) const
 {
   const fs::path folder = m_folder / "cases";
-  if (id.empty() || !namesOf(folder, id).empty())
+  const bool isThere = !name.empty() && idIn(folder / (name + ".json"), name) == id;
+  if (id.empty() || isThere || !namesOf(folder, id).empty())
     return {};
   for (const DeletedFile& file : deletedIn(folder))
     if (idIn(file.manifest, file.name) == id)

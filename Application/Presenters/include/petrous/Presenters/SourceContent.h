@@ -44,6 +44,7 @@ struct SeriesContent
   std::string folder;
   imaging::Verdict verdict = imaging::Verdict::Ok; ///< Refused: cannot be chosen
   std::vector<imaging::Finding> findings;          ///< the reasons for it
+  bool isTooLarge = false;                         ///< as SourceContent's
   std::string name;                                ///< see sequenceName
   /// Of parts: a file, a folder of masks, or several meshes; else empty.
   std::vector<std::filesystem::path> files;
@@ -52,6 +53,11 @@ struct SeriesContent
   bool isDicom = true;   ///< of parts: a segmentation or structure set
   bool isBeside = false; ///< of parts: not below what was opened, but in a folder beside it
 };
+
+/// The folder that names a case of what was chosen of `series`: that of the image, if one alone was
+/// chosen and others lie in other folders. Else empty: what was opened names the case.
+std::filesystem::path namingFolder(const std::vector<SeriesContent>& chosen,
+                                   const std::vector<SeriesContent>& series);
 
 /// A file or folder that the user opens or drops, and its content.
 struct SourceContent
@@ -72,10 +78,12 @@ struct SourceContent
   std::size_t unnamed = 0;
   std::size_t structureCount = 0;           ///< of a label map; objects of a mesh; 0: not known
   std::vector<std::string> structures = {}; ///< of a folder of masks (maskNames)
-  bool isTooLarge = false; ///< an image file that the memory does not hold: a region of it may do
+  bool isTooLarge = false; ///< an image that the memory does not hold: a region of it may do
   /// A file that leaves open which side of the patient is left (imaging::assumedRasOf).
   bool isSideOpen = false;
   imaging::UnitDoubt unitDoubt = {}; ///< of a file of voxels
+  /// Of a series that was chosen: namingFolder.
+  std::filesystem::path naming = {};
   std::string description = {}; ///< of a DICOM series: as SeriesContent's, for local display only
   /// Of a DICOM series that cannot be used, repaired or not: why. Else empty.
   std::vector<imaging::Finding> refused = {};

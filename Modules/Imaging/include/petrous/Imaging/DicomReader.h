@@ -65,6 +65,10 @@ volume::IntensityVolume readSeries(const DicomSeries& series, const ReadOptions&
                                    std::vector<std::string>* notes = nullptr,
                                    volume::ImageProvenance* provenance = nullptr);
 
+/// Whether the memory that is free may hold a series, without a region and repair: at 16 bits a
+/// voxel, the least that readSeries takes. `memory`: bytes; 0: what is free.
+bool mayFitMemory(const DicomSeries& series, std::uint64_t memory = 0);
+
 /// False for a DICOM file whose data set is deflated (PS3.5 A.5) and damaged, or larger than 256 MB
 /// when it is inflated: a few kilobytes can stand for more than there is memory, so other readers
 /// are to be given no such file. True for what is not deflated.

@@ -97,7 +97,10 @@ struct SliceHeader
   double intercept = 0.0;
   bool hasRescale = false;
   std::string rescaleType; ///< (0028,1054) unit of the rescaled values, e.g. HU; empty: not stated
-  bool isLossy = false;    ///< the pixels were compressed with loss, once
+  /// The values are Hounsfield units, as the file states of a helical CT or this program of its own
+  /// file. Cone beam states them, too, and has others.
+  bool isCalibrated = false;
+  bool isLossy = false;             ///< the pixels were compressed with loss, once
   bool isLossUnknown = false;       ///< the compressed pixels do not say whether they were
   std::optional<double> lossyRatio; ///< of that compression, if stated
   BurnedInText burnedIn = BurnedInText::None;

@@ -227,8 +227,9 @@ public:
   /// name that were deleted, the one of this ID.
   void undelete(const std::string& name, const std::string& id = {});
   /// The name under which the case of this ID was deleted and can be brought back; empty: it was
-  /// not deleted, or is back under any name.
-  std::string deletedName(const std::string& id) const;
+  /// not deleted, or is back under any name. `name`, if not empty: under which it is presumably
+  /// there; that manifest is asked first.
+  std::string deletedName(const std::string& id, const std::string& name = {}) const;
 
   /// The copy shares the objects. Throws like `open` and `save`.
   void copy(const std::string& from, const std::string& to, const core::Progress& progress = {});

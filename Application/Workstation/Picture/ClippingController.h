@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -52,6 +53,8 @@ private:
 
   void cutHere();
   void showBox(bool shown);
+  void showWholeSlices();
+  void zoomAsBefore();
   void enterBox();
   void change(const Clipping& clipping, const std::string& continues = {});
   void record(const Clipping& before, const std::string& continues = {});
@@ -91,6 +94,8 @@ private:
     Eigen::Vector3d at, direction;
   };
   std::optional<Line> m_line;
+  /// Of each slice, before the box showed the whole of it.
+  std::array<std::optional<scene::ViewState::Slices::Plane>, 3> m_zooms;
   std::optional<QPointF> m_pressed; ///< until it is dragged
 };
 

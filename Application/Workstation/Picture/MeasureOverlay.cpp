@@ -133,7 +133,7 @@ bool MeasureOverlay::set(const std::vector<DrawnMeasure>& measures)
     const QColor color = measure.color.lighter(115);
     look->SetColor(color.redF(), color.greenF(), color.blueF());
     look->SetBackgroundColor(0.04, 0.05, 0.06);
-    look->SetBackgroundOpacity(0.72);
+    look->SetBackgroundOpacity(0.8); // legible on white, too
     look->SetVerticalJustificationToBottom();
     if (measure.chosen)
     {

@@ -62,6 +62,8 @@ QStringList withheldFrom(const scene::Case& value, const std::vector<std::string
   return lines;
 }
 
+constexpr int kNoteLines = 3; // whatever stands in it, so that no change makes the dialog grow
+
 QComboBox* backgroundBox(const char* name)
 {
   auto* box = new QComboBox;
@@ -92,11 +94,11 @@ ShareDialog::ShareDialog(const char* name, const QString& title, const QString& 
   setWindowTitle(title);
   m_note->setObjectName("dim");
   m_note->setTextFormat(Qt::PlainText);
-  wrapWords(*m_note);
+  wrapWords(*m_note, kNoteLines);
   m_advice->setObjectName("shareAdvice");
   m_advice->setStyleSheet(kWarningStyle);
   m_advice->setTextFormat(Qt::PlainText);
-  wrapWords(*m_advice);
+  wrapWords(*m_advice, 1);
   m_form->addRow(tr("&File:"), m_path);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   m_accept = buttons->addButton(accept, QDialogButtonBox::AcceptRole);
@@ -135,7 +137,6 @@ void ShareDialog::check()
   else
     advice = problem();
   m_advice->setText(advice);
-  m_advice->setVisible(!advice.isEmpty());
   m_accept->setEnabled(advice.isEmpty());
 }
 

@@ -8,6 +8,7 @@
 #include <vtkSmartPointer.h>
 
 #include "SliceMarks.h"
+#include "petrous/Rendering/SceneContents.h"
 
 class vtkRenderer;
 
@@ -28,14 +29,17 @@ public:
   bool set(const std::vector<DrawnMeasure>& measures);
   const std::vector<DrawnMeasure>& measures() const noexcept { return m_measures; }
 
-  /// Before each frame: what is behind the camera is not drawn, and labels make room.
-  void place();
+  /// Before each frame: what is behind the camera is not drawn, and labels make room. Where the
+  /// tool is, a label is faint: burr and bone are seen through it.
+  void place(const std::optional<rendering::ToolPose>& tool = std::nullopt);
 
   /// Pixels from the upper left of the viewport; none behind the camera.
   std::optional<std::array<double, 2>> pixelOf(const Eigen::Vector3d& patient) const;
 
 private:
   struct Drawn;
+  struct Disc;
+  std::vector<Disc> discsOf(const rendering::ToolPose& tool) const;
   vtkSmartPointer<vtkRenderer> m_renderer;
   std::vector<DrawnMeasure> m_measures;
   std::vector<std::unique_ptr<Drawn>> m_drawn;

@@ -380,7 +380,7 @@ void SceneDisplay::refine()
 void SceneDisplay::frameStarted()
 {
   if (m_measures)
-    m_measures->place();
+    m_measures->place(m_contents.tool);
   if (m_handles)
     m_handles->place();
   m_clock.start();

@@ -285,8 +285,7 @@ QString PrintDialog::problem() const
   const rendering::PrintSize wanted = size();
   m_note->setText(tr("%1 x %2 pixels, of the 3D view with scale bar, side and the patient's "
                      "directions. Measurements, bone thickness and tool are left out.")
-                      .arg(wanted.width())
-                      .arg(wanted.height()));
+                      .arg(numberText(wanted.width(), 0), numberText(wanted.height(), 0)));
   if (std::max(wanted.width(), wanted.height()) > rendering::PrintSize::kMaxEdge)
     return tr("At most %1 pixels: choose a smaller width or resolution.")
         .arg(rendering::PrintSize::kMaxEdge);

@@ -176,13 +176,15 @@ TEST_F(LanguageTest, NumbersHaveTheLanguagesDecimalSign)
     GTEST_SKIP() << "built without lrelease";
   const std::string sentence = "the error is 0.32 mm, of file scan 1.5.nii and UID 1.2.840";
   EXPECT_EQ(numberText(-0.25, 2), "-0.25");
+  EXPECT_EQ(numberText(12345.6, 1), QString::fromUtf8("12\u202f345.6")) << "no comma";
   EXPECT_EQ(numberText("0.5, 12.0"), "0.5, 12.0");
   EXPECT_TRUE(phrase(sentence).contains("0.32 mm"));
   const GermanTexts german;
   ASSERT_TRUE(german.isThere());
   EXPECT_EQ(numberText(-0.25, 2), "-0,25");
   EXPECT_EQ(numberText(-0.001, 2), "0,00");
-  EXPECT_EQ(numberText(12345.6, 1), "12345,6");
+  EXPECT_EQ(numberText(12345.6, 1), QString::fromUtf8("12\u202f345,6"));
+  EXPECT_EQ(numberText("60000 /min"), QString::fromUtf8("60\u202f000 /min"));
   EXPECT_EQ(numberText("0.5, 12.0"), "0,5; 12,0");
   const QString shown = phrase(sentence);
   EXPECT_TRUE(shown.contains("0,32 mm")) << shown.toStdString();

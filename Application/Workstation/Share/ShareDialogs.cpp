@@ -247,7 +247,7 @@ PrintDialog::PrintDialog(const scene::Case& value, double heightToWidth,
   m_dots->setSuffix(tr(" dpi"));
   m_dots->setValue(300);
   m_dots->setToolTip(tr("Dots per inch: 300 for print, 600 for a journal's line art"));
-  m_form->addRow(tr("&Width:"), m_width);
+  m_form->addRow(tr("W&idth:"), m_width);
   m_samples->setObjectName("printSamples");
   m_samples->setRange(1, rendering::kPixelSamples);
   m_samples->setSuffix(tr(" rays a pixel"));

@@ -806,7 +806,7 @@ TEST_F(LibraryWindow, TheFirstPageHasRoomForLongTexts)
   QApplication::removeTranslator(&longer);
   window().resize(1280, 720);
   for (auto* action : window().findChildren<QAction*>())
-    if (action->text().startsWith("&Close the case"))
+    if (action->text().startsWith("Cl&ose the case"))
       action->trigger();
   auto& page = *window().findChild<StartPage*>();
   ASSERT_TRUE(waitFor([&] { return page.isVisible() && !page.isReading(); }));

@@ -786,6 +786,18 @@ TEST_F(CommandLine, AnEmptyValueIsNeverAnAbsentOption)
   expectRefused("new ear --ct x --mr =y", 2, "'=y' is empty on one side");
 }
 
+// Another program may have named its file so.
+TEST_F(CommandLine, AListedNameDoesNotTurnItsLineAround)
+{
+  makePatient();
+  json("new ear --ct " + quoted(m_folder / "patient/ct"));
+  std::ofstream(library() / "cases/ear\u202eknab.json") << "{";
+  const auto outcome = run("library list");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find("\u202e"), std::string::npos);
+  EXPECT_NE(outcome.out.find("ear\ufffdknab"), std::string::npos) << outcome.out;
+}
+
 TEST_F(CommandLine, PipesAndDevicesAreRefusedAtOnce)
 {
   makePatient();

@@ -9,6 +9,7 @@
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/NewerVersion.h"
 #include "petrous/Network/NodeList.h"
+#include "petrous/Scene/PlainText.h"
 
 namespace petrous::cli
 {
@@ -67,7 +68,7 @@ void printCases(const Context& context, const library::Library& library,
         cases.back().update({{"damaged", false}, {"newer", true}});
     }
     const std::string line = descriptionLine(summary.description);
-    context.print(core::printable(summary.name) + "  " + summary.modified + "  " +
+    context.print(scene::withVisible(summary.name) + "  " + summary.modified + "  " +
                   (summary.damaged && library::isOfNewerVersion(library.folder(), summary.name)
                        ? "written by a newer version of Petrous"
                    : summary.damaged ? "damaged: its manifest cannot be read"
@@ -286,7 +287,7 @@ void run(const Context& context, const Options& options)
     for (const auto& one : library.deleted())
     {
       cases.push_back({{"name", one.name}, {"deleted", one.deleted}});
-      context.print(core::printable(one.name) + "  deleted " + one.deleted);
+      context.print(scene::withVisible(one.name) + "  deleted " + one.deleted);
     }
     if (const std::string why = missingFolder(library); !why.empty())
       context.print("no deleted case in " + why);

@@ -393,7 +393,7 @@ void measure(Context& context, const Options& options)
       all.push_back({{"structure", one.name},
                      {"distance_mm", orNull(one.distance.value)},
                      {"uncertainty_mm", orNull(one.distance.uncertainty)},
-                     {"removed_mm3", one.injured},
+                     {"removed_mm3", one.removed},
                      {"place_mm", vectorJson(one.place)}});
     }
     if (all.empty())

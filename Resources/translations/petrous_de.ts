@@ -801,7 +801,7 @@
         <translation>mit den &amp;Videos, die den Patienten zeigen oder nennen können</translation>
     </message>
     <message>
-        <source>with its PD&amp;Fs, which may name the patient</source>
+        <source>with its PDF&amp;s, which may name the patient</source>
         <translation>mit den PD&amp;Fs, die den Patienten nennen können</translation>
     </message>
     <message>
@@ -849,7 +849,7 @@
         <translation>Diesen Ordner gibt es nicht.</translation>
     </message>
     <message>
-        <source>Put air in place of the &amp;face</source>
+        <source>Put a&amp;ir in place of the face</source>
         <translation>Das &amp;Gesicht durch Luft ersetzen</translation>
     </message>
     <message>
@@ -2517,7 +2517,7 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>Sonst werden Beschreibungen entfernt</translation>
     </message>
     <message>
-        <source>What identifies the &amp;device</source>
+        <source>What identifies the de&amp;vice</source>
         <translation>Was das &amp;Gerät kennzeichnet</translation>
     </message>
     <message>
@@ -2537,7 +2537,7 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>PS3.15, Tabelle E.3.10-1</translation>
     </message>
     <message>
-        <source>Images that may have &amp;text in their pixels</source>
+        <source>Images that may &amp;have text in their pixels</source>
         <translation>Bilder, die Te&amp;xt in ihren Pixeln haben können</translation>
     </message>
     <message>
@@ -2545,7 +2545,7 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>Sonst werden sie ausgelassen und genannt</translation>
     </message>
     <message>
-        <source>&amp;Put air in place of the face in CT and MR series</source>
+        <source>Put &amp;air in place of the face in CT and MR series</source>
         <translation>Das Gesicht in CT- und MR-Serien durch &amp;Luft ersetzen</translation>
     </message>
     <message>
@@ -2601,7 +2601,7 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>Gesicht:</translation>
     </message>
     <message>
-        <source>&amp;File:</source>
+        <source>Fi&amp;le:</source>
         <translation>Da&amp;tei:</translation>
     </message>
     <message>
@@ -2849,7 +2849,7 @@ X oder die zweite Taste des Geräts, gehalten: Nur die Hand bewegt sich.</transl
     </message>
     <message>
         <source>&amp;Test the device…</source>
-        <translation>Gerät &amp;testen…</translation>
+        <translation>G&amp;erät testen…</translation>
     </message>
     <message>
         <source>&amp;Connect a device…</source>
@@ -3212,7 +3212,7 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
         <translation>Öffnen Sie zuerst einen Fall oder wählen Sie einen in der Liste (Bibliothek &gt; Fälle).</translation>
     </message>
     <message>
-        <source>&amp;Receive from a node…</source>
+        <source>R&amp;eceive from a node…</source>
         <translation>Von einem Knoten &amp;empfangen…</translation>
     </message>
     <message>
@@ -3228,7 +3228,7 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
         <translation>Wohin Fälle gesendet und woher sie empfangen werden</translation>
     </message>
     <message>
-        <source>&amp;De-identify DICOM files…</source>
+        <source>De-&amp;identify DICOM files…</source>
         <translation>&amp;DICOM-Dateien de-identifizieren…</translation>
     </message>
     <message>
@@ -3236,7 +3236,7 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
         <translation>Ein Ordner von DICOM-Dateien ohne das, was den Patienten kennzeichnet</translation>
     </message>
     <message>
-        <source>&amp;Pseudonyms…</source>
+        <source>Pseud&amp;onyms…</source>
         <translation>Pseud&amp;onyme…</translation>
     </message>
     <message>
@@ -3339,7 +3339,7 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
         <translation>Auf das Gitter des &amp;CT umgerechnet</translation>
     </message>
     <message>
-        <source>Put air in place of the &amp;face</source>
+        <source>Put a&amp;ir in place of the face</source>
         <translation>Das &amp;Gesicht durch Luft ersetzen</translation>
     </message>
     <message>
@@ -3415,7 +3415,7 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
         <translation>&amp;Format:</translation>
     </message>
     <message>
-        <source>At most &amp;triangles:</source>
+        <source>At most triangle&amp;s:</source>
         <translation>Höchstens D&amp;reiecke:</translation>
     </message>
     <message>
@@ -4465,6 +4465,14 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
         <source>reading the attachment “%1”</source>
         <translation>Lesen des Anhangs „%1“</translation>
     </message>
+    <message>
+        <source>Keep the case open</source>
+        <translation>Fall offen lassen</translation>
+    </message>
+    <message>
+        <source>The case is closed as soon as this is done: %1</source>
+        <translation>Der Fall wird geschlossen, sobald dies fertig ist: %1</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::MeasureController</name>
@@ -5009,7 +5017,7 @@ Verletzt: %1, %2</translation>
         <translation>Ihr &amp;Schlüssel:</translation>
     </message>
     <message>
-        <source>&amp;Add</source>
+        <source>A&amp;dd</source>
         <translation>Hinzu&amp;fügen</translation>
     </message>
     <message>
@@ -5344,7 +5352,7 @@ Verletzt: %1, %2</translation>
         <translation>Punkte je Zoll: 300 für den Druck, 600 für Strichzeichnungen einer Zeitschrift</translation>
     </message>
     <message>
-        <source>&amp;Width:</source>
+        <source>W&amp;idth:</source>
         <translation>&amp;Breite:</translation>
     </message>
     <message>
@@ -6469,7 +6477,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>&amp;Write the report</source>
-        <translation>Bericht &amp;schreiben</translation>
+        <translation>Bericht sch&amp;reiben</translation>
     </message>
     <message>
         <source>with the &amp;date of the planned operation</source>
@@ -7180,7 +7188,7 @@ Verletzt: %1, %2</translation>
         <translation>M&amp;R, je eine Serie</translation>
     </message>
     <message>
-        <source>&amp;Structures, as segmentations (SEG)</source>
+        <source>Str&amp;uctures, as segmentations (SEG)</source>
         <translation>&amp;Strukturen, als Segmentierungen (SEG)</translation>
     </message>
     <message>
@@ -7200,7 +7208,7 @@ Verletzt: %1, %2</translation>
         <translation>mit den PD&amp;Fs, die den Patienten nennen können</translation>
     </message>
     <message>
-        <source>Put air in place of the &amp;face</source>
+        <source>Put a&amp;ir in place of the face</source>
         <translation>Das &amp;Gesicht durch Luft ersetzen</translation>
     </message>
     <message>
@@ -7382,8 +7390,8 @@ Verletzt: %1, %2</translation>
         <translation>S&amp;chrift:</translation>
     </message>
     <message>
-        <source>Another &amp;folder…</source>
-        <translation>Anderer &amp;Ordner…</translation>
+        <source>Another fold&amp;er…</source>
+        <translation>Anderer O&amp;rdner…</translation>
     </message>
     <message>
         <source>From the next start on, for the command too; --library and PETROUS_LIBRARY go first. Nothing is moved.</source>
@@ -7654,7 +7662,7 @@ Rot und schraffiert: weggebohrt.</translation>
     <name>petrous::workstation::SliceController</name>
     <message>
         <source>S&amp;lices</source>
-        <translation>S&amp;chichten</translation>
+        <translation>&amp;Schichten</translation>
     </message>
     <message>
         <source>&amp;Axial, coronal, sagittal</source>
@@ -7673,7 +7681,7 @@ Rot und schraffiert: weggebohrt.</translation>
         <translation>Aufrecht, unter 45° quer und entlang der Pyramide des Felsenbeins der Ohrseite, anstelle der sagittalen und der koronaren Schicht</translation>
     </message>
     <message>
-        <source>Along the &amp;tool</source>
+        <source>Along the too&amp;l</source>
         <translation>Entlang des &amp;Werkzeugs</translation>
     </message>
     <message>
@@ -7745,7 +7753,7 @@ Rot und schraffiert: weggebohrt.</translation>
         <translation>1, 2, 3, 5, 8, 12, 20, 30 oder 50 mm</translation>
     </message>
     <message>
-        <source>Thi&amp;nner slab</source>
+        <source>Thinne&amp;r slab</source>
         <translation>Schichtpaket dünn&amp;er</translation>
     </message>
     <message>
@@ -8557,7 +8565,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>Set a book&amp;mark</source>
-        <translation>Lese&amp;zeichen setzen</translation>
+        <translation>Lesezei&amp;chen setzen</translation>
     </message>
     <message>
         <source>At the frame that is seen, tied to the last stroke</source>
@@ -8592,7 +8600,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Landmarke</translation>
     </message>
     <message>
-        <source>&amp;View from the still</source>
+        <source>View from the &amp;still</source>
         <translation>Sicht des Stand&amp;bilds</translation>
     </message>
     <message>
@@ -8964,7 +8972,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Von der rechten Seite des Patienten</translation>
     </message>
     <message>
-        <source>Surgical position, &amp;left ear</source>
+        <source>Surgical position, le&amp;ft ear</source>
         <translation>OP-Lage, lin&amp;kes Ohr</translation>
     </message>
     <message>
@@ -8972,7 +8980,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Der Patient auf dem Rücken, der Kopf nach rechts gedreht, vom linken Ohr gesehen: das Gesicht oben, der Scheitel rechts</translation>
     </message>
     <message>
-        <source>Surgical position, r&amp;ight ear</source>
+        <source>Surgical position, rig&amp;ht ear</source>
         <translation>OP-La&amp;ge, rechtes Ohr</translation>
     </message>
     <message>
@@ -9048,7 +9056,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Speichert als neuen Fall; der ursprüngliche bleibt, wie er gespeichert war</translation>
     </message>
     <message>
-        <source>&amp;Close the case</source>
+        <source>Cl&amp;ose the case</source>
         <translation>Fall s&amp;chließen</translation>
     </message>
     <message>
@@ -9056,7 +9064,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Speichert den Fall und kehrt zur ersten Seite zurück</translation>
     </message>
     <message>
-        <source>Plan &amp;report…</source>
+        <source>Plan repor&amp;t…</source>
         <translation>&amp;Bericht zum Plan…</translation>
     </message>
     <message>
@@ -9072,7 +9080,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Die 3D-Ansicht als PNG beliebiger Größe, mit Maßstab und Seite</translation>
     </message>
     <message>
-        <source>F&amp;ilm…</source>
+        <source>Fi&amp;lm…</source>
         <translation>Fi&amp;lm…</translation>
     </message>
     <message>
@@ -9152,7 +9160,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Strukturen dieses Patienten: Label-Karten und Segmentierungen</translation>
     </message>
     <message>
-        <source>Add &amp;folder of masks…</source>
+        <source>Add f&amp;older of masks…</source>
         <translation>Maskenord&amp;ner hinzufügen…</translation>
     </message>
     <message>
@@ -9224,7 +9232,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Dreht das 3D-Bild um seine Mitte, um 5 Grad</translation>
     </message>
     <message>
-        <source>Roll clockwi&amp;se</source>
+        <source>Roll cloc&amp;kwise</source>
         <translation>Im &amp;Uhrzeigersinn drehen</translation>
     </message>
     <message>
@@ -9237,7 +9245,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>C&amp;ut away to the crosshair</source>
-        <translation>&amp;Bis zum Fadenkreuz wegschneiden</translation>
+        <translation>Bis zu&amp;m Fadenkreuz wegschneiden</translation>
     </message>
     <message>
         <source>What lies before the crosshair is not shown, until a tool is taken up</source>
@@ -9301,7 +9309,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>&amp;Record session…</source>
-        <translation>Sitzung &amp;aufzeichnen…</translation>
+        <translation>Sitzung auf&amp;zeichnen…</translation>
     </message>
     <message>
         <source>&amp;Help</source>
@@ -9445,10 +9453,10 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>&amp;Enlarge the view</source>
-        <translation>Ansicht &amp;vergrößern</translation>
+        <translation>Ansicht ver&amp;größern</translation>
     </message>
     <message>
-        <source>Ste&amp;reo</source>
+        <source>Stere&amp;o</source>
         <translation>St&amp;ereo</translation>
     </message>
     <message>
@@ -9557,7 +9565,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>Grey &amp;window of the slices</source>
-        <translation>Grau&amp;fenster der Schichten</translation>
+        <translation>&amp;Graufenster der Schichten</translation>
     </message>
     <message>
         <source>&amp;Panels</source>
@@ -9616,8 +9624,8 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Drei Freiheitsgrade: Schaft und Handstück gehen durch Gewebe, und es gibt kein Drehmoment</translation>
     </message>
     <message>
-        <source>Ma&amp;terials and burrs…</source>
-        <translation>Ma&amp;terialien und Fräsen…</translation>
+        <source>&amp;Materials and burrs…</source>
+        <translation>&amp;Materialien und Fräsen…</translation>
     </message>
     <message>
         <source>The numbers of the removal laws, with their units and sources, and the diameters that the bar offers</source>
@@ -9629,7 +9637,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>Op&amp;en a recording…</source>
-        <translation>Aufzeichnung ö&amp;ffnen…</translation>
+        <translation>Aufzeichnung &amp;öffnen…</translation>
     </message>
     <message>
         <source>A recorded session is played beside the tool in use, with what it took: time, path, force, distances, volumes</source>
@@ -9665,7 +9673,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>Next &amp;kind of burr</source>
-        <translation>Nächste Fräsen&amp;art</translation>
+        <translation>Nächste F&amp;räsenart</translation>
     </message>
     <message>
         <source>The crosshair goes along while the drill is on, and with the tip of the pointer or the instrument</source>
@@ -9673,7 +9681,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>T&amp;ake the instrument out of the case</source>
-        <translation>Instrument &amp;aus dem Fall nehmen</translation>
+        <translation>Instrument aus &amp;dem Fall nehmen</translation>
     </message>
     <message>
         <source>The next save keeps none with the case; its file stays as it is</source>

@@ -1,5 +1,6 @@
 #include "petrous/Presenters/Phrasebook.h"
 
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@ using petrous::presenters::germanPhrases;
 using petrous::presenters::Phrasebook;
 using petrous::presenters::sideDoubt;
 using petrous::presenters::withDecimalCommas;
+using petrous::presenters::withGroupedDigits;
 namespace core = petrous::core;
 namespace scene = petrous::scene;
 
@@ -72,6 +74,18 @@ TEST(Phrasebook, PutsNamesAndNumbersWhereTheOtherLanguageHasThem)
             "3 Schichten fehlen; kopieren Sie die Serie neu");
   EXPECT_EQ(few().text("1 slice is missing; copy the series again"),
             "1 Schicht fehlt; kopieren Sie die Serie neu");
+}
+
+TEST(Phrasebook, DigitsAreGroupedFromTenThousandOn)
+{
+  for (const auto& [text, grouped] :
+       std::map<std::string, std::string>{{"", ""},
+                                          {"9999", "9999"},
+                                          {"60000 /min", "60\u202f000 /min"},
+                                          {"-123456.654321 mm", "-123\u202f456.654321 mm"},
+                                          {"0,123456", "0,123456"},
+                                          {"1234567 x 12345", "1\u202f234\u202f567 x 12\u202f345"}})
+    EXPECT_EQ(withGroupedDigits(text), grouped);
 }
 
 TEST(Phrasebook, TheLinesOfAListAreTranslatedBehindTheirDashes)

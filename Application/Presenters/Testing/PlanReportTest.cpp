@@ -129,6 +129,32 @@ TEST(PlanReport, HasStrokesAndTimeOfEachApproach)
   EXPECT_THROW(planReport(planned(), second), core::InvalidParameter);
 }
 
+TEST(PlanReport, HasOneNumberOfWhatWasRemovedFromALumen)
+{
+  scene::Case value = planned();
+  for (const bool isSolid : {true, false})
+  {
+    for (scene::StructurePart& structure : value.labels.front().structures)
+      structure.look.solid = isSolid;
+    value.dissection.beginStroke({});
+    value.dissection.cut({{5.0, 8.0, 8.0}, {5.0, 8.0, 8.0}, 1.0});
+    value.dissection.openInfo().removed = 4.0;
+    value.dissection.openInfo().structures = {{"facial nerve", 0.5}};
+    value.dissection.endStroke();
+    const std::string sum = isSolid ? "0.50 mm³" : "1.00 mm³";
+    const PlanReport report = planReport(value, small());
+    const ReportTable& distances = find(report, "distances")->table;
+    const auto row = std::find_if(distances.rows.begin(), distances.rows.end(),
+                                  [](const std::vector<ReportCell>& cells)
+                                  { return cells.front().text == "facial nerve"; });
+    ASSERT_NE(row, distances.rows.end());
+    EXPECT_EQ(row->back().text, sum);
+    EXPECT_EQ(row->back().isWarning, isSolid) << "a lumen is opened";
+    EXPECT_EQ(find(report, "approaches")->table.rows.front().back().text, "facial nerve " + sum);
+    EXPECT_EQ(find(report, "strokes")->table.rows[2].back().text, "facial nerve 0.50 mm³");
+  }
+}
+
 TEST(PlanReport, StatesTheSpeedThatAPedalGaveBesideTheSetOne)
 {
   scene::Case value = planned();

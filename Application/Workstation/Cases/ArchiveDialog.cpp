@@ -35,7 +35,7 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, const library::Library& l
   , m_plan(new QCheckBox(tr("&Plan only, without images and structures")))
   , m_note(new QCheckBox(tr("with its &note")))
   , m_videos(new QCheckBox(tr("with its &videos, which may show or name the patient")))
-  , m_documents(new QCheckBox(tr("with its PD&Fs, which may name the patient")))
+  , m_documents(new QCheckBox(tr("with its PDF&s, which may name the patient")))
   , m_date(new QCheckBox(tr("with &dates and times, and who signed registrations")))
   , m_maskFace(new QCheckBox)
   , m_report(new QPlainTextEdit)
@@ -61,7 +61,7 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, const library::Library& l
                         "strokes, names and times of sign-offs"));
   const QStringList leftOut = findWhatCannotBeMasked();
   m_maskFace->setText(leftOut.isEmpty() || !m_canMask
-                          ? tr("Put air in place of the &face")
+                          ? tr("Put a&ir in place of the face")
                           : tr("Put air in place of the &face, and leave out %1")
                                 .arg(leftOut.join(", ").replace('&', "&&")));
   m_maskFace->setObjectName("archiveMaskFace");

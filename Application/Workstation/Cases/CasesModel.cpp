@@ -12,6 +12,7 @@
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Library/NewerVersion.h"
+#include "petrous/Scene/PlainText.h"
 
 namespace petrous::workstation
 {
@@ -186,10 +187,15 @@ QString tagsText(const library::CaseSummary& one)
 namespace
 {
 
+QString caseName(const library::CaseSummary& one)
+{
+  return words(scene::withVisible(one.name));
+}
+
 QString textOf(const library::CaseSummary& one, int column, bool isNewer = false)
 {
   if (column == CasesModel::Name)
-    return words(one.name);
+    return caseName(one);
   if (one.damaged)
     return column != CasesModel::Structures ? QString()
            : isNewer                        ? CasesModel::tr("newer version")
@@ -224,12 +230,12 @@ QString tipOf(const library::CaseSummary& one, bool open, bool isNewer)
   if (isNewer)
     return CasesModel::tr("%1: was written by a newer version of Petrous; open it with that one. "
                           "Here it is left alone.")
-        .arg(words(one.name));
+        .arg(caseName(one));
   if (one.damaged)
     return CasesModel::tr("%1: its file cannot be read. It can still be renamed and deleted; "
                           "Library > Verify says what is wrong.")
-        .arg(words(one.name));
-  QStringList lines{words(one.name) + (open ? CasesModel::tr(" (open)") : QString())};
+        .arg(caseName(one));
+  QStringList lines{caseName(one) + (open ? CasesModel::tr(" (open)") : QString())};
   lines += CasesModel::tr("changed %1").arg(localTime(one.modified));
   lines += CasesModel::tr("%1 voxels, %2 structures")
                .arg(textOf(one, CasesModel::Voxels))
@@ -268,7 +274,7 @@ QVariant CasesModel::data(const QModelIndex& index, int role) const
   {
     if (index.column() != Name)
       return {};
-    QStringList all{words(one.name), operationText(one), tagsText(one)};
+    QStringList all{caseName(one), operationText(one), tagsText(one)};
     all.removeAll(QString());
     return all.join(", ");
   }

@@ -64,7 +64,7 @@ ExportDialog::ExportDialog(const scene::Case& value, const FaceCheck& faces,
   , m_onCt(new QCheckBox(value.ct.modality == scene::Modality::Mr
                              ? tr("Resampled on the &primary MR's grid")
                              : tr("Resampled on the &CT's grid")))
-  , m_maskFace(new QCheckBox(tr("Put air in place of the &face")))
+  , m_maskFace(new QCheckBox(tr("Put a&ir in place of the face")))
   , m_face(new QLabel)
   , m_triangles(new QSpinBox)
   , m_coordinates(new QLabel)
@@ -139,7 +139,7 @@ ExportDialog::ExportDialog(const scene::Case& value, const FaceCheck& faces,
   form->addRow({}, m_onCt);
   form->addRow({}, m_maskFace);
   form->addRow({}, m_face);
-  form->addRow(tr("At most &triangles:"), m_triangles);
+  form->addRow(tr("At most triangle&s:"), m_triangles);
   form->addRow(tr("Coordinates:"), m_coordinates);
   form->addRow(tr("&To:"), place);
   static_cast<QLabel*>(form->labelForField(place))->setBuddy(m_path);

@@ -23,6 +23,7 @@
 #include "WindowTexts.h"
 #include "petrous/Library/CaseSearch.h"
 #include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Scene/PlainText.h"
 
 namespace petrous::workstation
 {
@@ -81,7 +82,7 @@ public:
     QFont bold = option.font;
     bold.setBold(true);
     const QColor dim = palette.color(QPalette::PlaceholderText);
-    line(words(one.name), bold, palette.color(QPalette::WindowText));
+    line(words(scene::withVisible(one.name)), bold, palette.color(QPalette::WindowText));
     line(operationText(one), option.font, palette.color(QPalette::WindowText));
     line(StartPage::tr("changed %1").arg(localTime(one.modified)), option.font, dim);
     line(tagsText(one), option.font, dim);
@@ -229,9 +230,10 @@ void StartPage::open(int row)
     const std::filesystem::path& folder = m_model.library().folder();
     const QString place = QFile::decodeName(folder.c_str());
     tell(std::filesystem::exists(folder)
-             ? tr("The case “%1” is no longer in the library %2.").arg(words(name), place)
+             ? tr("The case “%1” is no longer in the library %2.")
+                   .arg(words(scene::withVisible(name)), place)
              : tr("The case “%1” cannot be opened: the folder %2 is gone. Is its disk connected?")
-                   .arg(words(name), place));
+                   .arg(words(scene::withVisible(name)), place));
   };
   list();
 }

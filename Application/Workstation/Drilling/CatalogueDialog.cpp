@@ -91,7 +91,8 @@ double numberIn(const QTableWidget& table, int row, int column, double present)
   const QString text = table.item(row, column)->text().trimmed();
   if (text == number(present))
     return present;
-  if (const auto value = core::parseDouble(bytes(QString(text).replace(',', '.'))))
+  const QString plain = QString(text).remove(QChar(0x202F)).replace(',', '.'); // groups of digits
+  if (const auto value = core::parseDouble(bytes(plain)))
     return *value;
   throw core::InvalidParameter("'" + bytes(text) + "' is not a number");
 }

@@ -35,7 +35,7 @@ void setLook(vtkTextActor& actor)
   look->SetFontSize(kReadingSize);
   look->SetColor(0.93, 0.95, 0.98);
   look->SetBackgroundColor(0.06, 0.07, 0.09);
-  look->SetBackgroundOpacity(0.75); // legible on a white background, too
+  look->SetBackgroundOpacity(0.8); // legible on a white background, too
   look->SetLineSpacing(1.2);
 }
 

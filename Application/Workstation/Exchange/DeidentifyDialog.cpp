@@ -39,14 +39,14 @@ DeidentifyDialog::DeidentifyDialog(QWidget* parent)
   , m_dates(new QComboBox)
   , m_descriptors(option("keepDescriptors", tr("Descriptions, &reduced to medical words"),
                          tr("Otherwise descriptions are removed")))
-  , m_device(option("keepDevice", tr("What identifies the &device"),
+  , m_device(option("keepDevice", tr("What identifies the de&vice"),
                     tr("Model, software, names of sequences, kernels and coils")))
   , m_patient(option("keepPatient", tr("Se&x, age, size and weight"), {}))
   , m_private(option("keepPrivate", tr("Private attributes that the &standard lists as safe"),
                      tr("PS3.15, Table E.3.10-1")))
-  , m_burnedIn(option("keepBurnedIn", tr("Images that may have &text in their pixels"),
+  , m_burnedIn(option("keepBurnedIn", tr("Images that may &have text in their pixels"),
                       tr("Otherwise they are left out, and named")))
-  , m_maskFace(option("maskFace", tr("&Put air in place of the face in CT and MR series"),
+  , m_maskFace(option("maskFace", tr("Put &air in place of the face in CT and MR series"),
                       tr("In front of a plane about 50 mm behind the tip of the nose. Images that "
                          "are in no such volume are left out, and named")))
   , m_mapped(option("useMap", tr("Remember who is &behind the pseudonyms"),
@@ -77,7 +77,7 @@ DeidentifyDialog::DeidentifyDialog(QWidget* parent)
     form->addRow({}, box);
   form->addRow(tr("Face:"), m_maskFace);
   form->addRow({}, m_mapped);
-  form->addRow(tr("&File:"), m_map);
+  form->addRow(tr("Fi&le:"), m_map);
   form->addRow(tr("&Passphrase:"), m_first);
   form->addRow(tr("Once &more:"), m_second);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);

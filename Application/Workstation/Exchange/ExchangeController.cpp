@@ -122,14 +122,14 @@ ExchangeController::ExchangeController(presenters::WorkstationModel& model,
           return refuse(tr("Open a case first, or choose one in the list (Library > Cases)."));
         send(m_model.value().name);
       });
-  add("receiveCase", tr("&Receive from a node…"),
+  add("receiveCase", tr("R&eceive from a node…"),
       tr("A case, or images of a patient, from a DICOM node"), [this] { receive(); });
   add("editNodes", tr("DICOM &nodes…"), tr("Where cases are sent to and received from"),
       [this] { editNodes(); });
   menu.addSeparator();
-  add("deidentifyFolder", tr("&De-identify DICOM files…"),
+  add("deidentifyFolder", tr("De-&identify DICOM files…"),
       tr("A folder of DICOM files without what identifies the patient"), [this] { deidentify(); });
-  add("pseudonyms", tr("&Pseudonyms…"), tr("Who is behind the pseudonyms of de-identified files"),
+  add("pseudonyms", tr("Pseud&onyms…"), tr("Who is behind the pseudonyms of de-identified files"),
       [this] { PseudonymsDialog(std::chrono::minutes(5), &m_window).exec(); });
 }
 

@@ -146,7 +146,7 @@ void NodesDialog::layOut()
     button->setAutoDefault(false);
     return button;
   };
-  m_keep = add("keepNode", tr("&Add"), tr("Keeps the node in the library, without any secret"));
+  m_keep = add("keepNode", tr("A&dd"), tr("Keeps the node in the library, without any secret"));
   m_keep->setDefault(true); // Return in a field
   buttons->button(QDialogButtonBox::Close)->setAutoDefault(false);
   m_test = add("testNode", tr("Te&st"), tr("Calls the node (C-ECHO), kept or not"));
@@ -241,7 +241,7 @@ void NodesDialog::check()
   const bool known = !name.isEmpty() && !m_list->findItems(name, Qt::MatchExactly).isEmpty();
   const bool complete = !name.isEmpty() && !m_host->text().trimmed().isEmpty() &&
                         !m_title->text().trimmed().isEmpty() && !m_own->text().trimmed().isEmpty();
-  m_keep->setText(known ? tr("&Change") : tr("&Add"));
+  m_keep->setText(known ? tr("&Change") : tr("A&dd"));
   m_keep->setEnabled(complete);
   m_test->setEnabled(complete);
   m_remove->setEnabled(known);

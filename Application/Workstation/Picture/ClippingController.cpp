@@ -103,6 +103,7 @@ void ClippingController::caseChanged()
 {
   m_drag = {};
   m_held.reset();
+  m_zooms = {};
   m_actions.cropBox->setChecked(false);
   if (m_dialog)
     m_dialog->close();
@@ -186,12 +187,34 @@ void ClippingController::showBox(bool shown)
   if (!m_model.hasCase())
     return;
   if (shown && !m_model.value().view.clipping.crop)
-    m_slices.fit(); // its edges are the image's
+    showWholeSlices(); // its edges are the image's
+  else if (!shown)
+    zoomAsBefore();
   refresh();
   if (shown && toolHasView())
     emit statusMessage(tr("The crop box comes when the tool is put away"));
   else if (shown)
     tellSize();
+}
+
+void ClippingController::showWholeSlices()
+{
+  for (std::size_t n = 0; n < m_zooms.size(); ++n)
+    m_zooms[n] = m_slices.views()[n]->plane();
+  m_slices.fit();
+}
+
+// But for a slice that was zoomed since.
+void ClippingController::zoomAsBefore()
+{
+  for (std::size_t n = 0; n < m_zooms.size(); ++n)
+  {
+    SliceView& view = *m_slices.views()[n];
+    const scene::ViewState::Slices::Plane now = view.plane();
+    if (m_zooms[n] && now.zoom == 1.0 && now.offset.isZero(0.0))
+      view.setPlane(*m_zooms[n]);
+    m_zooms[n].reset();
+  }
 }
 
 void ClippingController::enterBox()

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -52,6 +53,8 @@ private:
 
   void cutHere();
   void showBox(bool shown);
+  void showWholeSlices();
+  void zoomAsBefore();
   void enterBox();
   void change(const Clipping& clipping, const std::string& continues = {});
   void record(const Clipping& before, const std::string& continues = {});
@@ -103,6 +106,8 @@ private:
     Handle handle;      ///< as it was taken
   };
   std::optional<Held> m_held;
+  /// Of each slice, before the box showed the whole of it.
+  std::array<std::optional<scene::ViewState::Slices::Plane>, 3> m_zooms;
   std::optional<QPointF> m_pressed; ///< until it is dragged
 };
 

@@ -20,6 +20,7 @@
 
 #include "PixelsPerPoint.h"
 #include "Theme.h"
+#include "petrous/Rendering/ToolShape.h"
 
 namespace petrous::workstation
 {
@@ -35,6 +36,8 @@ constexpr double kPerLetter = 8.0; // px, about
 constexpr double kLineWidth = 2.0; // px
 constexpr double kDot = 7.0;       // px, of a handle
 constexpr double kHalo = 1.5;      // px, around it
+constexpr double kPlate = 0.8;     // opacity behind letters, which are legible on white, too
+constexpr double kFaint = 0.2;     // opacity of a label where the tool is
 
 bool same(const DrawnMeasure& a, const DrawnMeasure& b)
 {
@@ -149,7 +152,7 @@ bool MeasureOverlay::set(const std::vector<DrawnMeasure>& measures)
     const QColor color = measure.color.lighter(115);
     look->SetColor(color.redF(), color.greenF(), color.blueF());
     look->SetBackgroundColor(0.04, 0.05, 0.06);
-    look->SetBackgroundOpacity(0.72);
+    look->SetBackgroundOpacity(kPlate);
     look->SetVerticalJustificationToBottom();
     if (measure.chosen)
     {
@@ -262,8 +265,43 @@ std::optional<std::array<double, 2>> MeasureOverlay::pixelOf(const Eigen::Vector
   return std::array<double, 2>{at[0], size[1] - at[1]};
 }
 
-void MeasureOverlay::place(const std::vector<Eigen::Vector3d>& others)
+// Of which the tool's outline consists, pixels from the upper left.
+struct MeasureOverlay::Disc
 {
+  double x, y, radius;
+};
+
+std::vector<MeasureOverlay::Disc> MeasureOverlay::discsOf(const rendering::ToolPose& tool) const
+{
+  namespace shape = rendering::tool;
+  std::vector<Disc> discs;
+  if (!shape::isShown(tool))
+    return discs;
+  vtkCamera* camera = m_renderer->GetActiveCamera();
+  const Eigen::Vector3d sideways = Eigen::Vector3d(camera->GetDirectionOfProjection())
+                                       .cross(Eigen::Vector3d(camera->GetViewUp()))
+                                       .normalized();
+  const Eigen::Vector3d axis = tool.axisToHand.normalized();
+  const auto add = [&](double along, double radius)
+  {
+    const Eigen::Vector3d center = tool.center + along * axis;
+    const auto at = pixelOf(center);
+    const auto rim = pixelOf(center + radius * sideways);
+    if (at && rim)
+      discs.push_back({(*at)[0], (*at)[1], std::hypot((*rim)[0] - (*at)[0], (*rim)[1] - (*at)[1])});
+  };
+  add(0.0, tool.radius);
+  constexpr double kStep = 1.0; // mm
+  const double length = shape::kShaftLength + (tool.handpiece ? shape::kHandpieceLength : 0.0);
+  for (double along = kStep; along <= length; along += kStep)
+    add(along, along <= shape::kShaftLength ? shape::shaftRadius(tool) : shape::kHandpieceRadius);
+  return discs;
+}
+
+void MeasureOverlay::place(const std::optional<rendering::ToolPose>& tool,
+                           const std::vector<Eigen::Vector3d>& others)
+{
+  const std::vector<Disc> covered = tool ? discsOf(*tool) : std::vector<Disc>();
   struct Box
   {
     double left, right, low, high;
@@ -317,7 +355,19 @@ void MeasureOverlay::place(const std::vector<Eigen::Vector3d>& others)
         other = static_cast<std::size_t>(-1);
       }
     }
-    taken.push_back(boxOf(up));
+    const Box box = boxOf(up);
+    taken.push_back(box);
+    const bool isOverTool = std::any_of(
+        covered.begin(), covered.end(),
+        [&box](const Disc& disc)
+        {
+          return std::hypot(disc.x - std::clamp(disc.x, box.left, box.right),
+                            disc.y - std::clamp(disc.y, box.low, box.high)) < disc.radius;
+        });
+    vtkTextProperty* look = one.label->GetTextProperty();
+    look->SetOpacity(isOverTool ? kFaint : 1.0);
+    look->SetBackgroundOpacity(isOverTool ? kFaint * kPlate : kPlate);
+    look->SetFrame(m_measures[n].chosen && !isOverTool ? 1 : 0);
     one.label->GetPositionCoordinate()->SetValue(left - at[0], up);
   }
 }

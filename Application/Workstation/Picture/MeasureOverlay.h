@@ -8,6 +8,7 @@
 #include <vtkSmartPointer.h>
 
 #include "SliceMarks.h"
+#include "petrous/Rendering/SceneContents.h"
 
 class vtkRenderer;
 
@@ -32,8 +33,10 @@ public:
   void raise();
 
   /// Before each frame: what is behind the camera is not drawn, handles face the camera, and labels
-  /// make room, also for other handles (patient, LPS mm).
-  void place(const std::vector<Eigen::Vector3d>& others = {});
+  /// make room, also for other handles (patient, LPS mm). Where the tool is, a label is faint: burr
+  /// and bone are seen through it.
+  void place(const std::optional<rendering::ToolPose>& tool = std::nullopt,
+             const std::vector<Eigen::Vector3d>& others = {});
   std::vector<Eigen::Vector3d> handles() const; ///< all of them
 
   /// Pixels from the upper left of the viewport; none behind the camera.
@@ -44,6 +47,8 @@ private:
   void addProps();
   void removeProps();
   void placeHandles(const DrawnMeasure& measure, Drawn& drawn, double scale);
+  struct Disc;
+  std::vector<Disc> discsOf(const rendering::ToolPose& tool) const;
   vtkSmartPointer<vtkRenderer> m_renderer;
   std::vector<DrawnMeasure> m_measures;
   std::vector<std::unique_ptr<Drawn>> m_drawn;

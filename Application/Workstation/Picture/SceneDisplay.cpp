@@ -383,7 +383,8 @@ void SceneDisplay::refine()
 void SceneDisplay::frameStarted()
 {
   if (m_measures)
-    m_measures->place(m_handles ? m_handles->handles() : std::vector<Eigen::Vector3d>());
+    m_measures->place(m_contents.tool,
+                      m_handles ? m_handles->handles() : std::vector<Eigen::Vector3d>());
   if (m_handles)
     m_handles->place();
   m_clock.start();

@@ -62,6 +62,8 @@ QStringList withheldFrom(const scene::Case& value, const std::vector<std::string
   return lines;
 }
 
+constexpr int kNoteLines = 3; // whatever stands in it, so that no change makes the dialog grow
+
 QComboBox* backgroundBox(const char* name)
 {
   auto* box = new QComboBox;
@@ -92,11 +94,11 @@ ShareDialog::ShareDialog(const char* name, const QString& title, const QString& 
   setWindowTitle(title);
   m_note->setObjectName("dim");
   m_note->setTextFormat(Qt::PlainText);
-  wrapWords(*m_note);
+  wrapWords(*m_note, kNoteLines);
   m_advice->setObjectName("shareAdvice");
   m_advice->setStyleSheet(kWarningStyle);
   m_advice->setTextFormat(Qt::PlainText);
-  wrapWords(*m_advice);
+  wrapWords(*m_advice, 1);
   m_form->addRow(tr("&File:"), m_path);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   m_accept = buttons->addButton(accept, QDialogButtonBox::AcceptRole);
@@ -135,7 +137,6 @@ void ShareDialog::check()
   else
     advice = problem();
   m_advice->setText(advice);
-  m_advice->setVisible(!advice.isEmpty());
   m_accept->setEnabled(advice.isEmpty());
 }
 
@@ -246,7 +247,7 @@ PrintDialog::PrintDialog(const scene::Case& value, double heightToWidth,
   m_dots->setSuffix(tr(" dpi"));
   m_dots->setValue(300);
   m_dots->setToolTip(tr("Dots per inch: 300 for print, 600 for a journal's line art"));
-  m_form->addRow(tr("&Width:"), m_width);
+  m_form->addRow(tr("W&idth:"), m_width);
   m_samples->setObjectName("printSamples");
   m_samples->setRange(1, rendering::kPixelSamples);
   m_samples->setSuffix(tr(" rays a pixel"));
@@ -284,8 +285,7 @@ QString PrintDialog::problem() const
   const rendering::PrintSize wanted = size();
   m_note->setText(tr("%1 x %2 pixels, of the 3D view with scale bar, side and the patient's "
                      "directions. Measurements, bone thickness and tool are left out.")
-                      .arg(wanted.width())
-                      .arg(wanted.height()));
+                      .arg(numberText(wanted.width(), 0), numberText(wanted.height(), 0)));
   if (std::max(wanted.width(), wanted.height()) > rendering::PrintSize::kMaxEdge)
     return tr("At most %1 pixels: choose a smaller width or resolution.")
         .arg(rendering::PrintSize::kMaxEdge);

@@ -86,7 +86,7 @@ void SliceController::addPlanes()
   add(tr("&Pöschl and Stenvers planes"), Qt::CTRL + Qt::Key_7, Kind::Petrous, Side::Unknown,
       tr("Upright, at 45° across and along the petrous bone of the ear's side, in place of the "
          "sagittal and the coronal slice"));
-  add(tr("Along the &tool"), Qt::CTRL + Qt::Key_8, Kind::Tool, Side::Unknown,
+  add(tr("Along the too&l"), Qt::CTRL + Qt::Key_8, Kind::Tool, Side::Unknown,
       tr("One plane across the tool's axis and two along it, which follow the tool; without a tool "
          "in use, along the line of sight"));
   QAction* byHand =
@@ -159,7 +159,7 @@ void SliceController::addSlabs()
   };
   step(tr("Thi&cker slab"), Qt::CTRL + Qt::Key_BracketRight, Qt::SHIFT + Qt::Key_J, 1,
        tr("1, 2, 3, 5, 8, 12, 20, 30 or 50 mm"));
-  step(tr("Thi&nner slab"), Qt::CTRL + Qt::Key_BracketLeft, Qt::CTRL + Qt::SHIFT + Qt::Key_J, -1,
+  step(tr("Thinne&r slab"), Qt::CTRL + Qt::Key_BracketLeft, Qt::CTRL + Qt::SHIFT + Qt::Key_J, -1,
        tr("50, 30, 20, 12, 8, 5, 3, 2 or 1 mm, then the thin slice"));
 }
 

@@ -148,6 +148,32 @@ TEST_F(ClippingBox, IsDraggedByAnEdgeInASliceUndoneAndSaved)
   EXPECT_NE(window().model().crosshair(), crosshair);
 }
 
+TEST_F(ClippingBox, HidingItBringsBackTheZoomOfTheSlices)
+{
+  saveBall("ball");
+  openWindow("ball");
+  const auto views = window().findChildren<SliceView*>();
+  ASSERT_EQ(views.size(), 3);
+  const Vector3d aside(1.5, 1.5, 1.5);
+  for (SliceView* slice : views)
+    slice->setPlane({3.0, aside});
+  action("Crop box")->trigger();
+  for (SliceView* slice : views)
+    EXPECT_EQ(slice->plane().zoom, 1.0) << "the edges are those of the image";
+  views[1]->setPlane({2.0, Vector3d::Zero()}); // meanwhile
+  action("Crop box")->trigger();
+  EXPECT_FALSE(action("Crop box")->isChecked());
+  EXPECT_EQ(views[0]->plane().zoom, 3.0);
+  EXPECT_EQ(views[0]->plane().offset, aside);
+  EXPECT_EQ(views[1]->plane().zoom, 2.0) << "was zoomed since";
+  EXPECT_EQ(views[2]->plane().zoom, 3.0);
+
+  action("Fit slices")->trigger();
+  action("Crop box")->trigger();
+  action("Crop box")->trigger();
+  EXPECT_EQ(views[0]->plane().zoom, 1.0) << "what was whole stays so";
+}
+
 TEST_F(ClippingBox, IsDraggedByAFaceInTheThreeDView)
 {
   scene::ViewState::Clipping some;

@@ -12,12 +12,18 @@
 #include <QCursor>
 #include <QFile>
 #include <QFileDialog>
+#include <QGroupBox>
 #include <QJsonDocument>
+#include <QLabel>
+#include <QMap>
+#include <QMenu>
+#include <QMenuBar>
 #include <QMimeData>
 #include <QPointer>
 #include <QProcess>
 #include <QProgressDialog>
 #include <QScreen>
+#include <QTabBar>
 #include <QTreeView>
 
 #include "Application.h"
@@ -371,6 +377,38 @@ void GuiTest::onDialog(const std::function<bool(QDialog&)>& react)
                      *busy = false;
                    });
   poll->start(20);
+}
+
+QStringList GuiTest::sharedMnemonics(const QWidget& scope)
+{
+  QStringList texts;
+  if (qobject_cast<const QMenu*>(&scope) || qobject_cast<const QMenuBar*>(&scope))
+    for (const QAction* action : scope.actions())
+      texts += action->text();
+  else
+    for (const QWidget* widget : scope.findChildren<QWidget*>())
+    {
+      if (!widget->isVisibleTo(&scope))
+        continue;
+      if (const auto* label = qobject_cast<const QLabel*>(widget))
+        texts += label->buddy() ? label->text() : QString();
+      else if (const auto* button = qobject_cast<const QAbstractButton*>(widget))
+        texts += button->text();
+      else if (const auto* box = qobject_cast<const QGroupBox*>(widget))
+        texts += box->title();
+      else if (const auto* tabs = qobject_cast<const QTabBar*>(widget))
+        for (int n = 0; n < tabs->count(); ++n)
+          texts += tabs->tabText(n);
+    }
+  QMap<QString, QStringList> byKey;
+  for (const QString& text : texts)
+    if (const QKeySequence key = QKeySequence::mnemonic(text); !key.isEmpty())
+      byKey[key.toString()] += text;
+  QStringList shared;
+  for (auto key = byKey.cbegin(); key != byKey.cend(); ++key)
+    if (key->size() > 1)
+      shared += key.key() + ": " + key->join(" | ");
+  return shared;
 }
 
 QImage GuiTest::steady(const std::function<QImage()>& picture)

@@ -80,6 +80,9 @@ protected:
   /// Polls `react` with the dialog that is open, until it returns true. Progress is no dialog here.
   void onDialog(const std::function<bool(QDialog&)>& react);
   static bool waitFor(const std::function<bool()>& done, int milliseconds = 60000);
+  /// Mnemonics that two parts of a scope have, with their texts: entries of a menu or menu bar, or
+  /// what a dialog shows of buttons, group boxes, tabs and labels of a box.
+  static QStringList sharedMnemonics(const QWidget& scope);
   /// What is shown once it has not changed for 400 ms: panels, banners and text come later.
   static QImage steady(const std::function<QImage()>& picture);
 

@@ -6,6 +6,7 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QLibraryInfo>
+#include <QMenu>
 #include <QMenuBar>
 #include <QPushButton>
 #include <QRegularExpression>
@@ -27,6 +28,24 @@ using namespace petrous::workstation;
 
 class LanguageTest : public GuiTest
 {
+protected:
+  /// Alt and the letter open one menu of the bar, and the letter takes one entry of each menu.
+  void expectOwnKeys()
+  {
+    for (const QAction* action : window().menuBar()->actions())
+      EXPECT_TRUE(action->text().contains('&')) << action->text().toStdString();
+    QWidgetList scopes{window().menuBar()};
+    for (QMenu* menu : window().findChildren<QMenu*>())
+      scopes += menu;
+    EXPECT_GT(scopes.size(), 20);
+    for (const QWidget* scope : scopes)
+    {
+      const QStringList shared = sharedMnemonics(*scope);
+      EXPECT_TRUE(shared.isEmpty())
+          << scope->windowTitle().toStdString() << ' ' << scope->objectName().toStdString() << '\n'
+          << shared.join('\n').toStdString();
+    }
+  }
 };
 
 namespace
@@ -52,19 +71,6 @@ QStringList shownTexts()
   return texts;
 }
 
-// Alt and the letter open one menu, and no other.
-void expectOwnKeys(const MainWindow& window)
-{
-  std::set<QString> keys;
-  for (const QAction* action : window.menuBar()->actions())
-  {
-    const QString text = action->text();
-    ASSERT_TRUE(text.contains('&')) << text.toStdString();
-    const QString key = text.mid(text.indexOf('&') + 1, 1).toLower();
-    EXPECT_TRUE(keys.insert(key).second) << "Alt+" << key.toStdString() << " twice";
-  }
-}
-
 } // namespace
 
 TEST_F(LanguageTest, TheMenusAreGermanAndNumbersHaveACommaThere)
@@ -74,7 +80,7 @@ TEST_F(LanguageTest, TheMenusAreGermanAndNumbersHaveACommaThere)
   const GermanTexts german;
   ASSERT_TRUE(german.isThere());
   openWindow();
-  expectOwnKeys(window());
+  expectOwnKeys();
   std::set<QString> titles;
   for (const QAction* action : window().menuBar()->actions())
     titles.insert(action->text().remove('&'));
@@ -87,10 +93,16 @@ TEST_F(LanguageTest, TheMenusAreGermanAndNumbersHaveACommaThere)
   EXPECT_TRUE(thrust->text().startsWith("1,5")) << thrust->text().toStdString();
 }
 
-TEST_F(LanguageTest, NoTwoMenusOfTheBarHaveOneKeyInEnglish)
+TEST_F(LanguageTest, NoTwoEntriesOfAMenuHaveOneKeyInEnglish)
 {
   openWindow();
-  expectOwnKeys(window());
+  expectOwnKeys();
+  QMenu menu;
+  menu.addAction("&Open");
+  menu.addAction("Save && &close");
+  EXPECT_EQ(sharedMnemonics(menu), QStringList());
+  menu.addAction("Pr&ocess");
+  EXPECT_EQ(sharedMnemonics(menu), QStringList{"Alt+O: &Open | Pr&ocess"});
 }
 
 TEST_F(LanguageTest, TheChoiceGoesFirstThenTheUsersLanguageThenEnglish)
@@ -176,13 +188,15 @@ TEST_F(LanguageTest, NumbersHaveTheLanguagesDecimalSign)
     GTEST_SKIP() << "built without lrelease";
   const std::string sentence = "the error is 0.32 mm, of file scan 1.5.nii and UID 1.2.840";
   EXPECT_EQ(numberText(-0.25, 2), "-0.25");
+  EXPECT_EQ(numberText(12345.6, 1), QString::fromUtf8("12\u202f345.6")) << "no comma";
   EXPECT_EQ(numberText("0.5, 12.0"), "0.5, 12.0");
   EXPECT_TRUE(phrase(sentence).contains("0.32 mm"));
   const GermanTexts german;
   ASSERT_TRUE(german.isThere());
   EXPECT_EQ(numberText(-0.25, 2), "-0,25");
   EXPECT_EQ(numberText(-0.001, 2), "0,00");
-  EXPECT_EQ(numberText(12345.6, 1), "12345,6");
+  EXPECT_EQ(numberText(12345.6, 1), QString::fromUtf8("12\u202f345,6"));
+  EXPECT_EQ(numberText("60000 /min"), QString::fromUtf8("60\u202f000 /min"));
   EXPECT_EQ(numberText("0.5, 12.0"), "0,5; 12,0");
   const QString shown = phrase(sentence);
   EXPECT_TRUE(shown.contains("0,32 mm")) << shown.toStdString();

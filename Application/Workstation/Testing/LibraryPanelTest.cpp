@@ -496,6 +496,22 @@ TEST_F(LibraryWindow, ADamagedCaseIsListed)
   EXPECT_EQ(list().model()->index(row, CasesModel::Structures).data().toString(), "damaged");
 }
 
+// Another program may have named its file so.
+TEST_F(LibraryWindow, ANameDoesNotTurnItsLineAround)
+{
+  saveBall("ball");
+  std::ofstream(folder() / "library" / "cases" / "ear\u202eknab.json") << "{";
+  openWindow("ball");
+  showPanel();
+  ASSERT_EQ(list().model()->rowCount(), 2);
+  QStringList names;
+  for (int row = 0; row < 2; ++row)
+    for (const int role : {Qt::DisplayRole, Qt::ToolTipRole, Qt::AccessibleTextRole})
+      names += list().model()->index(row, CasesModel::Name).data(role).toString();
+  EXPECT_FALSE(names.join(' ').contains(QChar(0x202E)));
+  EXPECT_TRUE(names.contains(QString::fromUtf8("ear\ufffdknab")));
+}
+
 // Of the open case, which is open again afterwards; found by it, and by its side.
 TEST_F(LibraryWindow, ACaseIsDescribedAndFoundByThat)
 {
@@ -806,7 +822,7 @@ TEST_F(LibraryWindow, TheFirstPageHasRoomForLongTexts)
   QApplication::removeTranslator(&longer);
   window().resize(1280, 720);
   for (auto* action : window().findChildren<QAction*>())
-    if (action->text().startsWith("&Close the case"))
+    if (action->text().startsWith("Cl&ose the case"))
       action->trigger();
   auto& page = *window().findChild<StartPage*>();
   ASSERT_TRUE(waitFor([&] { return page.isVisible() && !page.isReading(); }));

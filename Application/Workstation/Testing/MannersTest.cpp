@@ -328,6 +328,10 @@ protected:
         seen.insert(dialog.objectName());
         QTest::qWait(50);
         expectWhole(dialog, language + ", " + entry + ", dialog “" + dialog.objectName() + "”");
+        const QStringList shared = sharedMnemonics(dialog);
+        EXPECT_TRUE(shared.isEmpty())
+            << language.toStdString() << ", dialog " << dialog.objectName().toStdString() << ":\n"
+            << shared.join('\n').toStdString();
         const QSize room = dialog.screen()->availableSize();
         EXPECT_LE(dialog.width(), room.width()) << dialog.objectName().toStdString();
         EXPECT_LE(dialog.height(), room.height()) << dialog.objectName().toStdString();

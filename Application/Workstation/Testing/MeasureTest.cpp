@@ -22,6 +22,7 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkTextActor.h>
+#include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
 
 #include "MeasureController.h"
@@ -112,24 +113,77 @@ protected:
   int m_events = 0;
 };
 
+/// 600 x 400 pixels, 10 a mm, seen along z: right is x, up is y.
+struct FlatView
+{
+  FlatView()
+  {
+    target->SetOffScreenRendering(1);
+    target->SetSize(600, 400);
+    target->AddRenderer(renderer);
+    vtkCamera* camera = renderer->GetActiveCamera();
+    camera->ParallelProjectionOn();
+    camera->SetPosition(0.0, 0.0, 100.0);
+    camera->SetFocalPoint(0.0, 0.0, 0.0);
+    camera->SetViewUp(0.0, 1.0, 0.0);
+    camera->SetParallelScale(20.0);
+    camera->SetClippingRange(1.0, 200.0);
+  }
+
+  vtkNew<vtkRenderWindow> target;
+  vtkNew<vtkRenderer> renderer;
+};
+
 } // namespace
+
+TEST(MeasureOverlay, ALabelIsFaintWhereTheToolIs)
+{
+  FlatView flat;
+  MeasureOverlay overlay(*flat.renderer);
+  DrawnMeasure one;
+  one.points = {{-6.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+  one.handles = {0, 1};
+  one.label = "distance 1: 6.00 mm"; // from about 1 to 16 mm at the right of the handle
+  one.color = Qt::cyan;
+  one.chosen = true;
+  overlay.set({one});
+  vtkTextProperty* look = nullptr;
+  vtkPropCollection* props = flat.renderer->GetViewProps();
+  vtkCollectionSimpleIterator at;
+  props->InitTraversal(at);
+  while (vtkProp* prop = props->GetNextProp(at))
+    if (auto* label = vtkTextActor::SafeDownCast(prop))
+      look = label->GetTextProperty();
+  ASSERT_TRUE(look);
+  overlay.place();
+  EXPECT_EQ(look->GetOpacity(), 1.0);
+  EXPECT_EQ(look->GetFrame(), 1);
+  const double plate = look->GetBackgroundOpacity();
+
+  rendering::ToolPose tool;
+  tool.center = {8.0, -15.0, 30.0};
+  tool.axisToHand = {0.0, 1.0, 0.0}; // the shaft crosses the label
+  overlay.place(tool);
+  EXPECT_LT(look->GetOpacity(), 0.5);
+  EXPECT_LT(look->GetBackgroundOpacity(), 0.5 * plate);
+  EXPECT_EQ(look->GetFrame(), 0);
+  tool.axisToHand = {0.0, -1.0, 0.0}; // away from it
+  overlay.place(tool);
+  EXPECT_EQ(look->GetOpacity(), 1.0);
+  EXPECT_EQ(look->GetBackgroundOpacity(), plate);
+  tool.center = {8.0, -32.0, 30.0};
+  tool.axisToHand = {0.0, 1.0, 0.0}; // its handpiece, 30 mm from the burr
+  overlay.place(tool);
+  EXPECT_LT(look->GetOpacity(), 0.5);
+  overlay.place(std::nullopt);
+  EXPECT_EQ(look->GetOpacity(), 1.0);
+}
 
 // A handle of the second lies where the first one's label would be, and a line crosses it.
 TEST(MeasureOverlay, LabelsLieOnNoHandleAndOverAllLines)
 {
-  vtkNew<vtkRenderWindow> target;
-  target->SetOffScreenRendering(1);
-  target->SetSize(600, 400);
-  vtkNew<vtkRenderer> renderer;
-  target->AddRenderer(renderer);
-  vtkCamera* camera = renderer->GetActiveCamera();
-  camera->ParallelProjectionOn();
-  camera->SetPosition(0.0, 0.0, 100.0);
-  camera->SetFocalPoint(0.0, 0.0, 0.0);
-  camera->SetViewUp(0.0, 1.0, 0.0);
-  camera->SetParallelScale(20.0); // 10 px a mm
-  camera->SetClippingRange(1.0, 200.0);
-
+  FlatView flat;
+  vtkRenderer* const renderer = flat.renderer;
   MeasureOverlay overlay(*renderer);
   DrawnMeasure first;
   first.points = {{-1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
@@ -141,7 +195,7 @@ TEST(MeasureOverlay, LabelsLieOnNoHandleAndOverAllLines)
   second.label = "distance 2: 15.26 mm";
   overlay.set({first, second});
   overlay.place();
-  target->Render();
+  flat.target->Render();
 
   std::vector<vtkTextActor*> labels;
   vtkPropCollection* props = renderer->GetViewProps();

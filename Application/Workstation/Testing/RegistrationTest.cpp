@@ -683,7 +683,24 @@ TEST_F(RegistrationWindow, ACaseThatIsToBeClosedAfterARunIsClosedWithItsResult)
   click("register");
   leaveBy(QMessageBox::AcceptRole, [this] { action("Close the case")->trigger(); });
   EXPECT_TRUE(waitFor([this] { return !window().model().hasCase(); }, 240000));
+  EXPECT_TRUE(find<Banner>("leaveBanner").isHidden());
   EXPECT_TRUE(library().open("ear").mr.front().registered);
+}
+
+TEST_F(RegistrationWindow, ACaseThatIsToBeClosedSaysSoAndCanBeKeptOpen)
+{
+  showPanel();
+  auto& banner = find<Banner>("leaveBanner");
+  EXPECT_FALSE(banner.isVisible());
+  click("register");
+  leaveBy(QMessageBox::AcceptRole, [this] { action("Close the case")->trigger(); });
+  EXPECT_TRUE(banner.isVisible());
+  EXPECT_TRUE(banner.text().contains("registration of the MR")) << banner.text().toStdString();
+  click("stayInCase");
+  EXPECT_FALSE(banner.isVisible());
+  EXPECT_TRUE(waitFor([this] { return mr().registered; }, 240000)) << "the run goes on";
+  EXPECT_TRUE(settled());
+  EXPECT_TRUE(window().model().hasCase());
 }
 
 TEST_F(RegistrationWindow, AWindowThatIsNotToBeClosedDuringARunStaysAndTheRunGoesOn)

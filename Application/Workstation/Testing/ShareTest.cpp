@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 
+#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -189,6 +190,46 @@ TEST_F(ShareWindow, DrawsThePictureOfTheViewForPrint)
   EXPECT_GT(pixelsUnlikeTheCorner(picture), 1000);
   EXPECT_EQ(picture.pixelColor(2, picture.height() - 3), QColor(Qt::white));
   EXPECT_EQ(view().display().background(), rendering::kDefaultBackground) << "only on paper";
+}
+
+TEST_F(ShareWindow, NoChangeMakesItsDialogsGrow)
+{
+  openBall();
+  for (const QString name : {"printPicture", "planReport"})
+  {
+    bool asked = false;
+    onDialog(
+        [&](QDialog& dialog)
+        {
+          if (dialog.objectName() != name)
+            return false;
+          asked = true;
+          QApplication::processEvents();
+          const QSize size = dialog.size();
+          const auto expectSame = [&](const char* what)
+          {
+            QApplication::processEvents();
+            EXPECT_EQ(dialog.size(), size) << what;
+          };
+          auto* line = dialog.findChild<QLineEdit*>(name + "File");
+          line->setText(file("plan.doc"));
+          EXPECT_FALSE(dialog.findChild<QLabel*>("shareAdvice")->text().isEmpty());
+          expectSame("advice");
+          line->setText(file("plan.png"));
+          expectSame("none, or another one");
+          if (auto* width = dialog.findChild<QDoubleSpinBox*>("printWidth"))
+          {
+            width->setValue(10.0);
+            expectSame("few pixels");
+            width->setValue(1000.0);
+            expectSame("many pixels");
+          }
+          dialog.reject();
+          return true;
+        });
+    action(name == "planReport" ? "Plan report…" : "Picture for print…")->trigger();
+    EXPECT_TRUE(asked) << name.toStdString();
+  }
 }
 
 TEST_F(ShareWindow, FilmsOnceAroundAndNamesWhatAVideoNeeds)

@@ -116,6 +116,23 @@ TEST_F(Stamps, LettersOfASliceGiveWayToWhatCoversIt)
   EXPECT_GT(bright(kCovered, 2 * kCovered), 0);
 }
 
+TEST_F(Stamps, LieAboveTheScaleBarOfTheSlicesAlsoBelowAMessage)
+{
+  constexpr int kBar = 8 + 28; // px, from the lower edge, as SliceView reserves them for it
+  saveSide("ball", scene::Side::Unknown);
+  openWindow("ball");
+  auto* question = window().findChild<Banner*>("sideBanner");
+  ASSERT_TRUE(question);
+  for (const bool asks : {true, false, true})
+  {
+    question->setVisible(asks);
+    for (SliceView* slice : window().findChild<SliceColumn*>()->views())
+      EXPECT_TRUE(
+          waitFor([&] { return stampOn(*slice).geometry().bottom() < slice->height() - kBar; }))
+          << slice->objectName().toStdString() << ' ' << asks;
+  }
+}
+
 TEST_F(Stamps, ALongNameIsElidedInTheSlicesAndTheSideIsNot)
 {
   const std::string name = "the ninth temporal bone of the course for residents in the autumn";

@@ -117,7 +117,7 @@ void VideoController::addActions()
   m_pair = make(m_menu, tr("&Add the landmark"), Qt::CTRL + Qt::Key_U,
                 tr("The crosshair marks the point of the patient that was clicked in the still"));
   m_pair->setIconText(tr("Add landmark"));
-  m_showView = make(m_menu, tr("&View from the still"), Qt::CTRL + Qt::SHIFT + Qt::Key_U,
+  m_showView = make(m_menu, tr("View from the &still"), Qt::CTRL + Qt::SHIFT + Qt::Key_U,
                     tr("The 3D view from where the still was taken, with the still over it"));
   m_showView->setIconText(tr("View from it"));
 

@@ -37,8 +37,7 @@ QStringList CaseJobs::running() const
 
 bool CaseJobs::mayLeave(const std::function<void()>& again)
 {
-  m_look.stop();
-  m_again = {};
+  stay();
   const QStringList jobs = running();
   if (jobs.isEmpty())
     return true;
@@ -72,17 +71,40 @@ bool CaseJobs::mayLeave(const std::function<void()>& again)
     return false;
   if (running().isEmpty()) // it ended meanwhile
     return true;
+  leaveLater(again);
+  return false;
+}
+
+void CaseJobs::leaveLater(const std::function<void()>& again)
+{
   m_again = again;
   m_look.start();
-  return false;
+  tell(running());
+}
+
+void CaseJobs::stay()
+{
+  m_look.stop();
+  m_again = {};
+  tell({});
+}
+
+void CaseJobs::tell(const QStringList& jobs)
+{
+  if (jobs != std::exchange(m_told, jobs))
+    emit waits(jobs);
 }
 
 void CaseJobs::lookAgain()
 {
-  if (isDialogOpen() || !running().isEmpty())
+  const QStringList jobs = running();
+  if (!jobs.isEmpty())
+    tell(jobs);
+  if (isDialogOpen() || !jobs.isEmpty())
     return;
-  m_look.stop();
-  if (const auto again = std::exchange(m_again, {}))
+  const auto again = m_again;
+  stay();
+  if (again)
     again();
 }
 

@@ -35,13 +35,21 @@ public:
   /// or waits: then `again`, which is to leave anew, is called as soon as no job runs and no dialog
   /// is open, unless this was called again by then. Null: waiting is not offered.
   bool mayLeave(const std::function<void()>& again);
+  void stay(); ///< waits no more: the jobs go on, and the case is not left
+
+signals:
+  /// For these jobs, after which the case is left; empty: for none any more.
+  void waits(const QStringList& jobs);
 
 private:
   void lookAgain();
+  void leaveLater(const std::function<void()>& again);
+  void tell(const QStringList& jobs);
 
   QWidget& m_window;
   std::vector<Job> m_jobs;
   std::function<void()> m_again;
+  QStringList m_told; ///< what is waited for
   QTimer m_look;
   bool m_isAsking = false;
 };

@@ -28,7 +28,7 @@ namespace
 
 constexpr int kMostName = 260;      // px
 constexpr int kSliceMargin = 5;     // px
-constexpr int kOverScaleBar = 34;   // px
+constexpr int kOverScaleBar = 40;   // px, of a slice: its text and halo
 constexpr double kOfHeight = 0.024; // a stamp's letters, of a picture
 
 QString sideOfStamp(scene::Side side)

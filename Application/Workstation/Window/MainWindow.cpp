@@ -390,9 +390,18 @@ void MainWindow::layOut()
   m_faultBanner->addButton("dismissFault", tr("Close"), [this] { m_faultBanner->hide(); });
   m_recordingBanner->addButton("dismissRecording", tr("Close"),
                                [this] { m_recordingBanner->hide(); });
+  auto* leaving = new Banner("leaveBanner", Banner::Kind::Notice, this);
+  leaving->addButton("stayInCase", tr("Keep the case open"), [this] { m_jobs->stay(); });
+  connect(m_jobs, &CaseJobs::waits, leaving,
+          [leaving](const QStringList& jobs)
+          {
+            leaving->setText(
+                tr("The case is closed as soon as this is done: %1").arg(jobs.join(", ")));
+            leaving->setVisible(!jobs.isEmpty());
+          });
   auto* whole = new QWidget;
   auto* banners = new BannerStack(*whole);
-  for (Banner* banner : {m_damageBanner, m_faultBanner, m_unsavedBanner, m_recordingBanner,
+  for (Banner* banner : {m_damageBanner, m_faultBanner, m_unsavedBanner, leaving, m_recordingBanner,
                          m_loadingBanner, m_removedBanner, m_mrBanner, m_sideBanner, m_notesBanner})
   {
     banners->add(banner);

@@ -160,7 +160,19 @@ public:
   }
 
 private:
-  int floor() const { return m_least * m_label.fontMetrics().lineSpacing(); }
+  // Lines are drawn a pixel higher than their spacing with some fonts.
+  int floor() const
+  {
+    const QFontMetrics metrics = m_label.fontMetrics();
+    const QString lines = QString("x\n").repeated(m_least).trimmed();
+    return lines.isEmpty()
+               ? 0
+               : std::max(m_least * metrics.lineSpacing(),
+                          metrics
+                              .boundingRect(QRect(0, 0, QWIDGETSIZE_MAX, QWIDGETSIZE_MAX),
+                                            Qt::TextWordWrap, lines)
+                              .height());
+  }
 
   QLabel& m_label;
   int m_least; // lines

@@ -128,7 +128,7 @@ void SettingsDialog::addLibrary(QFormLayout& form)
   m_place->setTextFormat(Qt::PlainText);
   wrapWords(*m_place);
   m_place->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  auto* change = new QPushButton(tr("Another &folder…"));
+  auto* change = new QPushButton(tr("Another fold&er…"));
   change->setObjectName("changeLibrary");
   change->setToolTip(tr("From the next start on, for the command too; --library and "
                         "PETROUS_LIBRARY go first. Nothing is moved."));

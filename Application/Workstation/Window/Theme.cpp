@@ -136,16 +136,16 @@ QPushButton#primary, QPushButton#segmentCreate { background: @checked; border: 1
 QPushButton#primary:hover, QPushButton#segmentCreate:hover { background: @primaryHover; }
 QPushButton#primary:focus, QPushButton#segmentCreate:focus { border-color: @focus; }
 QPushButton#primary:disabled, QPushButton#segmentCreate:disabled { background: @primaryOff; border-color: @rule; color: @off; }
-QLabel#guessed { color: #ff8c2b; background: rgba(16, 19, 23, 150); border-radius: 4px;
+QLabel#guessed { color: #ff8c2b; background: rgba(16, 19, 23, 210); border-radius: 4px;
                  padding: 1px 6px; }
 QLabel#direction { color: #c9d2dc; font-size: %1px; font-weight: 700;
-                   background: rgba(16, 19, 23, 150); border-radius: 4px; padding: 1px 6px; }
+                   background: rgba(16, 19, 23, 210); border-radius: 4px; padding: 1px 6px; }
 QWidget#focusFrame { background: #62b0ec; }
-QLabel#caseStamp { color: #c9d2dc; background: rgba(16, 19, 23, 150); border-radius: 4px;
+QLabel#caseStamp { color: #c9d2dc; background: rgba(16, 19, 23, 210); border-radius: 4px;
                    padding: 1px 6px; }
 QLabel#direction[onLight="true"], QLabel#caseStamp[onLight="true"] {
-  color: #10161e; background: rgba(255, 255, 255, 190); }
-QLabel#guessed[onLight="true"] { color: #9a3f00; background: rgba(255, 255, 255, 190); }
+  color: #10161e; background: rgba(255, 255, 255, 220); }
+QLabel#guessed[onLight="true"] { color: #9a3f00; background: rgba(255, 255, 255, 220); }
 QFrame[banner="notice"] { background: @notice; border-bottom: 1px solid @edgeOfNotice; }
 QFrame[banner="warning"] { background: @warning; border-bottom: 1px solid @drill; }
 QFrame[banner] QLabel { color: @bannerText; }

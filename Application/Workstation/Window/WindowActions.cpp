@@ -47,13 +47,13 @@ constexpr ViewEntry kViews[] = {
     {StandardView::Right, QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "&Right"),
      QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "From the patient's right")},
     {StandardView::SurgicalLeft,
-     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "Surgical position, &left ear"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "Surgical position, le&ft ear"),
      QT_TRANSLATE_NOOP("petrous::workstation::WindowActions",
                        "The patient on the back, the head turned to the right, seen from the left "
                        "ear: the face up, "
                        "the vertex on the right")},
     {StandardView::SurgicalRight,
-     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "Surgical position, r&ight ear"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "Surgical position, rig&ht ear"),
      QT_TRANSLATE_NOOP("petrous::workstation::WindowActions",
                        "The patient on the back, the head turned to the left, seen from the right "
                        "ear: the face up, "
@@ -86,15 +86,15 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   save = make(file, tr("&Save"), QKeySequence::Save, tr("Save the case in the library"));
   saveAs = make(file, tr("Save &as…"), Qt::CTRL + Qt::ALT + Qt::Key_S,
                 tr("Save as a new case; the one it came from stays as it was saved"));
-  closeCase = make(file, tr("&Close the case"), QKeySequence(Qt::CTRL + Qt::Key_W),
+  closeCase = make(file, tr("Cl&ose the case"), QKeySequence(Qt::CTRL + Qt::Key_W),
                    tr("Saves the case, and goes back to the first page"));
   file->addSeparator();
-  report = make(file, tr("Plan &report…"), QKeySequence::Print,
+  report = make(file, tr("Plan repor&t…"), QKeySequence::Print,
                 tr("The plan as PDF or HTML: pictures, distances with uncertainty, strokes, "
                    "measurements"));
   printPicture = make(file, tr("&Picture for print…"), Qt::CTRL + Qt::SHIFT + Qt::Key_S,
                       tr("The 3D view as a PNG of any size, with scale bar and side"));
-  film = make(file, tr("F&ilm…"), {},
+  film = make(file, tr("Fi&lm…"), {},
               tr("Once around the patient, or a flight along a canal or nerve"));
   file->addSeparator();
   quit = make(file, tr("&Quit"), QKeySequence::Quit, tr("Save and quit"));
@@ -119,7 +119,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                    tr("An MR of this patient as NIfTI, NRRD, MetaImage or multi-frame DICOM"));
   addLabels = make(casePart, tr("Add &labels…"), {},
                    tr("Structures of this patient: label maps and segmentations"));
-  addMasks = make(casePart, tr("Add &folder of masks…"), {},
+  addMasks = make(casePart, tr("Add f&older of masks…"), {},
                   tr("Structures of this patient, one a file, as TotalSegmentator writes them"));
   addMesh = make(casePart, tr("Add m&esh…"), {}, tr("Surfaces of this patient, in mm"));
   casePart->addSeparator();
@@ -154,7 +154,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   standardViews->addSeparator();
   rollLeft = make(standardViews, tr("Roll counterclock&wise"), Qt::Key_Comma,
                   tr("Turns the 3D picture about its middle, by 5 degrees"));
-  rollRight = make(standardViews, tr("Roll clockwi&se"), Qt::Key_Period,
+  rollRight = make(standardViews, tr("Roll cloc&kwise"), Qt::Key_Period,
                    tr("Turns the 3D picture about its middle, by 5 degrees"));
   QMenu* layoutMenu = addLayouts();
   m_layout = layoutMenu->menuAction();
@@ -250,7 +250,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                     tr("Spindle and teeth, louder in bone and brighter where the wall is thin; a "
                        "tone while a warning is shown"));
   drillSound->setCheckable(true);
-  catalogues = make(drill, tr("Ma&terials and burrs…"), {},
+  catalogues = make(drill, tr("&Materials and burrs…"), {},
                     tr("The numbers of the removal laws, with their units and sources, and the "
                        "diameters that the bar offers"));
   drill->addSeparator();
@@ -388,7 +388,7 @@ QMenu* WindowActions::addStereo(bool quadBuffer)
 {
   using rendering::StereoMode;
   stereo = new QActionGroup(this);
-  QMenu* menu = m_view->addMenu(tr("Ste&reo"));
+  QMenu* menu = m_view->addMenu(tr("Stere&o"));
   const auto add = [this, menu](const QString& text, StereoMode mode, const QString& tip)
   {
     QAction* action = make(menu, text, {}, tip);

@@ -23,12 +23,13 @@ QString numberText(double value, int decimals)
 {
   const double unit = std::pow(10.0, -decimals);
   const bool isZero = std::abs(value) < 0.5 * unit;
-  return numberLocale().toString(isZero ? 0.0 : value, 'f', decimals);
+  const QString digits = numberLocale().toString(isZero ? 0.0 : value, 'f', decimals);
+  return words(presenters::withGroupedDigits(bytes(digits)));
 }
 
 QString numberText(const std::string& text)
 {
-  QString shown = words(text);
+  QString shown = words(presenters::withGroupedDigits(text));
   const QChar point = numberLocale().decimalPoint();
   if (point == '.')
     return shown;

@@ -1,6 +1,7 @@
 #include "petrous/Interaction/ForceDisplay.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -316,6 +317,22 @@ TEST(ForceDisplay, ReadsOnAWhiteGround)
     }
   EXPECT_GT(dark, 100);
   EXPECT_GT(light, 5);
+  // Relative luminance [WCAG 2.1] of greys; 4.5 is its least contrast of a text.
+  const auto luminance = [](int grey) { return std::pow((grey / 255.0 + 0.055) / 1.055, 2.4); };
+  const auto contrast = [&](int a, int b)
+  { return (luminance(std::max(a, b)) + 0.05) / (luminance(std::min(a, b)) + 0.05); };
+  int letters = 0, plate = 255;
+  for (int y = 16 + 120 + 8; y < 16 + 120 + 18; ++y)
+    for (int x = 17; x < 40; ++x)
+    {
+      const int red = at(picture, x, y)[0];
+      letters = std::max(letters, red < 240 ? red : 0);
+      plate = std::min(plate, red);
+    }
+  EXPECT_GT(contrast(letters, plate), 4.5);
+  const int row = 16 + 24; // of the mark of 1 N
+  const int mark = std::max(at(picture, 31, row)[0], at(picture, 31, row - 1)[0]);
+  EXPECT_GT(contrast(mark, at(picture, 31, row + 6)[0]), 4.5);
 }
 
 TEST(ForceDisplay, RefusesBadLooks)

@@ -141,8 +141,9 @@ public:
   void show(double force, double fullScale, double pixels, const Eigen::Vector3d& color);
 
 private:
-  enum Part
+  enum Part // in the order of drawing
   {
+    Plate,
     Filled,
     Empty,
     Mark,
@@ -173,8 +174,10 @@ constexpr double kPointsPerInch = 72.0;
 
 constexpr double kEmptyColor[3] = {0.22, 0.24, 0.27};
 constexpr double kMarkColor[3] = {0.85, 0.87, 0.90};
-constexpr double kPlateColor[3] = {0.06, 0.07, 0.09}; // of the number, which may lie on bone
-constexpr double kPlateOpacity = 0.55;
+constexpr double kPlateRim = 3.0;
+// On bone and on a white background number and mark are read on it.
+constexpr double kPlateColor[3] = {0.06, 0.07, 0.09};
+constexpr double kPlateOpacity = 0.8;
 
 } // namespace
 
@@ -193,6 +196,8 @@ ForceBar::ForceBar()
     m_actors[part]->SetMapper(mapper);
     m_actors[part]->PickableOff();
   }
+  m_actors[Plate]->GetProperty()->SetColor(kPlateColor);
+  m_actors[Plate]->GetProperty()->SetOpacity(kPlateOpacity);
   m_actors[Empty]->GetProperty()->SetColor(kEmptyColor);
   m_actors[Mark]->GetProperty()->SetColor(kMarkColor);
   m_text->GetTextProperty()->SetColor(kMarkColor);
@@ -244,6 +249,9 @@ void ForceBar::show(double force, double fullScale, double pixels, const Eigen::
   const double left = pixels * kLeft;
   const double right = left + pixels * kWidth;
   const double top = heightOf(fullScale);
+  const double rim = pixels * kPlateRim;
+  place(Plate, left - rim, pixels * kBottom - rim, right + pixels * (kMarkGap + kMarkLength) + rim,
+        top);
   place(Filled, left, pixels * kBottom, right, heightOf(force));
   place(Empty, left, heightOf(force), right, top);
   const double mark = heightOf(1.0);

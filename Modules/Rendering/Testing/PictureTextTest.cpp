@@ -1,6 +1,8 @@
 #include "petrous/Rendering/PictureText.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -27,6 +29,25 @@ std::array<int, 4> written(const Picture& picture)
         box = {std::min(box[0], column), std::min(box[1], row), std::max(box[2], column),
                std::max(box[3], row)};
   return box;
+}
+
+// Pixels of the text alone that are bright.
+int inked(const std::string& text)
+{
+  Picture picture = grey(400, 60);
+  writeText(picture, text, {20.0, 20.0, 0.0, 0.0}, 18, kInk);
+  int count = 0;
+  for (int row = 0; row < picture.height; ++row)
+    for (int column = 0; column < picture.width; ++column)
+      count += picture.pixel(column, row)[0] > 200 ? 1 : 0;
+  return count;
+}
+
+std::vector<std::uint8_t> drawn(const std::string& text)
+{
+  Picture picture = grey(400, 60);
+  writeText(picture, text, {20.0, 20.0, 0.0, 0.0}, 18, kInk);
+  return picture.rgb;
 }
 
 } // namespace
@@ -65,4 +86,28 @@ TEST(PictureText, IsCutAtThePicturesEdges)
   EXPECT_LT(written(picture)[2], 0);
   writeText(picture, "", {10.0, 10.0, 0.0, 0.0}, 20, kInk);
   EXPECT_LT(written(picture)[2], 0);
+}
+
+TEST(PictureText, DrawsLettersBeyondAscii)
+{
+  for (const char* letter : {"ä", "ö", "ü", "Ä", "Ö", "Ü", "ß", "é", "è", "ç", "ñ", "ø", "Å",
+                             "µ", "°", "±", "³", "×", "–", "−", "…", "Š", "š", "Ž", "č", "ě",
+                             "ř", "ő", "ű", "ł", "Ł", "ą", "ę", "ś", "ş", "ğ", "İ"})
+  {
+    EXPECT_GT(inked(letter), 8) << letter;
+    EXPECT_NE(drawn(letter), drawn("?")) << letter;
+  }
+  // Two dots over the u, and not a letter less.
+  EXPECT_GT(inked("Für"), inked("Fur"));
+  EXPECT_GT(inked("Für"), inked("Fr") + 8);
+  EXPECT_EQ(drawn("Fu\u0308r"), drawn("F\u00fcr")) << "as other systems store names of files";
+}
+
+TEST(PictureText, ShowsThatACharacterIsMissingInTheFont)
+{
+  for (const char* character : {"中", "ш", "\U0001F600", "\xff"})
+    EXPECT_EQ(drawn(std::string("A") + character + "B"), drawn("A?B")) << character;
+  for (const char* blank : {"\u202f", "\u00a0", "\u2009", "\t", "\n"})
+    EXPECT_EQ(drawn(std::string("60") + blank + "000"), drawn("60 000"));
+  EXPECT_EQ(drawn("A\u202eB\u200b"), drawn("AB")) << "what is not seen anyway";
 }

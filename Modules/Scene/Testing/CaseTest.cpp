@@ -196,6 +196,7 @@ TEST(PlainText, NamesHaveOnlyWhatIsSeen)
   {
     EXPECT_FALSE(scene::hasInvisible(good)) << good;
     EXPECT_EQ(scene::withoutInvisible(good), good);
+    EXPECT_EQ(scene::withVisible(good), good);
     EXPECT_NO_THROW(scene::checkCaseName(good)) << good;
   }
   for (const std::string bad :
@@ -206,6 +207,7 @@ TEST(PlainText, NamesHaveOnlyWhatIsSeen)
     const std::string name = "left" + bad + "ear";
     EXPECT_TRUE(scene::hasInvisible(name)) << bad;
     EXPECT_EQ(scene::withoutInvisible(name), "leftear");
+    EXPECT_EQ(scene::withVisible(name), "left\ufffdear");
     EXPECT_THROW(scene::checkCaseName(name), core::InvalidParameter);
     EXPECT_THROW(scene::checkPartName(name), core::InvalidParameter);
     EXPECT_THROW(scene::checkBranchName(name), core::InvalidParameter);

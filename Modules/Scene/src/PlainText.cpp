@@ -87,4 +87,17 @@ std::string withoutInvisible(std::string_view text)
                             : seen.substr(first, seen.find_last_not_of(' ') + 1 - first);
 }
 
+std::string withVisible(std::string_view text)
+{
+  constexpr std::string_view kReplacement = "\ufffd";
+  std::string seen;
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const Character one = characterAt(text, at);
+    seen += isInvisible(one.code) ? kReplacement : text.substr(at, one.bytes);
+    at += one.bytes;
+  }
+  return seen;
+}
+
 } // namespace petrous::scene

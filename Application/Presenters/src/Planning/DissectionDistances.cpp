@@ -8,6 +8,7 @@
 
 #include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Presenters/StructureSurfaces.h"
+#include "petrous/Scene/Branches.h"
 #include "petrous/Scene/CaseField.h"
 
 namespace petrous::presenters
@@ -137,6 +138,7 @@ std::vector<DissectionDistance> dissectionDistances(const scene::Case& value,
   if (removed.empty())
     return distances;
   const auto injured = injuredVolumes(value);
+  const auto touched = scene::summaryOf(value, value.dissection.history().position()).structures;
   StructureSurfaces surfaces(value);
   for (std::size_t n = 0; n < surfaces.count(); ++n)
   {
@@ -153,8 +155,12 @@ std::vector<DissectionDistance> dissectionDistances(const scene::Case& value,
     one.name = surfaces.name(n);
     one.distance = {"distance of the dissection", nearest->distance, "mm",
                     wallUncertainty(value, surface), toString(surface)};
-    if (const auto found = injured.find(one.name); found != injured.end())
-      one.injured = found->second;
+    const auto found = std::find_if(touched.begin(), touched.end(),
+                                    [&one](const dissection::TouchedStructure& structure)
+                                    { return structure.name == one.name; });
+    if (found != touched.end())
+      one.removed = found->volume;
+    one.isInjured = one.removed > 0.0 && injured.count(one.name) > 0;
     one.place = nearest->place;
     one.onStructure =
         nearest->distance > 0.0 ? surfaces.nearestPoint(n, nearest->place) : nearest->place;

@@ -634,12 +634,12 @@ private:
       if (*one.distance.value <= 0.0)
       {
         distance.text = say("reached");
-        distance.isWarning = one.injured > 0.0;
+        distance.isWarning = one.isInjured;
       }
-      ReportCell injured = numberCell(one.injured, 2, "mm³");
-      injured.isWarning = one.injured > 0.0;
-      injured.text = one.injured > 0.0 ? volumeText(one.injured) : say("nothing");
-      table.table.rows.push_back({structureCell(one.name), distance, injured});
+      ReportCell removed = numberCell(one.removed, 2, "mm³");
+      removed.isWarning = one.isInjured;
+      removed.text = one.removed > 0.0 ? volumeText(one.removed) : say("nothing");
+      table.table.rows.push_back({structureCell(one.name), distance, removed});
     }
     addGuesses(table);
     if (const std::string repairs =
@@ -811,11 +811,11 @@ private:
     constexpr double kNear = 5.0; // mm: of structures that are not guarded
     std::vector<DissectionDistance> found;
     for (const DissectionDistance& one : distances)
-      if (one.injured > 0.0 || isGuarded(one.name) ||
+      if (one.isInjured || isGuarded(one.name) ||
           (*one.distance.value <= kNear && !isLumen(one.name)))
         found.push_back(one);
     const auto rank = [this](const DissectionDistance& one) {
-      return one.injured > 0.0 ? 0 : isGuarded(one.name) ? 1 : 2;
+      return one.isInjured ? 0 : isGuarded(one.name) ? 1 : 2;
     };
     std::stable_sort(found.begin(), found.end(),
                      [&rank](const DissectionDistance& a, const DissectionDistance& b)
@@ -834,8 +834,8 @@ private:
   {
     std::string text = shownName(one.name) + ": " +
                        (*one.distance.value > 0.0 ? textOf(one.distance) : say("reached"));
-    if (one.injured > 0.0)
-      text += ", " + say("Removed from it") + ": " + volumeText(one.injured);
+    if (one.removed > 0.0)
+      text += ", " + say("Removed from it") + ": " + volumeText(one.removed);
     return withGuesses(text, one.name);
   }
 

@@ -241,7 +241,7 @@ std::string reportNumber(ReportLanguage language, std::string text)
     for (std::size_t at = 1; at + 1 < text.size(); ++at)
       if (text[at] == '.' && isDigit(text[at - 1]) && isDigit(text[at + 1]))
         text[at] = ',';
-  return text;
+  return withGroupedDigits(text);
 }
 
 std::string reportDate(ReportLanguage language, const std::string& date)

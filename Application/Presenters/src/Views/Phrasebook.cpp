@@ -494,4 +494,29 @@ const Phrasebook& germanPhrases()
   return kBook;
 }
 
+std::string withGroupedDigits(const std::string& text)
+{
+  constexpr std::string_view kNarrowSpace = "\u202f";
+  constexpr std::size_t kLeast = 5; // digits: 10,000
+  std::string grouped;
+  for (std::size_t n = 0; n < text.size();)
+  {
+    if (!isDecimalDigit(text[n]))
+    {
+      grouped += text[n++];
+      continue;
+    }
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", n), text.size());
+    const bool isWhole = n == 0 || (text[n - 1] != '.' && text[n - 1] != ',');
+    const bool isGrouped = isWhole && end - n >= kLeast;
+    for (; n < end; ++n)
+    {
+      grouped += text[n];
+      if (isGrouped && end - n > 1 && (end - n) % 3 == 1)
+        grouped += kNarrowSpace;
+    }
+  }
+  return grouped;
+}
+
 } // namespace petrous::presenters

@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include <vtkFreeTypeTools.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkStdString.h>
 #include <vtkTextProperty.h>
+
+#include "FontText.h"
 
 namespace petrous::rendering
 {
 
 namespace
 {
-constexpr int kDpi = 72;
 constexpr int kBorder = 2; // pixels
 constexpr double kBorderOpacity = 0.8;
 
@@ -43,26 +42,27 @@ struct TextMask
   }
 };
 
-TextMask maskOf(const std::string& text, int size)
+TextMask maskOf(const std::string& text, int points)
 {
   vtkNew<vtkTextProperty> style;
   style->SetFontFamilyToArial();
-  style->SetFontSize(size);
+  style->SetFontSize(points);
   style->BoldOn();
   style->SetColor(1.0, 1.0, 1.0);
   vtkNew<vtkImageData> image;
-  int box[2] = {0, 0};
+  int size[2] = {0, 0};
   TextMask mask;
-  if (!vtkFreeTypeTools::GetInstance()->RenderString(style, vtkStdString(text), kDpi, image, box))
+  if (!drawText(style, text, image, size))
     return mask;
-  int dims[3];
-  image->GetDimensions(dims);
-  mask.width = std::min(box[0], dims[0]);
-  mask.height = std::min(box[1], dims[1]);
+  int extent[6];
+  image->GetExtent(extent);
+  mask.width = std::min(size[0], extent[1] - extent[0] + 1);
+  mask.height = std::min(size[1], extent[3] - extent[2] + 1);
   const int last = image->GetNumberOfScalarComponents() - 1; // opacity
   for (int row = mask.height - 1; row >= 0; --row)           // VTK stores rows bottom up
     for (int column = 0; column < mask.width; ++column)
-      mask.covered.push_back(image->GetScalarComponentAsDouble(column, row, 0, last) / 255.0);
+      mask.covered.push_back(
+          image->GetScalarComponentAsDouble(extent[0] + column, extent[2] + row, 0, last) / 255.0);
   return mask;
 }
 } // namespace

@@ -7,10 +7,9 @@
 
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkStdString.h>
 #include <vtkTextProperty.h>
-#include <vtkTextRenderer.h>
 
+#include "FontText.h"
 #include "petrous/Rendering/ThicknessColor.h"
 
 namespace petrous::rendering
@@ -22,7 +21,6 @@ namespace
 using Color = std::array<double, 3>;
 
 constexpr int kMinWidth = 120;
-constexpr int kDots = 72; // dpi: a font point is a pixel
 constexpr double kShade = 0.75;
 constexpr Color kGround{0.063, 0.075, 0.090};
 constexpr Color kInk{0.843, 0.863, 0.886};
@@ -64,10 +62,9 @@ public:
   /// Returns the width in pixels, drawn or not; clipped at `most` pixels.
   int write(Picture* picture, const std::string& text, int left, int top, int most) const
   {
-    vtkTextRenderer* renderer = vtkTextRenderer::GetInstance();
     vtkNew<vtkImageData> image;
     int dims[2] = {0, 0};
-    if (!renderer || !renderer->RenderString(m_look, vtkStdString(text), image, dims, kDots))
+    if (!drawText(m_look, text, image, dims))
       return 0;
     // Rows bottom up; the image may be larger than the text.
     for (int row = 0; picture && row < dims[1]; ++row)

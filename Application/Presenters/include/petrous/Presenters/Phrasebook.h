@@ -81,4 +81,9 @@ const std::vector<Phrasebook::Phrase>& germanPhraseList();
 /// a version or a UID.
 std::string withDecimalCommas(std::string text);
 
+/// A text of numbers and units alone, with a narrow no-break space between each three digits of
+/// what is 10,000 or more [ISO 80000-1, 7.3]: the same in every language, where a comma or a point
+/// would be read as the decimal one. For people, not for files.
+std::string withGroupedDigits(const std::string& text);
+
 } // namespace petrous::presenters

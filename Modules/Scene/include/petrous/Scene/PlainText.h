@@ -19,4 +19,8 @@ bool hasInvisible(std::string_view text) noexcept;
 /// The text without such characters, and without spaces at its ends.
 std::string withoutInvisible(std::string_view text);
 
+/// The text with U+FFFD in place of each such character, for lists: a file that another program
+/// named may have them, and they would turn the line around, or hide.
+std::string withVisible(std::string_view text);
+
 } // namespace petrous::scene

@@ -495,6 +495,9 @@ TEST_F(Deidentification, KnowsThePatientsNumberInAnyFormOfANumber)
   EXPECT_EQ(binary.count("00189073"), 0U);
   EXPECT_EQ(binary.count("00189328"), 1U);
   EXPECT_EQ(binary.count("00189220"), 1U) << "not a number is not the patient's";
+  for (const char* id : {"MRN4711471", "MRN 4711471/A", "0815-X-4711471"})
+    EXPECT_EQ(cleaned(element(0x00100020, id) + element(0x00200013, "4711471")).at("00200013"), "")
+        << id;
   EXPECT_EQ(cleaned(element(0x00100020, "00012") + element(0x00200013, "12")).at("00200013"), "12")
       << "a short number is that of anything";
 }
@@ -510,6 +513,8 @@ TEST_F(Deidentification, KeepsNoTextInPlaceOfNumbers)
     EXPECT_EQ(found.count("00189328"), 0U) << name;
     EXPECT_EQ(found.count("00209157"), 0U) << name;
   }
+  EXPECT_EQ(cleaned(element(0x00189305, "Zq4711kw")).count("00189305"), 0U)
+      << "a revolution of 1.8e267 s, and no word of the file";
 }
 
 TEST_F(Deidentification, LeavesOutLookupTablesThatHoldMoreThanTheyState)

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -450,6 +451,7 @@ bool isLetter(char c)
 }
 
 constexpr std::size_t kTellingBytes = 6;
+constexpr double kMostPlausible = 1e15; // no quantity of an image is larger; text read as one is
 
 // Numbers whose bytes are those of a name.
 bool areLetters(const std::string& text)
@@ -785,9 +787,14 @@ private:
     {
       using Number = std::remove_const_t<std::remove_pointer_t<decltype(values)>>;
       const std::string text = textIn(values, length);
+      const Number* end = values + length / sizeof(Number);
+      const bool isImplausible = std::any_of(
+          values, end,
+          [](Number value) { return std::abs(static_cast<double>(value)) > kMostPlausible; });
       return !areLetters(text) &&
-             !(mayBeText(text) && (std::is_integral_v<Number> || m_people.hasWord(text))) &&
-             std::none_of(values, values + length / sizeof(Number),
+             !(mayBeText(text) &&
+               (std::is_integral_v<Number> || isImplausible || m_people.hasWord(text))) &&
+             std::none_of(values, end,
                           [this](Number value)
                           { return m_people.isIdentifier(static_cast<double>(value)); });
     };

@@ -178,8 +178,8 @@ TEST_F(ReportCommand, HoldsNobodysNameAndNoPath)
   for (const char c : std::string("Mustermann"))
     wide += std::string(1, '\0') + c;
   for (const std::string& bytes : all)
-    for (const std::string& secret :
-         {std::string("Mustermann"), std::string("Erika"), wide, m_folder.filename().string()})
+    for (const std::string& secret : {std::string("Mustermann"), std::string("Erika"), wide,
+                                      m_folder.filename().string(), std::string("CreationDate")})
       EXPECT_EQ(bytes.find(secret), std::string::npos) << secret;
 
   json("report " + word(name) + " --keep-identity --out " + quoted(m_folder / "home.html"));

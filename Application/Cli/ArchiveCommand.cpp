@@ -128,7 +128,8 @@ void addArchiveCommands(CLI::App& app, Context& context)
                     "patient; nothing is written");
   command
       ->add_option("--level", out->level,
-                   "Compression of images, 1 (fast) to 12 (small); default: between 1 and 2")
+                   "Compression of images, 1 (fast) to 12 (small); default: as fast as makes each "
+                   "no larger than gzip -6 does, between 1 and 7")
       ->check(CLI::Range(1, 12));
 
   auto in = std::make_shared<RestoreCommandOptions>();

@@ -1,5 +1,6 @@
 #include "PdfReport.h"
 
+#include <algorithm>
 #include <clocale>
 #include <cmath>
 #include <memory>
@@ -301,6 +302,16 @@ void drawFrame(QPainter& painter, const presenters::PlanReport& report, int page
                    QPointF(kMargin + kTextWidth, head.bottom() + 3.0));
 }
 
+/// Takes out the time of writing, which says when an operation was planned. Overwritten, so that
+/// what follows stays where the file's table of contents says.
+void blankCreationDate(QByteArray& pdf)
+{
+  const int from = pdf.indexOf("/CreationDate (");
+  const int to = from < 0 ? -1 : pdf.indexOf(')', from);
+  if (to > from)
+    std::fill(pdf.begin() + from, pdf.begin() + to + 1, ' ');
+}
+
 } // namespace
 
 std::string pdfOf(const presenters::PlanReport& report, const core::Progress& progress)
@@ -352,6 +363,7 @@ std::string pdfOf(const presenters::PlanReport& report, const core::Progress& pr
       painter.restore();
     }
   }
+  blankCreationDate(bytes);
   return bytes.toStdString();
 }
 

@@ -7473,6 +7473,10 @@
         <translation>ein eingebettetes Dokument, dessen Text sich nicht de-identifizieren lässt</translation>
     </message>
     <message>
+        <source>a waveform, whose samples may identify</source>
+        <translation>eine Kurve (EKG, Stimme), deren Werte den Patienten verraten können</translation>
+    </message>
+    <message>
         <source>raw data of a manufacturer, which may hold anything</source>
         <translation>Rohdaten eines Herstellers, die alles enthalten können</translation>
     </message>
@@ -7519,6 +7523,10 @@
     <message>
         <source>comments, application segments and gaps of the compression cleared</source>
         <translation>Kommentare, Anwendungssegmente und Lücken der Kompression gelöscht</translation>
+    </message>
+    <message>
+        <source>added without a value, as the standard requires the attribute</source>
+        <translation>ohne Wert ergänzt, da der Standard das Attribut verlangt</translation>
     </message>
     <message>
         <source>its face cannot be masked: %1</source>

@@ -14,6 +14,7 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
+#include <QFile>
 #include <QFileDialog>
 #include <QGroupBox>
 #include <QHeaderView>
@@ -24,6 +25,8 @@
 #include <QPushButton>
 #include <QScreen>
 #include <QScrollBar>
+#include <QSettings>
+#include <QStandardPaths>
 #include <QStatusBar>
 #include <QStyleOption>
 #include <QTabBar>
@@ -536,6 +539,29 @@ TEST_F(Manners, SafeModeHasNoSettingsNoDevicesAndNoPreviousCase)
   const auto file = QString::fromStdString((folder() / "settings.conf").string());
   EXPECT_EQ(WindowSettings(file).thrust(), 2.5) << "as it was before";
   EXPECT_EQ(library().open("ball").dissection.strokes().size(), 1u) << "cases are saved";
+}
+
+TEST_F(Manners, FileDialogsKeepNoFolderInTheUsersSettings)
+{
+  const fs::path visited = folder() / "Gorblimey^Ethelwulf";
+  fs::create_directories(visited);
+  const auto path = QString::fromStdString(visited.string());
+  {
+    QFileDialog dialog(nullptr, {}, path);
+    dialog.setOption(QFileDialog::DontUseNativeDialog);
+    dialog.setHistory({path});
+  } // where Qt keeps both
+  for (const QString& name :
+       {QSettings(QSettings::UserScope, "QtProject").fileName(),
+        QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation) +
+            "/QtProject.conf"})
+  {
+    QFile kept(name);
+    const QByteArray bytes = kept.open(QIODevice::ReadOnly) ? kept.readAll() : QByteArray();
+    EXPECT_FALSE(bytes.contains("Gorblimey")) << name.toStdString();
+  }
+  EXPECT_EQ(QFileDialog().directory().dirName(), "Gorblimey^Ethelwulf")
+      << "as long as the program runs";
 }
 
 TEST_F(Manners, SettingsThatAreGarbageAreTheUsualAndAreWrittenAnew)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 
+#include <QSettings>
 #include <QWidget>
 
 #include "Theme.h"
@@ -30,6 +31,9 @@ void notifyApplication(const QString& why)
 Application::Application(int& argc, char** argv)
   : QApplication(argc, argv)
 {
+  // Where Qt's file dialogs keep the folders that were visited (QtProject.conf) cannot be: they
+  // still open where the last one was closed, as long as the program runs.
+  QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, "/dev/null");
 }
 
 bool Application::notify(QObject* receiver, QEvent* event)

@@ -8,7 +8,8 @@ namespace petrous::workstation
 {
 
 /// Reports exceptions of event handlers instead of letting them escape: Qt's own loop would end the
-/// program, and lose unsaved removal.
+/// program, and lose unsaved removal. Qt's file dialogs keep no folder in the user's settings:
+/// folders of DICOM are named after patients.
 class Application : public QApplication
 {
   Q_OBJECT

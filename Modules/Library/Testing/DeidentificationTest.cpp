@@ -495,6 +495,9 @@ TEST_F(Deidentification, KnowsThePatientsNumberInAnyFormOfANumber)
   EXPECT_EQ(binary.count("00189073"), 0U);
   EXPECT_EQ(binary.count("00189328"), 1U);
   EXPECT_EQ(binary.count("00189220"), 1U) << "not a number is not the patient's";
+  for (const char* id : {"MRN4711471", "MRN 4711471/A", "0815-X-4711471"})
+    EXPECT_EQ(cleaned(element(0x00100020, id) + element(0x00200013, "4711471")).at("00200013"), "")
+        << id;
   EXPECT_EQ(cleaned(element(0x00100020, "00012") + element(0x00200013, "12")).at("00200013"), "12")
       << "a short number is that of anything";
 }
@@ -510,6 +513,8 @@ TEST_F(Deidentification, KeepsNoTextInPlaceOfNumbers)
     EXPECT_EQ(found.count("00189328"), 0U) << name;
     EXPECT_EQ(found.count("00209157"), 0U) << name;
   }
+  EXPECT_EQ(cleaned(element(0x00189305, "Zq4711kw")).count("00189305"), 0U)
+      << "a revolution of 1.8e267 s, and no word of the file";
 }
 
 TEST_F(Deidentification, LeavesOutLookupTablesThatHoldMoreThanTheyState)
@@ -1052,6 +1057,28 @@ TEST_F(Deidentification, ReportsWhatWasDoneBesideTheDataSet)
     EXPECT_NE(text.find(line), std::string::npos) << line << text;
 }
 
+// PS3.3 lets an attribute of type 2 be empty, not absent.
+TEST_F(Deidentification, AddsWhatTheStandardRequiresWithoutAValue)
+{
+  constexpr std::uint32_t kPatientSex = 0x00100040, kKvp = 0x00180060, kLaterality = 0x00200060,
+                          kImageLaterality = 0x00200062, kEchoTime = 0x00180081;
+  Elements found = cleaned(element(0x00180050, "0.6") + element(0x00185100, "HFS"));
+  EXPECT_EQ(found.at("00180050"), "0.6");
+  EXPECT_EQ(found.at("00185100"), "HFS");
+  for (const std::uint32_t tag : {kPatientSex, kKvp, kLaterality})
+  {
+    ASSERT_EQ(found.count(hexOf(tag)), 1U) << hexOf(tag);
+    EXPECT_EQ(found.at(hexOf(tag)), "") << hexOf(tag);
+  }
+  EXPECT_EQ(found.count(hexOf(kEchoTime)), 0U) << "of an MR";
+  EXPECT_NE(report.text().find("(0018,0060) KVP: added without a value"), std::string::npos);
+  EXPECT_EQ(report.text().find("(0018,5100) PatientPosition: added"), std::string::npos);
+
+  found = cleaned(element(kImageLaterality, "L"));
+  EXPECT_EQ(found.at(hexOf(kImageLaterality)), "L");
+  EXPECT_EQ(found.count(hexOf(kLaterality)), 0U) << "one of the two only";
+}
+
 TEST_F(Deidentification, ClearsCommentsThatBeginInOneFragmentAndEndInAnother)
 {
   const std::string image =
@@ -1099,10 +1126,11 @@ TEST_F(Deidentification, LeavesOutDocumentsAndCleansWhatIsNoImage)
                                 {"1.2.840.10008.5.1.4.1.1.104.1", "DOC", "encapsulated document"},
                                 {"1.2.840.10008.5.1.4.1.1.104.2", "DOC", "encapsulated document"},
                                 {"1.2.840.10008.5.1.4.1.1.66", "OT", "raw data"},
+                                {"1.2.840.10008.5.1.4.1.1.9.1.1", "ECG", "waveform"},
+                                {"1.2.840.10008.5.1.4.1.1.9.4.1", "AU", "waveform"},
                                 {"1.2.840.10008.5.1.4.1.1.481.3", "RTSTRUCT", ""},
                                 {"1.2.840.10008.5.1.4.1.1.66.4", "SEG", ""},
-                                {"1.2.840.10008.5.1.4.1.1.11.1", "PR", ""},
-                                {"1.2.840.10008.5.1.4.1.1.9.1.1", "ECG", ""}};
+                                {"1.2.840.10008.5.1.4.1.1.11.1", "PR", ""}};
   for (const Kind& kind : kinds)
   {
     Given given = ofClass(kind.sopClass, kind.modality);
@@ -1128,8 +1156,8 @@ TEST_F(Deidentification, LeavesOutDocumentsAndCleansWhatIsNoImage)
     const std::string bytes = allBytesBelow(out);
     for (const char* plant : {"LINDQVIST", "Lindqvist", "AURELIA", "Aurelia", "1931"})
       EXPECT_EQ(bytes.find(plant), std::string::npos) << plant;
-    EXPECT_EQ(done.report.filesWritten, 5U);
-    ASSERT_EQ(done.leftOut.size(), 7U);
+    EXPECT_EQ(done.report.filesWritten, 4U);
+    ASSERT_EQ(done.leftOut.size(), 9U);
     for (std::size_t k = 0; k < done.leftOut.size(); ++k)
       EXPECT_NE(done.leftOut[k].find(kinds[k].why), std::string::npos) << done.leftOut[k];
   }

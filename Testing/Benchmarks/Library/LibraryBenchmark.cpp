@@ -158,7 +158,7 @@ core::BenchmarkReport runLibraryBenchmark(const fs::path& work, bool quick,
   // Archive ---------------------------------------------------------------------------------------
   const fs::path archive = work / "ear.petrous";
   const std::string archiving = "archive, " + image;
-  const std::string mixed = "1 and 4";
+  const std::string mixed = "by samples";
   for (const std::optional<int> level : {std::optional<int>(), {1}, {2}, {3}, {4}, {6}, {9}, {12}})
   {
     progress.report(0.05 * level.value_or(0), "archiving");

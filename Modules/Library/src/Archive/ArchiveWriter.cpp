@@ -67,7 +67,7 @@ public:
   PackedImage(fs::path path, ObjectText what, std::optional<int> level)
     : m_file(path)
     , m_what(std::move(what))
-    , m_levels(level ? MemberLevels{level} : levelsFor(samples()))
+    , m_levels(level ? MemberLevels{*level, *level} : levelsFor(samples()))
   {
     std::string head = next(std::min<std::uintmax_t>(kLongestHeader, m_file.size()));
     const std::size_t end = head.find("\n\n");
@@ -121,14 +121,16 @@ private:
         });
   }
 
-  /// Of the whole file, from the middle of each part.
+  /// Of the whole file, from the middle of each part; not more than an eighth of it, so that they
+  /// take less time than the file.
   std::vector<std::string> samples() const
   {
-    constexpr std::uintmax_t kParts = 8;
+    constexpr std::uintmax_t kMost = 8;
+    const auto parts = std::clamp<std::uintmax_t>(m_file.size() / (8 * kSampleBytes), 1, kMost);
     std::vector<std::string> all;
-    for (std::uintmax_t n = 0; n < kParts; ++n)
+    for (std::uintmax_t n = 0; n < parts; ++n)
     {
-      const std::uintmax_t middle = (2 * n + 1) * m_file.size() / (2 * kParts);
+      const std::uintmax_t middle = (2 * n + 1) * m_file.size() / (2 * parts);
       const std::uintmax_t from = middle - std::min<std::uintmax_t>(middle, kSampleBytes / 2);
       all.push_back(bytesAt(from, std::min<std::uintmax_t>(kSampleBytes, m_file.size() - from)));
     }

@@ -1,11 +1,13 @@
 #include "GzipMembers.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <new>
-#include <numeric>
 
 #include <libdeflate.h>
 #include <tbb/parallel_for.h>
@@ -18,8 +20,13 @@ namespace
 {
 
 constexpr std::size_t kTrailer = 8; // CRC-32, length
-constexpr int kFast = 1;
-constexpr int kThorough = 4; // as fast as 80 MB/s a core is wanted to be
+
+struct Level
+{
+  int level;
+  double cost; ///< ns a byte, as on CTs; the same everywhere, so that equal images are packed alike
+};
+constexpr std::array<Level, 5> kLevels{{{1, 5.0}, {2, 9.0}, {4, 11.0}, {6, 17.0}, {7, 30.0}}};
 
 void putNumber(char* to, std::uint32_t value)
 {
@@ -88,43 +95,71 @@ std::size_t packedByZlib(const std::string& piece)
 
 } // namespace
 
-// The first of a cycle is at level 4 if any is: small files have one member.
+// The first of a cycle is at the thorough level if any is: small files have one member.
 int MemberLevels::operator()(std::size_t member) const noexcept
 {
   const auto before = [this](std::size_t n)
-  { return (n * static_cast<std::size_t>(thorough) + kCycle - 1) / kCycle; };
+  { return (n * static_cast<std::size_t>(share) + kCycle - 1) / kCycle; };
   const std::size_t n = member % kCycle;
-  return all ? *all : before(n + 1) > before(n) ? kThorough : kFast;
+  return before(n + 1) > before(n) ? thorough : fast;
 }
 
 MemberLevels levelsFor(const std::vector<std::string>& samples)
 {
-  struct Sizes
-  {
-    std::size_t fast = 0, thorough = 0, zlib = 0; // bytes
-  };
+  using Sizes = std::array<double, kLevels.size() + 1>; // bytes; the last by zlib
   std::vector<Sizes> sizes(samples.size());
   tbb::parallel_for(std::size_t{0}, samples.size(),
                     [&](std::size_t n)
                     {
-                      sizes[n] = {packedBytes(samples[n], kFast),
-                                  packedBytes(samples[n], kThorough), packedByZlib(samples[n])};
+                      for (std::size_t l = 0; l < kLevels.size(); ++l)
+                        sizes[n][l] =
+                            static_cast<double>(packedBytes(samples[n], kLevels[l].level));
+                      sizes[n].back() = static_cast<double>(packedByZlib(samples[n]));
                     });
-  const Sizes sum =
-      std::accumulate(sizes.begin(), sizes.end(), Sizes(),
-                      [](const Sizes& a, const Sizes& b) -> Sizes {
-                        return {a.fast + b.fast, a.thorough + b.thorough, a.zlib + b.zlib};
-                      });
-  MemberLevels levels;
-  if (sum.fast <= sum.zlib || sum.fast <= sum.thorough)
-    levels.thorough = 0;
-  else if (sum.zlib > sum.thorough)
+
+  // Of each level, by how much it is larger than zlib, as a part; and at worst, with the standard
+  // error of a ratio of means (Cochran, Sampling Techniques, 1977, 6.3).
+  std::array<double, kLevels.size()> excess{}, atWorst{};
+  const auto count = static_cast<double>(sizes.size());
+  for (std::size_t l = 0; l < kLevels.size(); ++l)
   {
-    const std::size_t range = sum.fast - sum.thorough;
-    levels.thorough = static_cast<int>(((sum.fast - sum.zlib) * MemberLevels::kCycle + range - 1) /
-                                       range); // at most kCycle
+    double sum = 0.0, byZlib = 0.0, squares = 0.0;
+    for (const Sizes& size : sizes)
+    {
+      sum += size[l];
+      byZlib += size.back();
+    }
+    const double ratio = sum / byZlib;
+    for (const Sizes& size : sizes)
+      squares += std::pow(size[l] - ratio * size.back(), 2);
+    excess[l] = ratio - 1.0;
+    atWorst[l] = excess[l] + std::sqrt(squares * count / std::max(count - 1.0, 1.0)) / byZlib;
   }
-  return levels;
+
+  const auto smallest =
+      static_cast<std::size_t>(std::min_element(excess.begin(), excess.end()) - excess.begin());
+  MemberLevels best{kLevels[smallest].level, kLevels[smallest].level};
+  double least = std::numeric_limits<double>::infinity();
+  const auto offer = [&](std::size_t fast, std::size_t thorough, int share)
+  {
+    const double cost =
+        (MemberLevels::kCycle - share) * kLevels[fast].cost + share * kLevels[thorough].cost;
+    if (cost >= least)
+      return;
+    least = cost;
+    best = {kLevels[fast].level, kLevels[thorough].level, share};
+  };
+  for (std::size_t l = 0; l < kLevels.size(); ++l)
+    if (atWorst[l] <= 0.0)
+    {
+      offer(l, l, MemberLevels::kCycle);
+      for (std::size_t fast = 0; fast < l; ++fast)
+        if (atWorst[fast] > 0.0)
+          offer(fast, l,
+                static_cast<int>(std::ceil(MemberLevels::kCycle * atWorst[fast] /
+                                           (atWorst[fast] - atWorst[l])))); // at most kCycle
+    }
+  return best;
 }
 
 std::string packMembers(std::string_view bytes, const MemberLevels& levels)

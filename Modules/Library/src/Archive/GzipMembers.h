@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,17 +23,18 @@ struct MemberLevels
 {
   static constexpr int kCycle = 12; ///< members
 
-  std::optional<int> all; ///< of every member; nullopt: level 1 or 4
-  int thorough = kCycle;  ///< of kCycle members in turn, how many at level 4
+  int fast = 1, thorough = 1;
+  int share = kCycle; ///< of kCycle members in turn, how many at `thorough`
 
   int operator()(std::size_t member) const noexcept;
 };
 
-constexpr std::size_t kSampleBytes = std::size_t{64} << 10; ///< of a sample for levelsFor
+constexpr std::size_t kSampleBytes = std::size_t{128} << 10; ///< of a sample for levelsFor
 
-/// The fastest of the mixes of level 1 and 4 that makes pieces of a file no larger than zlib does
-/// at level 6 (gzip -6); level 4 alone where none does. Voxels of CTs differ too much for one mix:
-/// at level 1 those of scanners are up to 9 % larger than by zlib, noise alone is smaller.
+/// The fastest mix of two levels up to 7 that makes a file no larger than zlib does at level 6
+/// (gzip -6), by samples of it (at least one) and with the standard error of what they say; the
+/// smallest level where none does. Voxels of CTs differ too much for one mix: at level 1 those of
+/// scanners are up to 9 % larger than by zlib, noise alone is as large.
 MemberLevels levelsFor(const std::vector<std::string>& samples);
 
 /// Packs bytes into members of kMemberBytes, in parallel. A file that is packed piece by piece is

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -450,6 +451,7 @@ bool isLetter(char c)
 }
 
 constexpr std::size_t kTellingBytes = 6;
+constexpr double kMostPlausible = 1e15; // no quantity of an image is larger; text read as one is
 
 // Numbers whose bytes are those of a name.
 bool areLetters(const std::string& text)
@@ -785,9 +787,14 @@ private:
     {
       using Number = std::remove_const_t<std::remove_pointer_t<decltype(values)>>;
       const std::string text = textIn(values, length);
+      const Number* end = values + length / sizeof(Number);
+      const bool isImplausible = std::any_of(
+          values, end,
+          [](Number value) { return std::abs(static_cast<double>(value)) > kMostPlausible; });
       return !areLetters(text) &&
-             !(mayBeText(text) && (std::is_integral_v<Number> || m_people.hasWord(text))) &&
-             std::none_of(values, values + length / sizeof(Number),
+             !(mayBeText(text) &&
+               (std::is_integral_v<Number> || isImplausible || m_people.hasWord(text))) &&
+             std::none_of(values, end,
                           [this](Number value)
                           { return m_people.isIdentifier(static_cast<double>(value)); });
     };
@@ -1523,6 +1530,9 @@ std::string unsuitable(const std::string& sopClass)
     return "a structured document, whose text cannot be de-identified";
   if (name.rfind("Encapsulated", 0) == 0)
     return "an encapsulated document, whose text cannot be de-identified";
+  // A voice is one's own, and nothing else would be left of the file without its samples.
+  if (sopClass.rfind("1.2.840.10008.5.1.4.1.1.9.", 0) == 0)
+    return "a waveform, whose samples may identify";
   if (name.find("RawData") != std::string::npos)
     return "raw data of a manufacturer, which may hold anything";
   return {};
@@ -1548,6 +1558,36 @@ bool coversAHead(DcmItem& item)
          item.findAndGetFloat64(DCM_PixelSpacing, across, 1, OFTrue).good() &&
          down * static_cast<double>(numberIn(item, DCM_Rows, 0)) > kHead &&
          across * static_cast<double>(numberIn(item, DCM_Columns, 0)) > kHead;
+}
+
+// Attributes of type 2 or 2C that PS3.3 requires (A.3, A.4, C.7.1.1, C.7.2.1, C.7.3.1, C.7.4.1,
+// C.7.5.1, C.7.6.2, C.8.2.1, C.8.3.1) and the data set lacks: empty, they say that the value is not
+// known, which is so.
+std::vector<DcmTagKey> missingOfType2(DcmItem& dataSet, const std::string& sopClass)
+{
+  if (iodKindOf(sopClass) == IodKind::Other)
+    return {};
+  std::vector<DcmTagKey> keys{DCM_PatientName, DCM_PatientID,       DCM_PatientBirthDate,
+                              DCM_PatientSex,  DCM_StudyDate,       DCM_StudyTime,
+                              DCM_StudyID,     DCM_AccessionNumber, DCM_ReferringPhysicianName};
+  const bool isCt = sopClass == UID_CTImageStorage, isMr = sopClass == UID_MRImageStorage;
+  if (isCt || isMr)
+  {
+    keys.insert(keys.end(), {DCM_Manufacturer, DCM_SeriesNumber, DCM_InstanceNumber,
+                             DCM_PositionReferenceIndicator, DCM_SliceThickness});
+    if (!dataSet.tagExists(DCM_ImageLaterality))
+      keys.push_back(DCM_Laterality);
+    if (!dataSet.tagExists(DCM_PatientOrientationCodeSequence))
+      keys.push_back(DCM_PatientPosition);
+  }
+  if (isCt)
+    keys.insert(keys.end(), {DCM_KVP, DCM_AcquisitionNumber});
+  if (isMr)
+    keys.insert(keys.end(), {DCM_EchoTime, DCM_EchoTrainLength});
+  keys.erase(std::remove_if(keys.begin(), keys.end(),
+                            [&dataSet](const DcmTagKey& key) { return dataSet.tagExists(key); }),
+             keys.end());
+  return keys;
 }
 
 void putCode(DcmItem& dataSet, unsigned long number, const char* value, const char* meaning)
@@ -1906,6 +1946,10 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
   if (cleared.hadText)
     cleaner.noteBeside(pixelData, "PixelData",
                        "comments, application segments and gaps of the compression cleared", false);
+  for (const DcmTagKey& key : missingOfType2(*dataSet, sopClass))
+    if (dataSet->insertEmptyElement(key).good())
+      cleaner.noteBeside(pathOf(key), dictionaryEntry(key).name,
+                         "added without a value, as the standard requires the attribute", false);
   putMethod(*dataSet, m_options, profile.edition(), isMasked);
 
   const std::string pseudonym = m_key.patient(cleaner.patient());

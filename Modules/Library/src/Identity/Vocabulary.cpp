@@ -203,11 +203,15 @@ void IdentityWords::addIdentifier(const std::string& text)
   std::string digits; // "943-476-919"
   std::remove_copy_if(whole.begin(), whole.end(), std::back_inserter(digits),
                       [](char c) { return c == ' ' || c == '-' || c == '/' || c == '.'; });
-  const auto number = digits.find_first_not_of("0123456789") == std::string::npos
-                          ? core::parseDouble(digits)
-                          : std::nullopt;
-  if (number && *number >= kMinNumber)
-    m_numbers.insert(*number);
+  constexpr const char* kDigits = "0123456789";
+  for (std::size_t from = digits.find_first_of(kDigits); from != std::string::npos;)
+  {
+    const std::size_t to = std::min(digits.find_first_not_of(kDigits, from), digits.size());
+    if (const auto number = core::parseDouble(digits.substr(from, to - from));
+        number && *number >= kMinNumber)
+      m_numbers.insert(*number);
+    from = digits.find_first_of(kDigits, to);
+  }
 }
 
 bool IdentityWords::hasWord(const std::string& text) const

@@ -26,8 +26,8 @@ public:
   /// One of the words.
   bool hasWord(const std::string& text) const;
 
-  /// An identifier of at least five characters, all of it, or its number in another form (blanks
-  /// around it, leading zeros, a sign, ".0", an exponent).
+  /// An identifier of at least five characters, all of it, or a number in it (MRN4711471) in any
+  /// form (blanks around it, leading zeros, a sign, ".0", an exponent).
   bool isIdentifier(const std::string& text) const;
   bool isIdentifier(double number) const;
 

@@ -34,9 +34,8 @@ struct ArchiveOptions
   /// Only the manifest, the strokes and small attachments: no image, label map or mesh. It is
   /// restored where the very same CT is.
   bool planOnly = false;
-  /// Of the images' compression, 1 (fast) to 12 (small). nullopt: as many pieces of each image at
-  /// level 4 and the others at level 1 as make it no larger than gzip -6 does, by samples of it;
-  /// all at level 4 where that is not enough (images of scanners: up to some 2 % larger).
+  /// Of the images' compression, 1 (fast) to 12 (small). nullopt: the fastest mix of two levels
+  /// up to 7 that makes the image no larger than gzip -6 does, by samples of it.
   std::optional<int> level = {};
   bool withoutNotes = false; ///< Description::note stays here
   /// Dates, times (of the operation, attachments and strokes) and who signed registrations go

@@ -138,13 +138,9 @@ void addRemoved(const dissection::Dissection& work, std::size_t before, SessionR
 
 bool RecordedCourse::add(const session::TickRecord& record)
 {
-  using session::ServoFault;
-  const auto fault = static_cast<ServoFault>(record.fault);
-  const bool isSound =
-      fault != ServoFault::Device && fault != ServoFault::Clock && fault != ServoFault::Parameters;
-  const haptics::Pose pose = record.proxy.pose();
-  if (!isSound || !pose.position.allFinite()) // the proxy stands where it was
+  if (!session::hasToolPose(record))
     return false;
+  const haptics::Pose pose = record.proxy.pose();
   RecordedTool tool;
   tool.center = pose.position;
   tool.axisToHand = pose.rotation * Eigen::Vector3d::UnitZ();

@@ -82,6 +82,13 @@ bool TickInput::clutched() const noexcept
   return parameters.clutch || (buttons & parameters.clutchButtons) != 0;
 }
 
+bool hasToolPose(const TickRecord& record) noexcept
+{
+  const auto fault = static_cast<ServoFault>(record.fault);
+  return fault != ServoFault::Device && fault != ServoFault::Clock &&
+         fault != ServoFault::Parameters && record.proxy.pose().finite();
+}
+
 bool isHeldOff(const TickRecord& record) noexcept
 {
   const double force = record.wrench.wrench().linear.norm();

@@ -90,6 +90,10 @@ static_assert(sizeof(TickRecord) == 8 + sizeof(TickInput) + 2 * 56 + 2 * 48 + 8 
 /// One sentence on the tick's fault; empty if there is none. Allocates.
 std::string toString(const TickRecord& record);
 
+/// Whether the tick had a valid reading and knows the tool's pose. At any other tick `mapped` and
+/// `proxy` stand where they were, or at the origin before the tool is placed.
+bool hasToolPose(const TickRecord& record) noexcept;
+
 /// "the shaft", "the handpiece", "shaft and handpiece": which parts other than the burr press on
 /// tissue; empty if none. Allocates.
 std::string holderToString(std::uint8_t held);

@@ -3133,6 +3133,22 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
         <source>Drill &gt; Instrument takes it up again while its file is there</source>
         <translation>Bohren &gt; Instrument nimmt es wieder auf, solange seine Datei da ist</translation>
     </message>
+    <message>
+        <source>From here the hand would come from behind the picture: look at the left ear first, as in Surgical position (8)</source>
+        <translation>Von hier käme die Hand von hinter dem Bild: Sehen Sie zuerst auf das linke Ohr, wie in Operationslage (8)</translation>
+    </message>
+    <message>
+        <source>From here the hand would come from behind the picture: look at the right ear first, as in Surgical position (9)</source>
+        <translation>Von hier käme die Hand von hinter dem Bild: Sehen Sie zuerst auf das rechte Ohr, wie in Operationslage (9)</translation>
+    </message>
+    <message>
+        <source>Handpiece for the left ear: %1° from the line of sight, at %2° on the screen</source>
+        <translation>Handstück für das linke Ohr: %1° zur Blickrichtung, bei %2° auf dem Bildschirm</translation>
+    </message>
+    <message>
+        <source>Handpiece for the right ear: %1° from the line of sight, at %2° on the screen</source>
+        <translation>Handstück für das rechte Ohr: %1° zur Blickrichtung, bei %2° auf dem Bildschirm</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::DrillSound</name>
@@ -9690,6 +9706,50 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>Where the crop box begins and ends, in mm</source>
         <translation>Wo der Beschnittquader beginnt und endet, in mm</translation>
+    </message>
+    <message>
+        <source>Handpiece: &amp;transmastoid</source>
+        <translation>Handstück: &amp;transmastoidal</translation>
+    </message>
+    <message>
+        <source>As held for a mastoidectomy: onto the mastoid from the side, the surgeon behind the ear. It follows the view from there</source>
+        <translation>Wie für eine Mastoidektomie gehalten: von der Seite auf das Mastoid, der Operateur hinter dem Ohr. Von da an folgt es der Ansicht</translation>
+    </message>
+    <message>
+        <source>Handpiece: &amp;posterior tympanotomy</source>
+        <translation>Handstück: &amp;posteriore Tympanotomie</translation>
+    </message>
+    <message>
+        <source>As held for the facial recess: 30° from behind, past the posterior wall of the canal. It follows the view from there</source>
+        <translation>Wie für den Recessus facialis gehalten: 30° von hinten, an der hinteren Gehörgangswand vorbei. Von da an folgt es der Ansicht</translation>
+    </message>
+    <message>
+        <source>Handpiece: trans&amp;labyrinthine</source>
+        <translation>Handstück: trans&amp;labyrinthär</translation>
+    </message>
+    <message>
+        <source>As held for the labyrinth: 15° from behind, along the internal auditory canal. It follows the view from there</source>
+        <translation>Wie für das Labyrinth gehalten: 15° von hinten, entlang dem inneren Gehörgang. Von da an folgt es der Ansicht</translation>
+    </message>
+    <message>
+        <source>Handpiece: &amp;retrosigmoid</source>
+        <translation>Handstück: &amp;retrosigmoidal</translation>
+    </message>
+    <message>
+        <source>As held behind the sinus: 45° from behind, along the posterior face of the petrous pyramid. It follows the view from there</source>
+        <translation>Wie hinter dem Sinus gehalten: 45° von hinten, entlang der Hinterfläche der Felsenbeinpyramide. Von da an folgt es der Ansicht</translation>
+    </message>
+    <message>
+        <source>Handpiece: &amp;middle fossa</source>
+        <translation>Handstück: &amp;mittlere Schädelgrube</translation>
+    </message>
+    <message>
+        <source>As held above the ear: 45° from above, the surgeon at the vertex. It follows the view from there</source>
+        <translation>Wie oberhalb des Ohrs gehalten: 45° von oben, der Operateur am Scheitel. Von da an folgt es der Ansicht</translation>
+    </message>
+    <message>
+        <source>F&amp;or an approach</source>
+        <translation>&amp;Für einen Zugang</translation>
     </message>
 </context>
 </TS>

@@ -43,6 +43,10 @@ public:
   std::function<std::optional<scene::ViewState::Instrument>()> instrument;
   std::function<void(const std::optional<scene::ViewState::Instrument>&)> showInstrument;
 
+  /// Likewise how the handpiece is held.
+  std::function<std::optional<scene::ViewState::Handpiece>()> handpiece;
+  std::function<void(const std::optional<scene::ViewState::Handpiece>&)> showHandpiece;
+
   core::CameraPose camera() const; ///< as a save would store it
   void showCamera(const core::CameraPose& camera);
 

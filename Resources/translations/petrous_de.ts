@@ -9749,7 +9749,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>F&amp;or an approach</source>
-        <translation>&amp;Für einen Zugang</translation>
+        <translation>Fü&amp;r einen Zugang</translation>
     </message>
 </context>
 </TS>

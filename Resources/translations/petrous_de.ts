@@ -2132,10 +2132,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>&amp;Hinzufügen</translation>
     </message>
     <message>
-        <source>Another material, with the numbers of the one that is selected</source>
-        <translation>Ein weiteres Material, mit den Zahlen des ausgewählten</translation>
-    </message>
-    <message>
         <source>&amp;Remove</source>
         <translation>&amp;Entfernen</translation>
     </message>
@@ -2192,10 +2188,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>Hinzu&amp;fügen</translation>
     </message>
     <message>
-        <source>Another burr, of the kind and with the numbers of the one that is selected</source>
-        <translation>Eine weitere Fräse, mit Art und Zahlen der ausgewählten</translation>
-    </message>
-    <message>
         <source>R&amp;emove</source>
         <translation>Entfer&amp;nen</translation>
     </message>
@@ -2206,6 +2198,18 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>Cases with the burr “%1” get the usual one of its kind until it exists again.</source>
         <translation>Fälle mit der Fräse „%1“ bekommen die übliche ihrer Art, bis es sie wieder gibt.</translation>
+    </message>
+    <message>
+        <source>not stated</source>
+        <translation type="unfinished">nicht angegeben</translation>
+    </message>
+    <message>
+        <source>Another material, with the numbers of the one that is selected. Their source is not stated until you enter it</source>
+        <translation>Ein weiteres Material mit den Zahlen des ausgewählten. Ihre Quelle ist nicht angegeben, bis Sie sie eingeben</translation>
+    </message>
+    <message>
+        <source>Another burr, of the kind and with the numbers of the one that is selected. Their source is not stated until you enter it</source>
+        <translation>Eine weitere Fräse von der Art und mit den Zahlen der ausgewählten. Ihre Quelle ist nicht angegeben, bis Sie sie eingeben</translation>
     </message>
 </context>
 <context>
@@ -2877,12 +2881,6 @@ X oder die zweite Taste des Geräts, gehalten: Nur die Hand bewegt sich.</transl
         <translation> N</translation>
     </message>
     <message>
-        <source>Drill mode (D): the left button, or Space, drills where the burr lies.
-Without it a drag turns the patient.</source>
-        <translation>Bohrmodus (D): Die linke Taste oder die Leertaste bohrt, wo die Fräse liegt.
-Ohne ihn dreht Ziehen den Patienten.</translation>
-    </message>
-    <message>
         <source>Pointer (P): touches and cuts nothing; reads the image, structure and the distance to the nearest surface at its tip</source>
         <translation>Zeiger (P): berührt und trägt nichts ab; liest an seiner Spitze das Bild, die Struktur und den Abstand zur nächsten Oberfläche</translation>
     </message>
@@ -2973,6 +2971,14 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
     <message>
         <source>Diameter of the burr, mm, of those that are sold (A or [ smaller, S or ] larger)</source>
         <translation>Durchmesser der Fräse, mm, unter den erhältlichen (A oder [ kleiner, S oder ] größer)</translation>
+    </message>
+    <message>
+        <source>Drill mode (D): the left button, or Space, drills where the burr lies.
+Let go, it lifts by a millimetre and rests there: the handpiece has no weight, and X holds it in place.
+Without it a drag turns the patient.</source>
+        <translation>Bohrmodus (D): Die linke Taste oder die Leertaste bohrt, wo die Fräse liegt.
+Losgelassen hebt sie sich um einen Millimeter und ruht dort: Das Handstück hat kein Gewicht, und X hält es an seinem Ort.
+Ohne ihn dreht Ziehen den Patienten.</translation>
     </message>
 </context>
 <context>
@@ -6381,10 +6387,6 @@ Verletzt: %1, %2</translation>
         <translation>Bohrzeit</translation>
     </message>
     <message>
-        <source>Drill switched on</source>
-        <translation>Bohrer eingeschaltet</translation>
-    </message>
-    <message>
         <source>Path of the burr</source>
         <translation>Weg der Fräse</translation>
     </message>
@@ -6451,6 +6453,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Highest speed</source>
         <translation>Höchste Drehzahl</translation>
+    </message>
+    <message>
+        <source>Times the drill was switched on</source>
+        <translation>Wie oft der Bohrer eingeschaltet wurde</translation>
     </message>
 </context>
 <context>

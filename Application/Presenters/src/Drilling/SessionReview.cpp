@@ -138,6 +138,8 @@ void addRemoved(const dissection::Dissection& work, std::size_t before, SessionR
 
 bool RecordedCourse::add(const session::TickRecord& record)
 {
+  const bool wasOn = m_isOn;
+  m_isOn = record.drill != 0 || (wasOn && session::isInterruption(record));
   if (!session::hasToolPose(record))
     return false;
   const haptics::Pose pose = record.proxy.pose();
@@ -168,7 +170,7 @@ bool RecordedCourse::add(const session::TickRecord& record)
     m_spindle.add(m_lastInput, seconds);
   }
   const bool isStart = tool.drilling && (isFirst || !m_last.drilling);
-  m_metrics.drillStarts += isStart;
+  m_metrics.drillStarts += tool.drilling && !wasOn;
   if (const double way = (tool.center - m_step).norm(); way >= kStep)
   {
     m_metrics.path += way;

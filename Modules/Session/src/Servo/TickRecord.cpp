@@ -102,6 +102,23 @@ bool isArriving(const TickRecord& record) noexcept
          static_cast<ServoFault>(record.fault) == ServoFault::None;
 }
 
+bool isInterruption(const TickRecord& record) noexcept
+{
+  if (!record.input.drillWanted())
+    return false;
+  switch (static_cast<ServoFault>(record.fault))
+  {
+  case ServoFault::Stalled:
+  case ServoFault::Device:
+  case ServoFault::Clock:
+    return true;
+  case ServoFault::None:
+    return isArriving(record);
+  default:
+    return false;
+  }
+}
+
 std::string holderToString(std::uint8_t held)
 {
   const bool shaft = (held & TickRecord::kShaft) != 0;

@@ -104,6 +104,10 @@ bool isHeldOff(const TickRecord& record) noexcept;
 /// The drill is to be on, but a pointer's tool is still on its way to where it is pressed.
 bool isArriving(const TickRecord& record) noexcept;
 
+/// The drill is to be on, but the machine stood still, a reading was lost, or a pointer's tool is
+/// on its way back after that. Of a drill that was on, it divides no stroke.
+bool isInterruption(const TickRecord& record) noexcept;
+
 /// Whether two records are bit-identical.
 bool identical(const TickRecord& a, const TickRecord& b) noexcept;
 

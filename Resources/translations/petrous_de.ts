@@ -2201,7 +2201,7 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     </message>
     <message>
         <source>not stated</source>
-        <translation type="unfinished">nicht angegeben</translation>
+        <translation>nicht angegeben</translation>
     </message>
     <message>
         <source>Another material, with the numbers of the one that is selected. Their source is not stated until you enter it</source>

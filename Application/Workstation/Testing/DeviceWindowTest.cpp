@@ -481,6 +481,28 @@ TEST_F(InputDevices, AServerThatIsKilledComesBackAndEndsWithTheWindow)
   openWindow();
 }
 
+TEST_F(InputDevices, AServerThatIsKilledInContactLeavesTheStrokeSavedAndTheMouseInCharge)
+{
+  ASSERT_NO_FATAL_FAILURE(drillByServer());
+  FakeServer& server = *served;
+  QTest::keyPress(&view(), Qt::Key_Space);
+  glide(server, Vector3d::Zero(), {0.0, 0.0, -6.0}); // 2 mm of the tool into the bone
+  ASSERT_TRUE(waitFor([this] { return !window().model().value().dissection.mask().untouched(); }));
+  ASSERT_TRUE(window().model().drilling());
+  std::ifstream file(folder() / (serverName() + ".pid"));
+  int pid = 0;
+  ASSERT_TRUE(file >> pid);
+  ASSERT_EQ(::kill(pid, SIGKILL), 0);
+  served.reset(); // its block speaks no more
+  EXPECT_TRUE(waitFor([this] { return choice().currentText() == "Mouse"; }));
+  QTest::keyRelease(&view(), Qt::Key_Space);
+  EXPECT_FALSE(window().model().drilling());
+  ASSERT_TRUE(settled());
+  const auto ball = library().open("ball");
+  ASSERT_FALSE(ball.dissection.strokes().empty());
+  EXPECT_GT(ball.dissection.strokes().front()->info.removed, 0.0);
+}
+
 // The example's handle goes by 7.1 mm for each newton, at once: it oscillates beyond 0.141 N/mm.
 TEST_F(InputDevices, TheTestOfADeviceShowsWhatItBearsAndKeepsIt)
 {

@@ -8076,6 +8076,10 @@ Nichts verlässt diesen Rechner.</translation>
         <source>Opacity; of a lumen, how much it tints what is around it; of soft tissue, a factor of that of its function</source>
         <translation>Deckkraft; eines Lumens: wie sehr es tönt, was um es ist; des Weichgewebes: ein Faktor der Deckkraft seiner Funktion</translation>
     </message>
+    <message>
+        <source>The presets are rigid: no stiffness of these structures under a burr is known to us, and a value is your own estimate</source>
+        <translation>Die Vorgaben sind starr: Uns ist keine Steifigkeit dieser Strukturen unter einer Fräse bekannt, ein Wert ist Ihre eigene Schätzung</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::StructuresModel</name>

@@ -258,6 +258,8 @@ void DrillController::holdFor(presenters::SurgicalApproach approach)
             : tr("From here the hand would come from behind the picture: look at the right ear "
                  "first, as in Surgical position (9)"));
   setHandpiece(hand);
+  if (!m_model.drilling())
+    m_view.tool().PointAgain(); // the view may have turned since the pointer moved
   emit statusMessage((ear == scene::Side::Left
                           ? tr("Handpiece for the left ear: %1° from the line of sight, at %2° on "
                                "the screen")

@@ -535,6 +535,36 @@ TEST_F(TouchCommand, SaysWhereAReplayDiffersAndLeavesTheCase)
   EXPECT_EQ(libraryContent(), before);
 }
 
+TEST_F(TouchCommand, LogsNoPoseWhereNoReadingTellsIt)
+{
+  const auto file = m_folder / "hand.ticks";
+  json("drill plane --path " + quoted(press(1.13, false)) + " --record " + quoted(file));
+  constexpr std::uint64_t kSilent = 5; // ticks
+  {
+    petrous::session::RecordingReader reader(file);
+    petrous::session::RecordingWriter writer(m_folder / "late.ticks", reader.setup());
+    petrous::session::RecordingBlock block;
+    while (reader.next(block))
+      for (auto& tick : block.ticks)
+      {
+        if (tick.number < kSilent)
+          tick.input.health =
+              static_cast<std::uint32_t>(petrous::haptics::DeviceHealth::Disconnected);
+        writer.add(tick);
+      }
+  }
+  run("drill plane --replay " + quoted(m_folder / "late.ticks") + " --log " +
+      quoted(m_folder / "log.csv")); // differs from what was recorded
+  const std::vector<Row> rows = log("log.csv");
+  ASSERT_GT(rows.size(), 500u);
+  for (std::size_t n = 0; n < kSilent; ++n)
+    for (const char* column : {"dx_mm", "dy_mm", "dz_mm", "dqw", "px_mm", "py_mm", "pz_mm", "pqw"})
+      EXPECT_TRUE(std::isnan(rows[n].at(column))) << n << ' ' << column;
+  EXPECT_EQ(rows[0].at("fz_n"), 0.0);
+  EXPECT_NEAR(rows.back().at("px_mm"), 0.3, 0.05);
+  EXPECT_NEAR(rows.back().at("dz_mm"), 1.13, 1e-6);
+}
+
 TEST_F(TouchCommand, SaysWhatDoesNotFitARecordingAndLeavesTheCase)
 {
   const auto file = m_folder / "hand.ticks";

@@ -33,6 +33,22 @@ protected:
 
 } // namespace
 
+TEST_F(ViewCommand, HoldsTheHandpieceForAnApproachAsTheCaseIsLookedAt)
+{
+  json("describe ear --side right");
+  const Json kept = json("view ear --view surgical-right --handpiece transmastoid");
+  EXPECT_NEAR(kept["tool"]["handpiece"]["turn_deg"], -40.0, 1e-6);
+  EXPECT_NEAR(kept["tool"]["handpiece"]["tilt_deg"], 20.0, 1e-6);
+  EXPECT_EQ(json("view ear")["tool"], kept["tool"]);
+  const Json left = json("view ear --handpiece transmastoid --left-hand");
+  EXPECT_NEAR(left["tool"]["handpiece"]["turn_deg"], -140.0, 1e-6);
+  const auto behind = run("view ear --view left --handpiece retrosigmoid");
+  EXPECT_EQ(behind.code, 2);
+  EXPECT_NE(behind.err.find("--view surgical-right"), std::string::npos) << behind.err;
+  EXPECT_EQ(json("view ear")["tool"], left["tool"]);
+  EXPECT_TRUE(json("view ear --handpiece usual")["tool"]["handpiece"].is_null());
+}
+
 TEST_F(ViewCommand, RenderAndSliceShowWhatIsSaved)
 {
   const Json info = json("info ear").at("ct");

@@ -107,7 +107,16 @@ void doctor(const Context& context)
   if (!hasDisplay)
     advise("there is no display: the command works, the workstation needs one");
 
-  const std::vector<devices::FoundDevice> devices = devices::findDevices(devices::HidLibrary());
+  std::vector<devices::FoundDevice> devices;
+  try
+  {
+    devices = devices::findDevices(devices::HidLibrary());
+  }
+  catch (const devices::HidError& error)
+  {
+    advise(std::string(error.what()) +
+           "; install libhidapi-hidraw0 for a SpaceMouse or a foot pedal");
+  }
   for (const auto& device : devices)
     if (!device.advice.empty())
       advise(device.title() + ": " + device.advice);

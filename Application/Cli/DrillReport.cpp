@@ -28,10 +28,15 @@ void write(std::string& row, const double (&values)[count])
     row += "," + number(value);
 }
 
-void write(std::string& row, const session::PoseValues& pose)
+void write(std::string& row, const session::PoseValues& pose, bool isKnown)
 {
-  write(row, pose.position);
-  write(row, pose.rotation);
+  if (!isKnown)
+    row += ",nan,nan,nan,nan,nan,nan,nan";
+  else
+  {
+    write(row, pose.position);
+    write(row, pose.rotation);
+  }
 }
 
 void write(std::string& row, const session::WrenchValues& wrench)
@@ -83,8 +88,9 @@ void DrillLog::add(const session::TickRecord& record, const std::optional<TickRe
   if (!removal)
     measure();
   m_rows += number(record.time());
-  write(m_rows, record.mapped);
-  write(m_rows, record.proxy);
+  const bool isKnown = session::hasToolPose(record);
+  write(m_rows, record.mapped, isKnown);
+  write(m_rows, record.proxy, isKnown);
   write(m_rows, record.wrench);
   write(m_rows, record.output);
   m_rows += "," + std::to_string(record.contacts);
@@ -139,11 +145,7 @@ void DrillReport::add(const session::TickRecord& record, const std::optional<Tic
   m_inside += record.status == static_cast<std::uint8_t>(haptics::ProxyStatus::Inside);
   if (m_log)
     m_log->add(record, removal);
-  using session::ServoFault;
-  const auto fault = static_cast<ServoFault>(record.fault);
-  m_placed = m_placed || (fault != ServoFault::Device && fault != ServoFault::Clock &&
-                          fault != ServoFault::Parameters);
-  if (m_distances && m_placed)
+  if (m_distances && session::hasToolPose(record))
     m_distances->add(record.proxy.pose());
 }
 

@@ -97,7 +97,6 @@ private:
   std::size_t m_position; // at the start
   std::size_t m_before;   // number of strokes at the start
   bool m_cuts;            // the tool is a burr
-  bool m_placed = false;  // the device controls the tool
   core::TickTimes m_times;
   double m_force = 0.0;       // N, maximum of all ticks
   double m_torque = 0.0;      // N mm

@@ -10,7 +10,9 @@
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Dissection/Catalogues.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/HandpiecePresets.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Rendering/Stereo.h"
 
 namespace petrous::cli
@@ -22,14 +24,16 @@ namespace
 using scene::ViewState;
 using Slices = ViewState::Slices;
 
+constexpr const char* kUsual = "usual"; // handpiece
 constexpr const char* kPlanes[] = {"axial", "coronal", "sagittal"};
 
 struct ViewCommandOptions
 {
-  std::string caseName, view, camera, at, window, stereo, crop, roi, overlay, mode, burr;
+  std::string caseName, view, camera, at, window, stereo, crop, roi, overlay, mode, burr, handpiece;
   std::string show, saveAs;
   std::vector<std::string> clip, zoom, cleared, removed;
   ToolOptions instrument;
+  bool leftHand = false;
   LightOptions light;
   std::optional<double> eyeSeparation, convergence, opacity, diameter, rpm, thrust;
 };
@@ -114,6 +118,21 @@ void changeSlices(scene::Case& value, const ViewCommandOptions& options)
     saved->overlay->opacity = *options.opacity;
 }
 
+// As the case is looked at by then.
+ViewState::Handpiece handpieceFor(const scene::Case& value, const ViewCommandOptions& options)
+{
+  const auto approach = presenters::parseSurgicalApproach(options.handpiece);
+  const scene::Side ear = presenters::earOf(value);
+  const auto hand =
+      presenters::handpieceAlong(presenters::shaftOf(approach.value(), ear, options.leftHand),
+                                 presenters::currentCamera(value));
+  if (!hand)
+    throw UsageError("--handpiece: in this view the hand would come from behind the picture; look "
+                     "at the ear first, as with --view " +
+                     std::string(ear == scene::Side::Left ? "surgical-left" : "surgical-right"));
+  return *hand;
+}
+
 void change(scene::Case& value, const ViewCommandOptions& options,
             const std::optional<dissection::BurrModel>& burr,
             const std::optional<ViewState::Instrument>& instrument)
@@ -152,7 +171,7 @@ void change(scene::Case& value, const ViewCommandOptions& options,
     view.clipping.planes = parsePlanes(options.clip);
   if (const auto crop = parseCrop(options.crop, options.roi, value.ct.geometry))
     view.clipping.crop = crop;
-  if (burr || options.diameter || options.rpm || options.thrust)
+  if (burr || options.diameter || options.rpm || options.thrust || !options.handpiece.empty())
   {
     if (!view.tool)
       view.tool.emplace();
@@ -161,6 +180,10 @@ void change(scene::Case& value, const ViewCommandOptions& options,
     view.tool->burr.diameter = options.diameter.value_or(view.tool->burr.diameter);
     view.tool->burr.rpm = options.rpm.value_or(view.tool->burr.rpm);
     view.tool->thrust = options.thrust.value_or(view.tool->thrust);
+    if (options.handpiece == kUsual)
+      view.tool->handpiece.reset();
+    else if (!options.handpiece.empty())
+      view.tool->handpiece = handpieceFor(value, options);
   }
   if (instrument)
     view.instrument = instrument;
@@ -249,6 +272,9 @@ nlohmann::json viewJson(const scene::Case& value)
     stereo = {{"mode", view.stereo->mode},
               {"eye_separation_mm", orNull(view.stereo->eyeSeparation)},
               {"convergence_mm", orNull(view.stereo->convergence)}};
+  nlohmann::json hand = nullptr;
+  if (view.tool && view.tool->handpiece)
+    hand = {{"turn_deg", view.tool->handpiece->turn}, {"tilt_deg", view.tool->handpiece->tilt}};
   nlohmann::json tool = nullptr;
   if (view.tool)
     tool = {{"burr", dissection::nameOf(view.tool->burr.kind)},
@@ -256,7 +282,8 @@ nlohmann::json viewJson(const scene::Case& value)
             {"diameter_mm", view.tool->burr.diameter},
             {"rpm", view.tool->burr.rpm},
             {"thrust_n", view.tool->thrust},
-            {"by_wheel", view.tool->byWheel}};
+            {"by_wheel", view.tool->byWheel},
+            {"handpiece", std::move(hand)}};
   nlohmann::json instrument = nullptr;
   if (view.instrument)
     instrument = {{"name", view.instrument->name},
@@ -392,6 +419,18 @@ void addViewCommand(CLI::App& app, Context& context)
   command->add_option("--thrust", options->thrust, "Of a device without force")
       ->type_name("N")
       ->check(within({0.0, 100.0, "N"}));
+  std::vector<std::string> hands{kUsual};
+  for (const presenters::SurgicalApproach approach : presenters::kSurgicalApproaches)
+    hands.emplace_back(presenters::nameOf(approach));
+  CLI::Option* handpiece =
+      command
+          ->add_option("--handpiece", options->handpiece,
+                       "How the window's handpiece is held, seen as the case is then: usual, "
+                       "transmastoid, posterior-tympanotomy, translabyrinthine, retrosigmoid or "
+                       "middle-fossa")
+          ->check(oneOf(hands));
+  command->add_flag("--left-hand", options->leftHand, "The handpiece is in the left hand")
+      ->needs(handpiece);
   addToolOptions(*command, "--instrument",
                  "The instrument that the case keeps for the window, as drill --tool: its surface "
                  "is stored with the case",

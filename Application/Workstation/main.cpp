@@ -86,13 +86,7 @@ std::filesystem::path libraryFolder(const QCommandLineParser& parser)
 petrous::presenters::DeviceSources deviceSources()
 {
   petrous::presenters::DeviceSources sources;
-  try
-  {
-    sources.hid = std::make_shared<const petrous::devices::HidLibrary>();
-  }
-  catch (const petrous::devices::HidError&) // the mouse remains; 'petrous doctor' reports why
-  {
-  }
+  sources.hid = std::make_shared<const petrous::devices::HidLibrary>();
   sources.serverFolders = petrous::devices::serverFolders();
   sources.limits = petrous::presenters::deviceLimitsFile();
   return sources;

@@ -2136,10 +2136,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>&amp;Hinzufügen</translation>
     </message>
     <message>
-        <source>Another material, with the numbers of the one that is selected</source>
-        <translation>Ein weiteres Material, mit den Zahlen des ausgewählten</translation>
-    </message>
-    <message>
         <source>&amp;Remove</source>
         <translation>&amp;Entfernen</translation>
     </message>
@@ -2196,10 +2192,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>Hinzu&amp;fügen</translation>
     </message>
     <message>
-        <source>Another burr, of the kind and with the numbers of the one that is selected</source>
-        <translation>Eine weitere Fräse, mit Art und Zahlen der ausgewählten</translation>
-    </message>
-    <message>
         <source>R&amp;emove</source>
         <translation>Entfer&amp;nen</translation>
     </message>
@@ -2210,6 +2202,18 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>Cases with the burr “%1” get the usual one of its kind until it exists again.</source>
         <translation>Fälle mit der Fräse „%1“ bekommen die übliche ihrer Art, bis es sie wieder gibt.</translation>
+    </message>
+    <message>
+        <source>not stated</source>
+        <translation>nicht angegeben</translation>
+    </message>
+    <message>
+        <source>Another material, with the numbers of the one that is selected. Their source is not stated until you enter it</source>
+        <translation>Ein weiteres Material mit den Zahlen des ausgewählten. Ihre Quelle ist nicht angegeben, bis Sie sie eingeben</translation>
+    </message>
+    <message>
+        <source>Another burr, of the kind and with the numbers of the one that is selected. Their source is not stated until you enter it</source>
+        <translation>Eine weitere Fräse von der Art und mit den Zahlen der ausgewählten. Ihre Quelle ist nicht angegeben, bis Sie sie eingeben</translation>
     </message>
 </context>
 <context>
@@ -2901,12 +2905,6 @@ X oder die zweite Taste des Geräts, gehalten: Nur die Hand bewegt sich.</transl
         <translation> N</translation>
     </message>
     <message>
-        <source>Drill mode (D): the left button, or Space, drills where the burr lies.
-Without it a drag turns the patient.</source>
-        <translation>Bohrmodus (D): Die linke Taste oder die Leertaste bohrt, wo die Fräse liegt.
-Ohne ihn dreht Ziehen den Patienten.</translation>
-    </message>
-    <message>
         <source>Pointer (P): touches and cuts nothing; reads the image, structure and the distance to the nearest surface at its tip</source>
         <translation>Zeiger (P): berührt und trägt nichts ab; liest an seiner Spitze das Bild, die Struktur und den Abstand zur nächsten Oberfläche</translation>
     </message>
@@ -2997,6 +2995,14 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
     <message>
         <source>Diameter of the burr, mm, of those that are sold (A or [ smaller, S or ] larger)</source>
         <translation>Durchmesser der Fräse, mm, unter den erhältlichen (A oder [ kleiner, S oder ] größer)</translation>
+    </message>
+    <message>
+        <source>Drill mode (D): the left button, or Space, drills where the burr lies.
+Let go, it lifts by a millimetre and rests there: the handpiece has no weight, and X holds it in place.
+Without it a drag turns the patient.</source>
+        <translation>Bohrmodus (D): Die linke Taste oder die Leertaste bohrt, wo die Fräse liegt.
+Losgelassen hebt sie sich um einen Millimeter und ruht dort: Das Handstück hat kein Gewicht, und X hält es an seinem Ort.
+Ohne ihn dreht Ziehen den Patienten.</translation>
     </message>
 </context>
 <context>
@@ -3156,6 +3162,22 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
     <message>
         <source>Drill &gt; Instrument takes it up again while its file is there</source>
         <translation>Bohren &gt; Instrument nimmt es wieder auf, solange seine Datei da ist</translation>
+    </message>
+    <message>
+        <source>From here the hand would come from behind the picture: look at the left ear first, as in Surgical position (8)</source>
+        <translation>Von hier käme die Hand von hinter dem Bild: Sehen Sie zuerst auf das linke Ohr, wie in Operationslage (8)</translation>
+    </message>
+    <message>
+        <source>From here the hand would come from behind the picture: look at the right ear first, as in Surgical position (9)</source>
+        <translation>Von hier käme die Hand von hinter dem Bild: Sehen Sie zuerst auf das rechte Ohr, wie in Operationslage (9)</translation>
+    </message>
+    <message>
+        <source>Handpiece for the left ear: %1° from the line of sight, at %2° on the screen</source>
+        <translation>Handstück für das linke Ohr: %1° zur Blickrichtung, bei %2° auf dem Bildschirm</translation>
+    </message>
+    <message>
+        <source>Handpiece for the right ear: %1° from the line of sight, at %2° on the screen</source>
+        <translation>Handstück für das rechte Ohr: %1° zur Blickrichtung, bei %2° auf dem Bildschirm</translation>
     </message>
 </context>
 <context>
@@ -6397,10 +6419,6 @@ Verletzt: %1, %2</translation>
         <translation>Bohrzeit</translation>
     </message>
     <message>
-        <source>Drill switched on</source>
-        <translation>Bohrer eingeschaltet</translation>
-    </message>
-    <message>
         <source>Path of the burr</source>
         <translation>Weg der Fräse</translation>
     </message>
@@ -6467,6 +6485,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Highest speed</source>
         <translation>Höchste Drehzahl</translation>
+    </message>
+    <message>
+        <source>Times the drill was switched on</source>
+        <translation>Wie oft der Bohrer eingeschaltet wurde</translation>
     </message>
 </context>
 <context>
@@ -8085,6 +8107,10 @@ Nichts verlässt diesen Rechner.</translation>
     <message>
         <source>Opacity; of a lumen, how much it tints what is around it; of soft tissue, a factor of that of its function</source>
         <translation>Deckkraft; eines Lumens: wie sehr es tönt, was um es ist; des Weichgewebes: ein Faktor der Deckkraft seiner Funktion</translation>
+    </message>
+    <message>
+        <source>The presets are rigid: no stiffness of these structures under a burr is known to us, and a value is your own estimate</source>
+        <translation>Die Vorgaben sind starr: Uns ist keine Steifigkeit dieser Strukturen unter einer Fräse bekannt, ein Wert ist Ihre eigene Schätzung</translation>
     </message>
 </context>
 <context>
@@ -9722,6 +9748,50 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>A box whose edges are dragged in the slices, and its faces in the 3D view: only what is in it is shown, until a tool is taken up. Its middle in the 3D view, or a drag with Shift, moves all of it. A double click on an edge shows all of the image</source>
         <translation>Ein Quader, dessen Kanten in den Schichten und dessen Flächen in der 3D-Ansicht gezogen werden: Nur was darin liegt, wird gezeigt, bis ein Werkzeug aufgenommen wird. Seine Mitte in der 3D-Ansicht oder Ziehen mit der Umschalttaste verschiebt ihn ganz. Ein Doppelklick auf eine Kante zeigt das ganze Bild</translation>
+    </message>
+    <message>
+        <source>Handpiece: &amp;transmastoid</source>
+        <translation>Handstück: &amp;transmastoidal</translation>
+    </message>
+    <message>
+        <source>As held for a mastoidectomy: onto the mastoid from the side, the surgeon behind the ear. It follows the view from there</source>
+        <translation>Wie für eine Mastoidektomie gehalten: von der Seite auf das Mastoid, der Operateur hinter dem Ohr. Von da an folgt es der Ansicht</translation>
+    </message>
+    <message>
+        <source>Handpiece: &amp;posterior tympanotomy</source>
+        <translation>Handstück: &amp;posteriore Tympanotomie</translation>
+    </message>
+    <message>
+        <source>As held for the facial recess: 30° from behind, past the posterior wall of the canal. It follows the view from there</source>
+        <translation>Wie für den Recessus facialis gehalten: 30° von hinten, an der hinteren Gehörgangswand vorbei. Von da an folgt es der Ansicht</translation>
+    </message>
+    <message>
+        <source>Handpiece: trans&amp;labyrinthine</source>
+        <translation>Handstück: trans&amp;labyrinthär</translation>
+    </message>
+    <message>
+        <source>As held for the labyrinth: 15° from behind, along the internal auditory canal. It follows the view from there</source>
+        <translation>Wie für das Labyrinth gehalten: 15° von hinten, entlang dem inneren Gehörgang. Von da an folgt es der Ansicht</translation>
+    </message>
+    <message>
+        <source>Handpiece: &amp;retrosigmoid</source>
+        <translation>Handstück: &amp;retrosigmoidal</translation>
+    </message>
+    <message>
+        <source>As held behind the sinus: 45° from behind, along the posterior face of the petrous pyramid. It follows the view from there</source>
+        <translation>Wie hinter dem Sinus gehalten: 45° von hinten, entlang der Hinterfläche der Felsenbeinpyramide. Von da an folgt es der Ansicht</translation>
+    </message>
+    <message>
+        <source>Handpiece: &amp;middle fossa</source>
+        <translation>Handstück: &amp;mittlere Schädelgrube</translation>
+    </message>
+    <message>
+        <source>As held above the ear: 45° from above, the surgeon at the vertex. It follows the view from there</source>
+        <translation>Wie oberhalb des Ohrs gehalten: 45° von oben, der Operateur am Scheitel. Von da an folgt es der Ansicht</translation>
+    </message>
+    <message>
+        <source>F&amp;or an approach</source>
+        <translation>Fü&amp;r einen Zugang</translation>
     </message>
 </context>
 </TS>

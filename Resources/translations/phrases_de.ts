@@ -9189,6 +9189,10 @@
         <translation>eine Fräse muss 0.01 bis 100 mm breit sein und mit 0 bis 1000000 U/min drehen, bei einem Andruck von 0 bis 100 N</translation>
     </message>
     <message>
+        <source>a handpiece must be turned by -180 to 180 and tilted by 0 to 90 degrees</source>
+        <translation>ein Handstück muss um -180 bis 180 Grad gedreht und um 0 bis 90 Grad geneigt sein</translation>
+    </message>
+    <message>
         <source>an instrument lies along x+, x-, y+, y-, z+ or z-</source>
         <translation>ein Instrument liegt entlang x+, x-, y+, y-, z+ oder z-</translation>
     </message>

@@ -75,6 +75,23 @@ TEST_F(CatalogueEditorTest, SavesWhatTheRemovalLawsThenRead)
   EXPECT_EQ(model.diameters, (std::vector<double>{0.6, 2.3}));
 }
 
+TEST_F(CatalogueEditorTest, WhatIsAddedHasTheNumbersOfARowAndNotItsSource)
+{
+  CatalogueEditor editor(folder);
+  const std::size_t row = editor.addMaterial(0);
+  EXPECT_DOUBLE_EQ(editor.materials()[row].hardness, editor.materials()[0].hardness);
+  EXPECT_EQ(editor.materials()[row].source, "");
+  EXPECT_EQ(editor.materials()[row].title, "cortical-bone-2") << "it is not called as the other";
+  const std::size_t burr = editor.addBurr(1);
+  EXPECT_DOUBLE_EQ(editor.burrs()[burr].constant, editor.burrs()[1].constant);
+  EXPECT_EQ(editor.burrs()[burr].source, "");
+  editor.save();
+  const CatalogueEditor again(folder);
+  EXPECT_EQ(again.materials()[row].source, "");
+  EXPECT_EQ(again.burrs()[burr].source, "");
+  EXPECT_FALSE(again.materials()[0].source.empty());
+}
+
 TEST_F(CatalogueEditorTest, RefusesWhatTheLawsDoNotAllowAndStaysAsItWas)
 {
   CatalogueEditor editor(folder);

@@ -204,6 +204,38 @@ TEST(RecordedCourse, CountsNoTremorAsPath)
   EXPECT_DOUBLE_EQ(course.metrics().path, 0.0);
 }
 
+TEST(RecordedCourse, CountsADrillThatIsHeldThroughAnInterruptionOnce)
+{
+  using session::ServoFault;
+  RecordedCourse course;
+  int n = 0;
+  const auto add = [&](int count, bool wanted, bool turns, ServoFault fault = ServoFault::None)
+  {
+    for (int k = 0; k < count; ++k)
+    {
+      session::TickRecord record = tick(0.001 * n++, {0.0, 0.0, 0.0}, turns);
+      record.input.parameters.drill = wanted ? session::ServoParameters::kDrill : 0;
+      record.fault = static_cast<std::uint8_t>(fault);
+      course.add(record);
+    }
+  };
+  const auto starts = [&] { return course.metrics().drillStarts; };
+  add(10, false, false);
+  add(10, true, true);
+  add(1, true, false, ServoFault::Stalled);
+  add(20, true, false, ServoFault::Device);
+  add(20, true, false); // back to the pointer
+  add(10, true, true);
+  EXPECT_EQ(starts(), 1u);
+  add(10, false, false);
+  add(10, true, true);
+  EXPECT_EQ(starts(), 2u);
+  add(5, false, false, ServoFault::Device); // let go meanwhile
+  add(10, true, true);
+  EXPECT_EQ(starts(), 3u);
+  EXPECT_LT(course.metrics().drilling, 0.05) << "of which no interruption is a part";
+}
+
 TEST(RecordedCourse, PassesOverWhatIsBeforeTheToolIsPlaced)
 {
   RecordedCourse course;

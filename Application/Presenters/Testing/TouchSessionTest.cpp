@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <thread>
+#include <vector>
 
 #include "BoneCase.h"
 #include "HeldTool.h"
@@ -84,6 +88,41 @@ TEST_F(TouchSessionTest, DrillingTakesTissueAndListsTheStroke)
   ASSERT_EQ(value.dissection.strokes().size(), 1u);
   EXPECT_EQ(value.applied(), 1u);
   EXPECT_TRUE(session.stop().strokes.empty()); // already closed
+}
+
+// The drill does not depend on how often a picture is drawn.
+TEST_F(TouchSessionTest, DrillsOneWholeStrokeWithTenPicturesASecond)
+{
+  const auto picture = [this]
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    return frame();
+  };
+  held.drill(true);
+  double lowest = 100.0;
+  ASSERT_TRUE(until(
+      [&]
+      {
+        if (const auto record = picture().record; record && record->drill)
+          lowest = std::min(lowest, record->proxy.pose().position.z());
+        return lowest < kTop + 1.0;
+      }));
+  held.drill(false);
+  std::vector<std::shared_ptr<const dissection::Stroke>> strokes;
+  ASSERT_TRUE(until(
+      [&]
+      {
+        for (const auto& stroke : picture().strokes)
+          strokes.push_back(stroke);
+        return !strokes.empty();
+      }));
+  EXPECT_TRUE(session.stop().strokes.empty());
+  ASSERT_EQ(strokes.size(), 1u);
+  ASSERT_TRUE(strokes.front());
+  EXPECT_EQ(value.dissection.strokes().size(), 1u);
+  // The burr of 2 mm sank in by more than a millimetre: at least that cap is gone.
+  const double cap = std::acos(-1.0) * 1.0 * (3.0 * 2.0 - 1.0) / 3.0; // mm^3
+  EXPECT_GT(strokes.front()->info.removed, 0.8 * cap);
 }
 
 TEST_F(TouchSessionTest, TheToolSinksInWhereItDrills)

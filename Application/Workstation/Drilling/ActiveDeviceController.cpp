@@ -30,6 +30,7 @@ ActiveDeviceController::ActiveDeviceController(DeviceWatcher& finder, DeviceTool
   connect(&finder, &DeviceWatcher::opened, this, &ActiveDeviceController::take);
   connect(&finder, &DeviceWatcher::failed, this, &ActiveDeviceController::giveUp);
   connect(&finder, &DeviceWatcher::waits, this, &ActiveDeviceController::statusMessage);
+  connect(&bar, &DeviceToolBar::listOpened, &finder, &DeviceWatcher::look);
   connect(&bar, &DeviceToolBar::chosen, this, &ActiveDeviceController::choose);
   connect(bar.testAction(), &QAction::triggered, this, &ActiveDeviceController::test);
   connect(bar.connectAction(), &QAction::triggered, this,

@@ -97,11 +97,18 @@ double numberIn(const QTableWidget& table, int row, int column, double present)
   throw core::InvalidParameter("'" + bytes(text) + "' is not a number");
 }
 
+// Of the numbers. None is no certainty.
+QString sourceText(const std::string& source)
+{
+  return source.empty() ? CatalogueDialog::tr("not stated") : phrase(source);
+}
+
 // What was shown in the window's language stays what it was, unless it was typed over.
-std::string textIn(const QTableWidget& table, int row, int column, const std::string& present)
+std::string textIn(const QTableWidget& table, int row, int column, const std::string& present,
+                   const QString& shown)
 {
   const QString text = table.item(row, column)->text().trimmed();
-  return text == phrase(present) ? present : bytes(text);
+  return text == shown ? present : bytes(text);
 }
 
 } // namespace
@@ -138,12 +145,14 @@ CatalogueDialog::CatalogueDialog(presenters::CatalogueEditor editor,
     one->setStyleSheet(kWarningStyle);
     one->hide();
   }
-  auto* addOne = button(tr("&Add"), "addMaterial",
-                        tr("Another material, with the numbers of the one that is selected"));
+  auto* addOne = button(
+      tr("&Add"), "addMaterial",
+      tr("Another material, with the numbers of the one that is selected. Their source is not "
+         "stated until you enter it"));
   m_removeMaterial = button(tr("&Remove"), "removeMaterial", tr("Takes the selected material out"));
   auto* addOther = button(tr("A&dd"), "addBurr",
                           tr("Another burr, of the kind and with the numbers of the one that is "
-                             "selected"));
+                             "selected. Their source is not stated until you enter it"));
   m_removeBurr = button(tr("R&emove"), "removeBurr",
                         tr("Takes the selected burr out. Strokes and recordings keep its name"));
   const auto rowOf = [](QPushButton* first, QPushButton* second)
@@ -246,7 +255,7 @@ void CatalogueDialog::fillMaterial(int row)
   put(*m_materials, row, Energy, number(one.specificEnergy));
   put(*m_materials, row, Friction, number(one.friction));
   put(*m_materials, row, Hardness, number(one.hardness));
-  put(*m_materials, row, MaterialSource, phrase(one.source));
+  put(*m_materials, row, MaterialSource, sourceText(one.source));
 }
 
 void CatalogueDialog::fillBurr(int row)
@@ -260,7 +269,7 @@ void CatalogueDialog::fillBurr(int row)
   put(*m_burrs, row, Rake, isCutting ? number(one.constant) : none, isCutting);
   put(*m_burrs, row, Wear, isCutting ? none : number(one.constant), !isCutting);
   put(*m_burrs, row, Diameters, numberText(presenters::diametersText(one.diameters)));
-  put(*m_burrs, row, BurrSource, phrase(one.source));
+  put(*m_burrs, row, BurrSource, sourceText(one.source));
 }
 
 // What is refused is said, and the table shows what holds.
@@ -301,11 +310,11 @@ void CatalogueDialog::materialEntered(int row, int column)
         if (name != one.name)
           checkUnused(one.name);
         one.name = name;
-        one.title = textIn(*m_materials, row, Title, one.title);
+        one.title = textIn(*m_materials, row, Title, one.title, phrase(one.title));
         one.specificEnergy = numberIn(*m_materials, row, Energy, one.specificEnergy);
         one.friction = numberIn(*m_materials, row, Friction, one.friction);
         one.hardness = numberIn(*m_materials, row, Hardness, one.hardness);
-        one.source = textIn(*m_materials, row, MaterialSource, one.source);
+        one.source = textIn(*m_materials, row, MaterialSource, one.source, sourceText(one.source));
         m_editor.setMaterial(at, one);
       },
       cellOf(*m_materials, phrase(m_editor.materials()[static_cast<std::size_t>(row)].title),
@@ -327,7 +336,7 @@ void CatalogueDialog::burrEntered(int row, int column)
         const std::string diameters = bytes(m_burrs->item(row, Diameters)->text().trimmed());
         if (diameters != bytes(numberText(presenters::diametersText(one.diameters))))
           one.diameters = presenters::diametersFrom(diameters);
-        one.source = textIn(*m_burrs, row, BurrSource, one.source);
+        one.source = textIn(*m_burrs, row, BurrSource, one.source, sourceText(one.source));
         m_editor.setBurr(at, one);
       },
       cellOf(*m_burrs, words(m_editor.burrs()[static_cast<std::size_t>(row)].name), column));

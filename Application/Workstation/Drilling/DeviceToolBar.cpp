@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include <QAbstractItemView>
 #include <QAction>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QEvent>
 #include <QLabel>
 #include <QMenu>
 #include <QSignalBlocker>
@@ -89,8 +91,16 @@ DeviceToolBar::DeviceToolBar(QWidget* parent)
           &DeviceToolBar::mappingChanged);
   connect(m_limit, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
           &DeviceToolBar::mappingChanged);
+  m_choice->view()->installEventFilter(this);
   showDevices({}, InputDevice().id);
   showMapping(nullptr, 1.0, 0.0);
+}
+
+bool DeviceToolBar::eventFilter(QObject* watched, QEvent* event)
+{
+  if (event->type() == QEvent::Show && watched == m_choice->view())
+    emit listOpened();
+  return QToolBar::eventFilter(watched, event);
 }
 
 void DeviceToolBar::showDevices(const presenters::DeviceList& found, const std::string& held)

@@ -35,6 +35,10 @@ public:
 signals:
   void chosen(const petrous::presenters::InputDevice& input); ///< by the user
   void mappingChanged();
+  void listOpened(); ///< of the devices, by the user
+
+protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
   std::vector<presenters::InputDevice> m_devices; // as listed

@@ -3,11 +3,17 @@
 #include <chrono>
 #include <utility>
 
+#include <pthread.h>
+
+#include <QFile>
+#include <QFileInfo>
+
 #include "Application.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Core/Log.h"
+#include "petrous/Devices/DeviceCatalogue.h"
 
 namespace petrous::workstation
 {
@@ -16,13 +22,28 @@ using presenters::ActiveDevice;
 using presenters::DeviceList;
 using presenters::InputDevice;
 
+namespace
+{
+constexpr int kAfterChange = 300; // ms
+} // namespace
+
 DeviceWatcher::DeviceWatcher(presenters::DeviceSources sources, int lookEvery, QObject* parent)
   : QObject(parent)
   , m_sources(std::move(sources))
   , m_lookEvery(lookEvery)
 {
-  if (m_sources.hid || !m_sources.serverFolders.empty())
-    m_thread = std::thread([this] { guarded([this] { run(); }); });
+  if (!m_sources.hid && m_sources.serverFolders.empty())
+    return;
+  m_soon.setSingleShot(true);
+  m_soon.setInterval(kAfterChange);
+  connect(&m_soon, &QTimer::timeout, this, [this] { startLook(devices::isKnownPluggedIn()); });
+  connect(&m_changes, &QFileSystemWatcher::directoryChanged, &m_soon, qOverload<>(&QTimer::start));
+  if (m_sources.hid)
+    m_changes.addPath("/dev");
+  for (const auto& folder : m_sources.serverFolders)
+    if (const QString path = QFile::decodeName(folder.c_str()); QFileInfo::exists(path))
+      m_changes.addPath(path);
+  startLook(m_lookEvery > 0 || devices::isKnownPluggedIn());
 }
 
 DeviceWatcher::~DeviceWatcher()
@@ -37,19 +58,47 @@ DeviceWatcher::~DeviceWatcher()
     m_thread.join();
 }
 
+void DeviceWatcher::look()
+{
+  startLook(true);
+}
+
+void DeviceWatcher::startLook(bool withHid)
+{
+  if (!m_sources.hid && m_sources.serverFolders.empty())
+    return;
+  m_usesHid = m_usesHid || withHid;
+  post([this, usesHid = m_usesHid] { find(usesHid); });
+}
+
 void DeviceWatcher::post(std::function<void()> job)
 {
   {
     const std::lock_guard<std::mutex> lock(m_mutex);
     m_jobs.push_back(std::move(job));
+    if (m_isRunning)
+      return m_wake.notify_all();
+    m_isRunning = true;
   }
-  m_wake.notify_all();
+  if (m_thread.joinable()) // it has ended
+    m_thread.join();
+  try
+  {
+    m_thread = std::thread([this] { guarded([this] { run(); }); });
+  }
+  catch (...)
+  {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_isRunning = false; // the job waits for the next one
+    throw;
+  }
 }
 
 void DeviceWatcher::run()
 {
+  ::pthread_setname_np(::pthread_self(), "petrous-devices");
   std::unique_lock<std::mutex> lock(m_mutex);
-  while (!m_stop || !m_jobs.empty()) // pending closes are still processed
+  while (!m_jobs.empty()) // pending closes are still processed after a stop
   {
     std::deque<std::function<void()>> jobs = std::exchange(m_jobs, {});
     lock.unlock();
@@ -57,16 +106,23 @@ void DeviceWatcher::run()
     for (const auto& job : jobs)
       guarded(job);
     guarded([&jobs] { jobs.clear(); });
-    guarded([this] { look(); });
     lock.lock();
+    if (m_lookEvery <= 0 || m_stop)
+      continue;
     m_wake.wait_for(lock, std::chrono::milliseconds(m_lookEvery),
                     [this] { return m_stop || !m_jobs.empty(); });
+    if (!m_stop)
+      m_jobs.push_back([this] { find(true); });
   }
+  m_isRunning = false;
 }
 
-void DeviceWatcher::look()
+void DeviceWatcher::find(bool withHid)
 {
-  DeviceList found = presenters::findDevices(m_sources);
+  presenters::DeviceSources sources = m_sources;
+  if (!withHid)
+    sources.hid.reset();
+  DeviceList found = presenters::findDevices(sources);
   if (found == m_seen)
     return;
   m_seen = std::move(found);

@@ -47,8 +47,10 @@ DrillBar::DrillBar(QWidget* parent)
   setMovable(false);
   m_drill->setCheckable(true);
   m_drill->setShortcut(Qt::Key_D);
-  m_drill->setToolTip(tr("Drill mode (D): the left button, or Space, drills where the burr lies.\n"
-                         "Without it a drag turns the patient."));
+  m_drill->setToolTip(
+      tr("Drill mode (D): the left button, or Space, drills where the burr lies.\n"
+         "Let go, it lifts by a millimetre and rests there: the handpiece has no weight, "
+         "and X holds it in place.\nWithout it a drag turns the patient."));
   addAction(m_drill);
   widgetForAction(m_drill)->setObjectName("drillButton");
   m_pointer->setCheckable(true);

@@ -19,6 +19,7 @@
 #include "WindowTexts.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Scene/Case.h"
 
 namespace petrous::workstation
@@ -229,9 +230,8 @@ void DrillController::turnHandpiece(double turn, double tilt)
 {
   if (m_devices.device())
     return emit statusMessage(tr("The device turns the handpiece by itself"));
-  constexpr double kSteepest = 80.0; // degrees, of AimSettings
   m_turn = std::remainder(m_turn + turn, 360.0);
-  m_tilt = std::clamp(m_tilt + tilt, 0.0, kSteepest);
+  m_tilt = std::clamp(m_tilt + tilt, 0.0, interaction::AimSettings::kMaxTilt);
   applyBar();
   emit statusMessage(tr("Handpiece: %1° from the line of sight, at %2° on the screen")
                          .arg(numberText(m_tilt, 0), numberText(m_turn, 0)));
@@ -239,10 +239,51 @@ void DrillController::turnHandpiece(double turn, double tilt)
 
 void DrillController::holdAsAtFirst()
 {
-  const interaction::AimSettings usual;
-  m_tilt = usual.tilt;
-  m_turn = m_isLeft ? 180.0 - usual.turn : usual.turn;
+  setHandpiece(std::nullopt);
   turnHandpiece(0.0, 0.0);
+}
+
+void DrillController::holdFor(presenters::SurgicalApproach approach)
+{
+  if (m_devices.device())
+    return emit statusMessage(tr("The device turns the handpiece by itself"));
+  if (!m_model.hasCase())
+    return;
+  const scene::Side ear = presenters::earOf(m_model.value());
+  const auto hand = presenters::handpieceAlong(presenters::shaftOf(approach, ear, m_isLeft),
+                                               m_view.picture().camera());
+  if (!hand)
+    return emit statusMessage(
+        ear == scene::Side::Left
+            ? tr("From here the hand would come from behind the picture: look at the left ear "
+                 "first, as in Surgical position (8)")
+            : tr("From here the hand would come from behind the picture: look at the right ear "
+                 "first, as in Surgical position (9)"));
+  setHandpiece(hand);
+  if (!m_model.drilling())
+    m_view.tool().PointAgain(); // the view may have turned since the pointer moved
+  emit statusMessage((ear == scene::Side::Left
+                          ? tr("Handpiece for the left ear: %1° from the line of sight, at %2° on "
+                               "the screen")
+                          : tr("Handpiece for the right ear: %1° from the line of sight, at %2° on "
+                               "the screen"))
+                         .arg(numberText(m_tilt, 0), numberText(m_turn, 0)));
+}
+
+std::optional<scene::ViewState::Handpiece> DrillController::handpiece() const
+{
+  const scene::ViewState::Handpiece now{m_turn, m_tilt};
+  if (now == presenters::usualHandpiece(m_isLeft))
+    return std::nullopt;
+  return now;
+}
+
+void DrillController::setHandpiece(const std::optional<scene::ViewState::Handpiece>& hand)
+{
+  const auto [turn, tilt] = hand.value_or(presenters::usualHandpiece(m_isLeft));
+  m_turn = turn;
+  m_tilt = std::clamp(tilt, 0.0, interaction::AimSettings::kMaxTilt);
+  applyBar();
 }
 
 // From the other side of the screen.

@@ -10,6 +10,7 @@
 #include "BackgroundWork.h"
 #include "DrillSound.h"
 #include "ToolDriver.h"
+#include "petrous/Presenters/HandpiecePresets.h"
 #include "petrous/Presenters/InstrumentFile.h"
 #include "petrous/Session/StallWatch.h"
 
@@ -64,6 +65,11 @@ public:
   /// counterclockwise on the screen, and away from the line.
   void turnHandpiece(double turn, double tilt);
   void holdAsAtFirst(); ///< the usual turn and tilt of the present hand
+  /// As it is held for that approach to the case's ear, seen as now; then it follows the view.
+  void holdFor(presenters::SurgicalApproach approach);
+  /// As the case keeps it; nullopt: as at first.
+  std::optional<scene::ViewState::Handpiece> handpiece() const;
+  void setHandpiece(const std::optional<scene::ViewState::Handpiece>& hand);
   void setLeftHand(bool isLeft);
   bool leftHand() const noexcept { return m_isLeft; }
   /// The burr alone is felt (session::TouchTool::Mode::ThreeDof); else shaft and handpiece, too.

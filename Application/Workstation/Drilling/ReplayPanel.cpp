@@ -373,7 +373,7 @@ void ReplayPanel::showMetrics()
   add(tr("Tool"), phrase(m_review->tool));
   add(tr("Time"), durationText(metrics.duration));
   add(tr("Time drilling"), durationText(metrics.drilling));
-  add(tr("Drill switched on"), QString::number(metrics.drillStarts));
+  add(tr("Times the drill was switched on"), QString::number(metrics.drillStarts));
   if (m_review->speed)
   {
     add(tr("Mean speed drilling"), fixed(m_review->speed->mean, 0, tr("/min")));

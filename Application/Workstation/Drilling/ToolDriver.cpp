@@ -18,10 +18,7 @@ constexpr double kSilence = 3.0; // s; a software-rendered frame can take one
 
 bool isPlaced(const session::TickRecord& record)
 {
-  using session::ServoFault;
-  const auto fault = static_cast<ServoFault>(record.fault);
-  return record.input.now > 0.0 && fault != ServoFault::Device && fault != ServoFault::Clock &&
-         fault != ServoFault::Parameters;
+  return record.input.now > 0.0 && session::hasToolPose(record);
 }
 
 ToolDriver::ToolDriver(presenters::WorkstationModel& model, ThreeDView& view,

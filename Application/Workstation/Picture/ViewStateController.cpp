@@ -167,7 +167,8 @@ ViewStateController::State ViewStateController::present() const
   state.view.slices->overlay = m_registration.overlay();
   state.view.light = m_picture.settings().lightState();
   state.view.stereo = m_picture.settings().stereoState();
-  state.view.tool = {m_bar.wanted(), m_bar.thrust(), m_bar.wheelAction()->isChecked()};
+  state.view.tool = {m_bar.wanted(), m_bar.thrust(), m_bar.wheelAction()->isChecked(),
+                     handpiece ? handpiece() : std::nullopt};
   if (instrument)
     state.view.instrument = instrument();
   return state;
@@ -191,6 +192,8 @@ void ViewStateController::show()
     m_bar.setThrust(view.tool->thrust);
     m_bar.wheelAction()->setChecked(view.tool->byWheel);
   }
+  if (showHandpiece)
+    showHandpiece(view.tool ? view.tool->handpiece : std::nullopt);
   if (showInstrument)
     showInstrument(view.instrument);
   m_shown = present();

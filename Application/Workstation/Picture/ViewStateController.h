@@ -43,6 +43,10 @@ public:
   std::function<std::optional<scene::ViewState::Instrument>()> instrument;
   std::function<void(const std::optional<scene::ViewState::Instrument>&)> showInstrument;
 
+  /// Likewise how the handpiece is held.
+  std::function<std::optional<scene::ViewState::Handpiece>()> handpiece;
+  std::function<void(const std::optional<scene::ViewState::Handpiece>&)> showHandpiece;
+
   // Camera and slices alone, which an approach has of its own.
   void collectPlace(); ///< before the approach is left
   void showPlace();    ///< of the approach that the case is on now

@@ -111,6 +111,9 @@ StructureEditor::StructureEditor(presenters::WorkstationModel& model, QWidget* p
   grid->addWidget(m_materials, 4, 1, 1, 3);
   QDoubleSpinBox* warning = addNumber("warn_mm", 0.1);
   QDoubleSpinBox* stiffness = addNumber("stiffness_n_per_mm", 0.0);
+  stiffness->setToolTip(stiffness->toolTip() + '\n' +
+                        tr("The presets are rigid: no stiffness of these structures under a burr "
+                           "is known to us, and a value is your own estimate"));
   addLabel(tr("&Warn"), warning, 5, 0);
   grid->addWidget(warning, 5, 1);
   addLabel(tr("Sti&ffness"), stiffness, 5, 2);

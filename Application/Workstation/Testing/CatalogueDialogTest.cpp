@@ -77,12 +77,14 @@ TEST_F(CatalogueDialogs, AMaterialThatIsAddedIsSavedAndOfferedToStructures)
   materials.selectRow(0);
   edit.findChild<QPushButton*>("addMaterial")->click();
   ASSERT_EQ(materials.rowCount(), row + 1);
+  EXPECT_EQ(materials.item(row, 5)->text(), "not stated");
   materials.item(row, 0)->setText("sclerotic-bone");
   materials.item(row, 1)->setText("Sclerotic bone");
   materials.item(row, 4)->setText("60");
   EXPECT_FALSE(edit.findChild<QLabel*>("catalogueFault")->isVisible());
   edit.findChild<QPushButton*>("catalogueSave")->click();
   EXPECT_NEAR(read().materials.material("sclerotic-bone").hardness, 60.0 * 9.807e6, 1.0);
+  EXPECT_EQ(read().materials.material("sclerotic-bone").status, "") << "which nobody entered";
   EXPECT_EQ(choice.count(), before + 1);
   EXPECT_GE(choice.findText("Sclerotic bone"), 0);
 }

@@ -36,11 +36,13 @@ protected:
 
   std::filesystem::path servers() const { return folder() / "servers"; }
 
-  /// Installs a program that only signals its start and waits: the test itself is the server.
+  /// Installs a program that only signals its start, and its process id in NAME.pid, and waits: the
+  /// test itself is the server.
   void installServer(const std::string& name)
   {
     const auto program = servers() / name;
-    std::ofstream(program) << "#!/bin/sh\ntouch '" << (folder() / (name + ".started")).string()
+    std::ofstream(program) << "#!/bin/sh\necho $$ > '" << (folder() / (name + ".pid")).string()
+                           << "'\ntouch '" << (folder() / (name + ".started")).string()
                            << "'\nexec sleep 600\n";
     std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   }

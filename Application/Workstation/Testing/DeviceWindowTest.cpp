@@ -6,10 +6,13 @@
 #include <iterator>
 #include <optional>
 
+#include <dlfcn.h>
+
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
 
+#include "petrous/Devices/DeviceCatalogue.h"
 #include "petrous/Presenters/DeviceLimits.h"
 
 using namespace petrous;
@@ -31,6 +34,26 @@ void describe(petrous_device_block& block)
 Vector3d forceOf(const petrous_device_wrench& wrench)
 {
   return {wrench.force[0], wrench.force[1], wrench.force[2]};
+}
+
+bool hasDeviceThread()
+{
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task"))
+  {
+    std::ifstream file(task.path() / "comm"); // one that has just ended has none
+    std::string name;
+    if (std::getline(file, name) && name == "petrous-devices")
+      return true;
+  }
+  return false;
+}
+
+bool isHidapiLoaded()
+{
+  void* handle = ::dlopen("libhidapi-hidraw.so.0", RTLD_LAZY | RTLD_NOLOAD);
+  if (handle)
+    ::dlclose(handle);
+  return handle != nullptr;
 }
 
 // Process id of the server of that name; 0 if there is none.
@@ -106,6 +129,40 @@ TEST_F(InputDevices, WhatIsPluggedInComesUpInTheListAndGoes)
   installServer("omega.7");
   EXPECT_TRUE(offers("omega.7"));
   EXPECT_FALSE(started("omega.7"));
+}
+
+TEST_F(InputDevices, AnIdleWindowHasNoDeviceThreadAndLoadsNothingUntilTheListIsOpened)
+{
+  if (devices::isKnownPluggedIn())
+    GTEST_SKIP() << "a SpaceMouse or a pedal is plugged into this computer";
+  saveBall("ball");
+  devices.hid = std::make_shared<const devices::HidLibrary>();
+  lookForDevicesEvery = 0;
+  openWindow("ball");
+  EXPECT_TRUE(waitFor([] { return !hasDeviceThread(); })) << "the first look at the servers ends";
+  EXPECT_FALSE(isHidapiLoaded());
+
+  // What is installed comes up by itself, and the thread goes again.
+  installServer("omega.7");
+  EXPECT_TRUE(offers("omega.7"));
+  EXPECT_TRUE(waitFor([] { return !hasDeviceThread(); }));
+  EXPECT_FALSE(isHidapiLoaded());
+
+  choice().showPopup();
+  EXPECT_TRUE(waitFor([] { return isHidapiLoaded(); }));
+  EXPECT_TRUE(waitFor([] { return !hasDeviceThread(); }));
+  choice().hidePopup();
+}
+
+TEST_F(InputDevices, OpeningTheListFindsWhatIsPluggedIn)
+{
+  saveBall("ball");
+  lookForDevicesEvery = 0;
+  openWindow();
+  bench.playAll(kPlugCap);
+  choice().showPopup();
+  EXPECT_TRUE(offers("SpaceMouse Compact"));
+  choice().hidePopup();
 }
 
 TEST_F(InputDevices, WhatMayNotBeOpenedSaysWhyAndCannotBeChosen)
@@ -422,6 +479,28 @@ TEST_F(InputDevices, AServerThatIsKilledComesBackAndEndsWithTheWindow)
   closeWindow();
   EXPECT_EQ(processOf(serverName()), 0);
   openWindow();
+}
+
+TEST_F(InputDevices, AServerThatIsKilledInContactLeavesTheStrokeSavedAndTheMouseInCharge)
+{
+  ASSERT_NO_FATAL_FAILURE(drillByServer());
+  FakeServer& server = *served;
+  QTest::keyPress(&view(), Qt::Key_Space);
+  glide(server, Vector3d::Zero(), {0.0, 0.0, -6.0}); // 2 mm of the tool into the bone
+  ASSERT_TRUE(waitFor([this] { return !window().model().value().dissection.mask().untouched(); }));
+  ASSERT_TRUE(window().model().drilling());
+  std::ifstream file(folder() / (serverName() + ".pid"));
+  int pid = 0;
+  ASSERT_TRUE(file >> pid);
+  ASSERT_EQ(::kill(pid, SIGKILL), 0);
+  served.reset(); // its block speaks no more
+  EXPECT_TRUE(waitFor([this] { return choice().currentText() == "Mouse"; }));
+  QTest::keyRelease(&view(), Qt::Key_Space);
+  EXPECT_FALSE(window().model().drilling());
+  ASSERT_TRUE(settled());
+  const auto ball = library().open("ball");
+  ASSERT_FALSE(ball.dissection.strokes().empty());
+  EXPECT_GT(ball.dissection.strokes().front()->info.removed, 0.0);
 }
 
 // The example's handle goes by 7.1 mm for each newton, at once: it oscillates beyond 0.141 N/mm.

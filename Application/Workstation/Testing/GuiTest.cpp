@@ -136,7 +136,7 @@ void GuiTest::openWindow(const QString& what)
   WindowOptions options;
   options.settings = m_folder.filePath("settings.conf");
   options.devices = devices;
-  options.lookForDevicesEvery = 50;
+  options.lookForDevicesEvery = lookForDevicesEvery;
   options.drawThumbnailsAfter = drawThumbnailsAfter;
   options.saveAfter = saveAfter;
   options.isSafe = isSafe;

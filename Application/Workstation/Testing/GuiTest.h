@@ -47,6 +47,7 @@ protected:
 
   presenters::DeviceSources devices;         ///< of windows opened later; initially none
   int drawThumbnailsAfter = -1;              ///< ms, see WindowOptions; of windows opened later
+  int lookForDevicesEvery = 50;              ///< likewise
   int saveAfter = -1;                        ///< likewise
   bool isSafe = false;                       ///< likewise
   void openWindow(const QString& what = {}); ///< the pointer is beside it

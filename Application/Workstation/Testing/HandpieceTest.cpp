@@ -1,5 +1,8 @@
+#include <cmath>
+
 #include <QComboBox>
 #include <QMenuBar>
+#include <QStatusBar>
 #include <QWheelEvent>
 
 #include "DrillController.h"
@@ -108,6 +111,44 @@ TEST_F(Handpiece, ChangesTheHandAndRemembersIt)
   openWindow("ball");
   EXPECT_TRUE(action("In the left hand")->isChecked());
   EXPECT_TRUE(window().findChild<DrillController*>()->leftHand());
+}
+
+TEST_F(Handpiece, IsHeldForAnApproachToTheCasesEarAndKeptWithTheCase)
+{
+  using presenters::SurgicalApproach;
+  takeBurr();
+  action("Surgical position, right ear")->trigger();
+  QTest::mouseMove(&view(), view().rect().center() + QPoint(2, 2)); // the ray of this view
+  action("Handpiece: retrosigmoid")->trigger();
+  const Eigen::Vector3d shaft =
+      presenters::shaftOf(SurgicalApproach::Retrosigmoid, scene::Side::Right, false);
+  EXPECT_TRUE(waitFor(
+      [&]
+      {
+        const auto tool = view().display().tool();
+        return tool && tool->axisToHand.normalized().dot(shaft) > std::cos(0.05);
+      }));
+  auto* drill = window().findChild<DrillController*>();
+  const auto held = drill->handpiece();
+  ASSERT_TRUE(held);
+
+  // From the other side of the head the hand would be behind the picture.
+  action("Surgical position, left ear")->trigger();
+  action("Handpiece: retrosigmoid")->trigger();
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("look at the right ear first"))
+      << window().statusBar()->currentMessage().toStdString();
+  EXPECT_TRUE(drill->handpiece() == held) << "it stays";
+
+  action("Save")->trigger();
+  ASSERT_TRUE(settled());
+  const auto kept = library().open("ball").view.tool;
+  ASSERT_TRUE(kept);
+  EXPECT_TRUE(kept->handpiece == held);
+  closeWindow();
+  openWindow("ball");
+  EXPECT_TRUE(window().findChild<DrillController*>()->handpiece() == held);
+  action("As at first")->trigger();
+  EXPECT_FALSE(window().findChild<DrillController*>()->handpiece());
 }
 
 TEST_F(Handpiece, DrillsWithTheBurrAloneToo)

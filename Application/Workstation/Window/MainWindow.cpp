@@ -312,6 +312,8 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
                         findChild<QDockWidget*>("approachDock")->toggleViewAction()};
   m_comparison->keys += m_actions->approaches->actions();
   m_branches->settle = [this] { return m_drill->releaseTool(); };
+  m_viewState->handpiece = [this] { return m_drill->handpiece(); };
+  m_viewState->showHandpiece = [this](const auto& hand) { m_drill->setHandpiece(hand); };
   m_viewState->instrument = [this] { return m_drill->caseInstrument(); };
   m_viewState->showInstrument = [this](const auto& kept) { m_drill->setCaseInstrument(kept); };
   m_share->releaseTool = [this] { m_drill->releaseTool(); };
@@ -867,6 +869,7 @@ void MainWindow::connectActions()
   on(m_actions->tiltMore, [this] { m_drill->turnHandpiece(0.0, kTurn); });
   on(m_actions->tiltLess, [this] { m_drill->turnHandpiece(0.0, -kTurn); });
   on(m_actions->holdAsAtFirst, [this] { m_drill->holdAsAtFirst(); });
+  connect(m_actions, &WindowActions::handpieceChosen, m_drill, &DrillController::holdFor);
   connect(m_actions->leftHand, &QAction::toggled, this,
           [this](bool isLeft)
           {

@@ -64,7 +64,7 @@ struct WindowOptions
   bool quadBuffer = false;           ///< quad-buffered stereo is available (quadBufferOffered)
   QString settings;                  ///< an INI file; empty: the user's default
   presenters::DeviceSources devices; ///< none: mouse only
-  int lookForDevicesEvery = 1000;    ///< ms
+  int lookForDevicesEvery = 0;       ///< ms; 0: when something is plugged in (DeviceWatcher)
   int drawThumbnailsAfter = 2000;    ///< ms without anything else to do; negative: never
   int saveAfter = 20000;             ///< ms since a change that nothing else saved; negative: never
   bool isSafe = false;               ///< no settings, devices, thumbnails or previous case

@@ -59,6 +59,41 @@ constexpr ViewEntry kViews[] = {
                        "ear: the face up, "
                        "the vertex on the left")},
 };
+
+struct HandpieceEntry
+{
+  presenters::SurgicalApproach approach;
+  const char* name;
+  const char* tip;
+};
+using presenters::SurgicalApproach;
+constexpr HandpieceEntry kHandpieces[] = {
+    {SurgicalApproach::Transmastoid,
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "Handpiece: &transmastoid"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions",
+                       "As held for a mastoidectomy: onto the mastoid from the side, the surgeon "
+                       "behind the ear. It follows the view from there")},
+    {SurgicalApproach::PosteriorTympanotomy,
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "Handpiece: &posterior tympanotomy"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions",
+                       "As held for the facial recess: 30° from behind, past the posterior wall "
+                       "of the canal. It follows the view from there")},
+    {SurgicalApproach::Translabyrinthine,
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "Handpiece: trans&labyrinthine"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions",
+                       "As held for the labyrinth: 15° from behind, along the internal auditory "
+                       "canal. It follows the view from there")},
+    {SurgicalApproach::Retrosigmoid,
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "Handpiece: &retrosigmoid"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions",
+                       "As held behind the sinus: 45° from behind, along the posterior face of "
+                       "the petrous pyramid. It follows the view from there")},
+    {SurgicalApproach::MiddleFossa,
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "Handpiece: &middle fossa"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions",
+                       "As held above the ear: 45° from above, the surgeon at the vertex. It "
+                       "follows the view from there")},
+};
 } // namespace
 
 WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceToolBar& deviceBar,
@@ -230,6 +265,14 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                   tr("By 5 degrees; Alt and Shift with the wheel do so, too"));
   holdAsAtFirst = make(handpiece, tr("As at &first"), Qt::ALT + Qt::Key_Home,
                        tr("The usual turn and tilt of the hand"));
+  QMenu* approachMenu = handpiece->addMenu(tr("F&or an approach"));
+  for (const HandpieceEntry& entry : kHandpieces)
+  {
+    QAction* action = make(approachMenu, tr(entry.name), {}, tr(entry.tip));
+    connect(action, &QAction::triggered, this,
+            [this, approach = entry.approach] { emit handpieceChosen(approach); });
+    m_needCase.push_back(action);
+  }
   handpiece->addSeparator();
   leftHand = make(handpiece, tr("In the left &hand"), Qt::SHIFT + Qt::Key_H,
                   tr("The handpiece comes from the left of the screen"));

@@ -4,6 +4,7 @@
 
 #include <QObject>
 
+#include "petrous/Presenters/HandpiecePresets.h"
 #include "petrous/Rendering/StandardViews.h"
 
 class QAction;
@@ -106,6 +107,7 @@ public:
 
 signals:
   void viewChosen(petrous::rendering::StandardView view);
+  void handpieceChosen(petrous::presenters::SurgicalApproach approach);
 
 private:
   QMenu* addStereo(bool quadBuffer);

@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -108,6 +109,31 @@ TEST(DeviceCatalogue, FindsTheDevicesThatItKnowsAndWhoMayOpenThem)
 
   EXPECT_EQ(of(0x7403).device.kind, DeviceKind::KeyboardPedal);
   EXPECT_NE(of(0x7403).advice.find("key"), std::string::npos);
+}
+
+// As Linux has them in /sys/class/hidraw.
+TEST(DeviceCatalogue, KnowsFromTheKernelsNodesWhetherAnyOfItIsPluggedIn)
+{
+  namespace fs = std::filesystem;
+  const fs::path nodes =
+      fs::path(::testing::TempDir()) / ("petrous-hidraw-" + std::to_string(::getpid()));
+  const auto plug = [&](const char* node, const char* id)
+  {
+    fs::create_directories(nodes / node / "device");
+    std::ofstream(nodes / node / "device" / "uevent")
+        << "DRIVER=hid-generic\nHID_ID=" << id << "\nHID_NAME=x\n";
+  };
+  EXPECT_FALSE(isKnownPluggedIn(nodes)) << "no such folder";
+  plug("hidraw0", "0003:0000046D:0000C31C"); // a keyboard
+  plug("hidraw1", "0003:00000C45:00007403"); // a pedal that types: nothing to open
+  fs::create_directories(nodes / "hidraw2");
+  EXPECT_FALSE(isKnownPluggedIn(nodes));
+  plug("hidraw3", "0003:0000256F:0000C635");
+  EXPECT_TRUE(isKnownPluggedIn(nodes)) << "SpaceMouse Compact";
+  fs::remove_all(nodes / "hidraw3");
+  plug("hidraw4", "0003:000005F3:000000FF");
+  EXPECT_TRUE(isKnownPluggedIn(nodes)) << "foot pedal";
+  fs::remove_all(nodes);
 }
 
 TEST(DeviceCatalogue, ListsADeviceOnceThatHidapiListsOnceAUsage)

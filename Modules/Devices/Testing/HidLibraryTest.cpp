@@ -26,9 +26,19 @@ std::string refusal(const std::string& path)
 
 } // namespace
 
-TEST(HidLibrary, ListsWithTheLinkedHidapiWhateverIsPluggedIn)
+TEST(HidLibrary, LoadsTheSystemsHidapiAtItsFirstUseAndListsWhateverIsPluggedIn)
 {
+  const auto isLoaded = []
+  {
+    void* handle = ::dlopen("libhidapi-hidraw.so.0", RTLD_LAZY | RTLD_NOLOAD);
+    if (handle)
+      ::dlclose(handle);
+    return handle != nullptr;
+  };
   const HidLibrary library;
+  EXPECT_FALSE(isLoaded());
+  library.list();
+  EXPECT_TRUE(isLoaded());
   for (const HidInterface& interface : library.list())
     EXPECT_FALSE(interface.path.empty());
   EXPECT_EQ(library.open("/nowhere/hidraw0"), nullptr);

@@ -131,6 +131,36 @@ TEST(ServedDevice, NamesAKilledServerAndTakesUpItsSuccessor)
   EXPECT_EQ(device.status().lastFault, fault);
 }
 
+TEST(ServedDevice, TwoAtOnceLeaveEachOtherAlone)
+{
+  ServedDevice first(exampleFor("one-of-two"));
+  ServedDevice second(exampleFor("two-of-two"));
+  ASSERT_TRUE(becomes(first, DeviceHealth::Good));
+  ASSERT_TRUE(becomes(second, DeviceHealth::Good));
+  EXPECT_NE(first.status().pid, second.status().pid);
+  // Compliance 1 mm/N: the circle of the one that is pushed lies 2 mm aside, the other's does not.
+  haptics::Wrench push;
+  push.linear = {2.0, 0.0, 0.0};
+  ASSERT_TRUE(eventually(
+      [&]
+      {
+        const DeviceReading pushed = first.read(steadySeconds());
+        first.send(push);
+        const DeviceReading other = second.read(steadySeconds());
+        second.send({});
+        EXPECT_NEAR(distanceFromAxis(other, 0.0), 20.0, 1e-9);
+        return std::abs(distanceFromAxis(pushed, 2.0) - 20.0) < 1e-9;
+      }));
+  const int pid = second.status().pid;
+  ASSERT_EQ(::kill(first.status().pid, SIGKILL), 0);
+  ASSERT_TRUE(eventually([&] { return first.status().restarts == 1; }));
+  ASSERT_TRUE(becomes(first, DeviceHealth::Good));
+  EXPECT_EQ(second.status().pid, pid);
+  EXPECT_EQ(second.status().lastFault, "");
+  EXPECT_EQ(second.status().restarts, 0);
+  ASSERT_TRUE(becomes(second, DeviceHealth::Good));
+}
+
 TEST(ServedDevice, StaysDisconnectedWhereARestartIsNotWanted)
 {
   ServedDevice::Options options = exampleFor("no-restart");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <fstream>
+#include <system_error>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -75,6 +77,34 @@ std::optional<KnownDevice> known(const HidInterface& interface)
       return device;
     }
   return std::nullopt;
+}
+
+bool isKnownPluggedIn(const std::filesystem::path& nodes)
+{
+  namespace fs = std::filesystem;
+  std::error_code error;
+  for (fs::directory_iterator node(nodes, error), end; !error && node != end; node.increment(error))
+  {
+    std::ifstream file(node->path() / "device" / "uevent");
+    for (std::string line; std::getline(file, line);)
+    {
+      // Bus, vendor and product, in hexadecimal: HID_ID=0003:0000046D:0000C62B
+      unsigned bus = 0;
+      unsigned vendor = 0;
+      unsigned product = 0;
+      if (std::sscanf(line.c_str(), "HID_ID=%x:%x:%x", &bus, &vendor, &product) != 3)
+        continue;
+      const auto& devices = knownDevices();
+      if (std::any_of(devices.begin(), devices.end(),
+                      [&](const KnownDevice& device)
+                      {
+                        return device.vendor == vendor && device.product == product &&
+                               device.kind != DeviceKind::KeyboardPedal;
+                      }))
+        return true;
+    }
+  }
+  return false;
 }
 
 Access accessTo(const std::string& path)

@@ -31,15 +31,19 @@ std::string utf8(const wchar_t* text)
   return result;
 }
 
+constexpr const char* kSystem = "libhidapi-hidraw.so.0";
+
+struct Closer
+{
+  void operator()(void* handle) const { ::dlclose(handle); }
+};
+
 template <typename Function>
 void find(void* handle, const std::string& library, const char* name, Function& function)
 {
   function = reinterpret_cast<Function>(::dlsym(handle, name));
   if (!function)
-  {
-    ::dlclose(handle);
     throw HidError(library + ": has no function " + name + ", which hidapi 0.13 has");
-  }
 }
 
 } // namespace
@@ -50,52 +54,47 @@ HidError::HidError(const std::string& message)
 }
 
 HidLibrary::HidLibrary()
-  : m_functions{::hid_init,      ::hid_exit,  ::hid_enumerate,   ::hid_free_enumeration,
-                ::hid_open_path, ::hid_close, ::hid_read_timeout}
+  : m_path(kSystem)
 {
-  initialise("hidapi");
 }
 
 HidLibrary::HidLibrary(const std::string& path)
+  : m_path(path)
 {
-  void* handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle)
-    throw HidError(path + ": cannot be loaded as hidapi: " + ::dlerror());
-  find(handle, path, "hid_init", m_functions.init);
-  find(handle, path, "hid_exit", m_functions.exit);
-  find(handle, path, "hid_enumerate", m_functions.enumerate);
-  find(handle, path, "hid_free_enumeration", m_functions.freeEnumeration);
-  find(handle, path, "hid_open_path", m_functions.openPath);
-  find(handle, path, "hid_close", m_functions.close);
-  find(handle, path, "hid_read_timeout", m_functions.readTimeout);
-  m_handle = handle;
-  try
-  {
-    initialise(path);
-  }
-  catch (const HidError&)
-  {
-    ::dlclose(handle);
-    throw;
-  }
+  load();
 }
 
 HidLibrary::~HidLibrary()
 {
+  if (!m_handle)
+    return;
   m_functions.exit();
-  if (m_handle)
-    ::dlclose(m_handle);
+  ::dlclose(m_handle);
 }
 
-void HidLibrary::initialise(const std::string& name)
+void HidLibrary::load() const
 {
+  if (m_handle)
+    return;
+  std::unique_ptr<void, Closer> handle(::dlopen(m_path.c_str(), RTLD_NOW | RTLD_LOCAL));
+  if (!handle)
+    throw HidError(m_path + ": cannot be loaded as hidapi: " + ::dlerror());
+  find(handle.get(), m_path, "hid_init", m_functions.init);
+  find(handle.get(), m_path, "hid_exit", m_functions.exit);
+  find(handle.get(), m_path, "hid_enumerate", m_functions.enumerate);
+  find(handle.get(), m_path, "hid_free_enumeration", m_functions.freeEnumeration);
+  find(handle.get(), m_path, "hid_open_path", m_functions.openPath);
+  find(handle.get(), m_path, "hid_close", m_functions.close);
+  find(handle.get(), m_path, "hid_read_timeout", m_functions.readTimeout);
   if (m_functions.init() != 0)
-    throw HidError(name + ": cannot be initialised");
+    throw HidError(m_path + ": cannot be initialised");
+  m_handle = handle.release();
 }
 
 std::vector<HidInterface> HidLibrary::list() const
 {
   const std::lock_guard<std::mutex> lock(m_mutex);
+  load();
   std::vector<HidInterface> interfaces;
   hid_device_info* const first = m_functions.enumerate(0, 0);
   for (const hid_device_info* info = first; info; info = info->next)
@@ -109,6 +108,7 @@ std::vector<HidInterface> HidLibrary::list() const
 std::unique_ptr<HidLibrary::Connection> HidLibrary::open(const std::string& path) const
 {
   const std::lock_guard<std::mutex> lock(m_mutex);
+  load();
   hid_device_* device = m_functions.openPath(path.c_str());
   if (!device)
     return nullptr;

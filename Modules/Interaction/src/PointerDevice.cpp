@@ -42,8 +42,7 @@ bool tells(const TickRecord& record) noexcept
   const bool plain = p.scale == 1.0 && std::abs(p.camera[0]) == 1.0;
   const bool ticked = record.input.now > 0.0; // otherwise not a record of a tick
   // After a retreat the tool was re-anchored after the mapping.
-  return ticked && plain && !record.input.clutched() && fault != ServoFault::Device &&
-         fault != ServoFault::Clock && fault != ServoFault::Parameters &&
+  return ticked && plain && !record.input.clutched() && session::hasToolPose(record) &&
          fault != ServoFault::Retreated && record.mapped.pose().finite() &&
          record.input.device.pose().finite();
 }

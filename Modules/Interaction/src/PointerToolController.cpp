@@ -20,8 +20,7 @@ namespace
 {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr double kSteepest = 80.0; // degrees
-constexpr double kGrazing = 0.05;  // cosine below which a ray counts as parallel to the depth plane
+constexpr double kGrazing = 0.05; // cosine below which a ray counts as parallel to the depth plane
 
 void check(bool holds, const char* what)
 {
@@ -37,7 +36,7 @@ bool within(double value, double least, double most, bool open = false)
 
 const AimSettings& checked(const AimSettings& s)
 {
-  check(within(s.tilt, 0.0, kSteepest), "the tilt must lie within 0 to 80 degrees");
+  check(within(s.tilt, 0.0, AimSettings::kMaxTilt), "the tilt must lie within 0 to 80 degrees");
   check(std::isfinite(s.turn), "the turn is not finite");
   check(within(s.depthStep, 0.0, 10.0, true), "a step of depth must lie within 0 to 10 mm");
   check(within(s.nudgeStep, 0.0, 10.0, true), "a step of the keys must lie within 0 to 10 mm");
@@ -206,7 +205,7 @@ void PointerToolController::nudge(double rightward, double upward, bool fine)
 void PointerToolController::tiltBy(double degrees)
 {
   if (std::isfinite(degrees))
-    m_settings.tilt = std::clamp(m_settings.tilt + degrees, 0.0, kSteepest);
+    m_settings.tilt = std::clamp(m_settings.tilt + degrees, 0.0, AimSettings::kMaxTilt);
   update();
 }
 

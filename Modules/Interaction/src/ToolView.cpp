@@ -50,11 +50,7 @@ void ToolView::removeFrom(vtkRenderer* renderer) const
 
 std::optional<rendering::ToolPose> ToolView::update(const session::TickRecord& record)
 {
-  using session::ServoFault;
-  const auto fault = static_cast<ServoFault>(record.fault);
-  // A record's poses are undefined before the first valid reading.
-  m_placed = m_placed || (fault != ServoFault::Device && fault != ServoFault::Clock &&
-                          fault != ServoFault::Parameters);
+  m_placed = m_placed || session::hasToolPose(record);
   if (!m_placed)
     return std::nullopt;
   const haptics::Pose tool = record.proxy.pose();

@@ -854,8 +854,11 @@ scene::Case viewedCase()
   view.stereo = scene::ViewState::Stereo{"interleaved", 22.2, std::nullopt};
   view.clipping.planes = {{Vector3d(0.1, 0.2, 0.3), Vector3d(0.0, 0.6, 0.8)}};
   view.clipping.crop = core::IndexBox{{1, 2, 3}, {4, 5, 6}};
-  view.tool = scene::ViewState::Tool{
-      {dissection::Burr::Kind::Diamond, 7.0 / 3.0, 54321.1, "coarse"}, 0.7, true};
+  view.tool =
+      scene::ViewState::Tool{{dissection::Burr::Kind::Diamond, 7.0 / 3.0, 54321.1, "coarse"},
+                             0.7,
+                             true,
+                             scene::ViewState::Handpiece{-100.0 / 3.0, 200.0 / 9.0}};
   scene::Attachment film;
   film.kind = scene::Attachment::Kind::Video;
   film.name = "film.mp4";
@@ -1100,6 +1103,8 @@ TEST(Manifest, RefusesAHostileViewOrAttachment)
   refused("/view/tool/burr", "drill");
   refused("/view/tool/diameter_mm", 0.0);
   refused("/view/tool/thrust_n", 1e9);
+  refused("/view/tool/handpiece/tilt_deg", 91.0);
+  refused("/view/tool/handpiece/turn_deg", "left");
   for (const char* name : {"../film.mp4", "/film.mp4", "a/b", "..", "", "a\n", "far.MP4"})
     refused("/attachments/0/name", name);
   refused("/attachments/0/kind", "virus");

@@ -686,6 +686,8 @@ json toolOut(const ViewState::Tool& tool)
          {"by_wheel", tool.byWheel}};
   if (!tool.burr.name.empty())
     j["burr_name"] = tool.burr.name;
+  if (tool.handpiece)
+    j["handpiece"] = {{"turn_deg", tool.handpiece->turn}, {"tilt_deg", tool.handpiece->tilt}};
   return j;
 }
 
@@ -701,6 +703,11 @@ ViewState::Tool toolIn(const json& j)
   dissection::setName(tool.burr, j.value("burr_name", std::string()));
   tool.thrust = j.at("thrust_n").get<double>();
   tool.byWheel = j.at("by_wheel").get<bool>();
+  if (j.contains("handpiece"))
+  {
+    const json& hand = j.at("handpiece");
+    tool.handpiece = {hand.at("turn_deg").get<double>(), hand.at("tilt_deg").get<double>()};
+  }
   return tool;
 }
 

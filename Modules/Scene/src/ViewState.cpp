@@ -161,10 +161,19 @@ bool operator==(const ViewState::Clipping& a, const ViewState::Clipping& b)
          isSameBox(a.crop, b.crop);
 }
 
+bool operator==(const ViewState::Handpiece& a, const ViewState::Handpiece& b)
+{
+  return a.turn == b.turn && a.tilt == b.tilt;
+}
+
 bool operator==(const ViewState::Tool& a, const ViewState::Tool& b)
 {
-  return std::tie(a.burr.kind, a.burr.name, a.burr.diameter, a.burr.rpm, a.thrust, a.byWheel) ==
-         std::tie(b.burr.kind, b.burr.name, b.burr.diameter, b.burr.rpm, b.thrust, b.byWheel);
+  const auto all = [](const ViewState::Tool& tool)
+  {
+    return std::tie(tool.burr.kind, tool.burr.name, tool.burr.diameter, tool.burr.rpm, tool.thrust,
+                    tool.byWheel, tool.handpiece);
+  };
+  return all(a) == all(b);
 }
 
 bool operator==(const ViewState::Instrument& a, const ViewState::Instrument& b)
@@ -221,6 +230,10 @@ void checkView(const ViewState& view)
                 isWithin(view.tool->burr.rpm, 0.0, 1e6) && isWithin(view.tool->thrust, 0.0, 100.0),
             "a burr must be 0.01 to 100 mm wide and turn at 0 to 1000000 rpm, with a thrust of 0 "
             "to 100 N");
+  if (view.tool && view.tool->handpiece)
+    require(isWithin(view.tool->handpiece->turn, -180.0, 180.0) &&
+                isWithin(view.tool->handpiece->tilt, 0.0, 90.0),
+            "a handpiece must be turned by -180 to 180 and tilted by 0 to 90 degrees");
   if (view.instrument)
   {
     const std::string& axis = view.instrument->axis;

@@ -62,6 +62,22 @@ TEST(Servo, FeelsThePlaneAsTheCouplingSays)
   EXPECT_EQ(record.number, session.records.size() - 1);
 }
 
+TEST(Servo, KnowsTheToolsPoseWithAValidReadingOnly)
+{
+  Session session;
+  session.health = petrous::haptics::DeviceHealth::NotReady;
+  const TickRecord before = session.tick({kAbove, Eigen::Quaterniond::Identity()});
+  EXPECT_FALSE(hasToolPose(before)) << "the tool is not placed: it stands at the origin";
+  session.health = petrous::haptics::DeviceHealth::Good;
+  settle(session);
+  EXPECT_TRUE(hasToolPose(session.records.back()));
+  TickRecord record = session.records.back();
+  record.proxy.rotation[2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(hasToolPose(record));
+  session.health = petrous::haptics::DeviceHealth::Disconnected;
+  EXPECT_FALSE(hasToolPose(session.tick(kDevicePose)));
+}
+
 TEST(Servo, ReportsRadiusAndElevationOfTheContact)
 {
   for (const double elevation : {0.2, 0.7, 1.2})

@@ -56,8 +56,14 @@ DeviceList findDevices(const DeviceSources& sources)
 {
   DeviceList found;
   std::vector<devices::FoundDevice> plugged;
-  if (sources.hid)
-    plugged = devices::findDevices(*sources.hid);
+  try
+  {
+    if (sources.hid)
+      plugged = devices::findDevices(*sources.hid);
+  }
+  catch (const devices::HidError&) // servers and mouse remain; 'petrous doctor' reports why
+  {
+  }
   std::optional<InputDevice> cap; // the first that can be opened, as in SpaceMouseDevice
   for (const devices::FoundDevice& device : plugged)
   {

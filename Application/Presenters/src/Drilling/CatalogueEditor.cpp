@@ -82,6 +82,7 @@ Tables withLike(Tables tables, std::vector<Row> Tables::*which, std::size_t like
 {
   std::vector<Row>& rows = tables.*which;
   Row added = rows.at(like);
+  added.source.clear(); // of other numbers from now on: nobody has stated it
   const std::string base = added.name;
   for (int n = 2; std::any_of(rows.begin(), rows.end(),
                               [&added](const Row& one) { return one.name == added.name; });
@@ -286,7 +287,9 @@ void CatalogueEditor::setMaterial(std::size_t row, const Material& material)
 
 std::size_t CatalogueEditor::addMaterial(std::size_t like)
 {
-  take(withLike(m_now, &Tables::materials, like));
+  Tables next = withLike(m_now, &Tables::materials, like);
+  next.materials.back().title = next.materials.back().name;
+  take(std::move(next));
   return m_now.materials.size() - 1;
 }
 

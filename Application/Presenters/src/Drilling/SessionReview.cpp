@@ -138,13 +138,11 @@ void addRemoved(const dissection::Dissection& work, std::size_t before, SessionR
 
 bool RecordedCourse::add(const session::TickRecord& record)
 {
-  using session::ServoFault;
-  const auto fault = static_cast<ServoFault>(record.fault);
-  const bool isSound =
-      fault != ServoFault::Device && fault != ServoFault::Clock && fault != ServoFault::Parameters;
-  const haptics::Pose pose = record.proxy.pose();
-  if (!isSound || !pose.position.allFinite()) // the proxy stands where it was
+  const bool wasOn = m_isOn;
+  m_isOn = record.drill != 0 || (wasOn && session::isInterruption(record));
+  if (!session::hasToolPose(record))
     return false;
+  const haptics::Pose pose = record.proxy.pose();
   RecordedTool tool;
   tool.center = pose.position;
   tool.axisToHand = pose.rotation * Eigen::Vector3d::UnitZ();
@@ -172,7 +170,7 @@ bool RecordedCourse::add(const session::TickRecord& record)
     m_spindle.add(m_lastInput, seconds);
   }
   const bool isStart = tool.drilling && (isFirst || !m_last.drilling);
-  m_metrics.drillStarts += isStart;
+  m_metrics.drillStarts += tool.drilling && !wasOn;
   if (const double way = (tool.center - m_step).norm(); way >= kStep)
   {
     m_metrics.path += way;

@@ -22,25 +22,6 @@ bool together(const TickRecord& record, const TickRecord& next)
              DissectionLoop::kTogether;
 }
 
-// The machine stood still, a reading was lost, or the tool is on its way back to the pointer after
-// that (Servo::awaitArrival).
-bool isInterruption(const TickRecord& record)
-{
-  if (!record.input.drillWanted())
-    return false;
-  switch (static_cast<ServoFault>(record.fault))
-  {
-  case ServoFault::Stalled:
-  case ServoFault::Device:
-  case ServoFault::Clock:
-    return true;
-  case ServoFault::None:
-    return isArriving(record);
-  default:
-    return false;
-  }
-}
-
 } // namespace
 
 DissectionLoop::DissectionLoop(dissection::Dissection& dissection, volume::PublishedMask& mask,

@@ -82,6 +82,13 @@ bool TickInput::clutched() const noexcept
   return parameters.clutch || (buttons & parameters.clutchButtons) != 0;
 }
 
+bool hasToolPose(const TickRecord& record) noexcept
+{
+  const auto fault = static_cast<ServoFault>(record.fault);
+  return fault != ServoFault::Device && fault != ServoFault::Clock &&
+         fault != ServoFault::Parameters && record.proxy.pose().finite();
+}
+
 bool isHeldOff(const TickRecord& record) noexcept
 {
   const double force = record.wrench.wrench().linear.norm();
@@ -93,6 +100,23 @@ bool isArriving(const TickRecord& record) noexcept
   return record.drill == 0 && record.input.drillWanted() && !record.input.clutched() &&
          !record.input.parameters.pause &&
          static_cast<ServoFault>(record.fault) == ServoFault::None;
+}
+
+bool isInterruption(const TickRecord& record) noexcept
+{
+  if (!record.input.drillWanted())
+    return false;
+  switch (static_cast<ServoFault>(record.fault))
+  {
+  case ServoFault::Stalled:
+  case ServoFault::Device:
+  case ServoFault::Clock:
+    return true;
+  case ServoFault::None:
+    return isArriving(record);
+  default:
+    return false;
+  }
 }
 
 std::string holderToString(std::uint8_t held)

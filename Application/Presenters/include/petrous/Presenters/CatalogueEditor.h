@@ -22,7 +22,7 @@ public:
     double specificEnergy = 0.0; ///< GPa
     double friction = 0.0;       ///< -
     double hardness = 0.0;       ///< HV
-    std::string source;          ///< of the numbers, and how reliable they are
+    std::string source;          ///< of the numbers, and how reliable they are; empty: not stated
   };
 
   struct Burr
@@ -60,10 +60,11 @@ public:
   // These throw InvalidParameter, without effect. A number out of its range is told by the range in
   // the table's unit: "must lie above 0 GPa, it is -3".
   void setMaterial(std::size_t row, const Material& material);
-  std::size_t addMaterial(std::size_t like); ///< a copy under a free name; returns its row
+  /// With the numbers of a row, under a free name and without a source; returns the new row.
+  std::size_t addMaterial(std::size_t like);
   void removeMaterial(std::size_t row);
   void setBurr(std::size_t row, const Burr& burr); ///< its kind stays
-  std::size_t addBurr(std::size_t like);           ///< a copy under a free name; returns its row
+  std::size_t addBurr(std::size_t like);           ///< likewise
   void removeBurr(std::size_t row);
 
   void setBuiltIn(); ///< all as it comes with the program

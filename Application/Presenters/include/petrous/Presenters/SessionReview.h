@@ -37,7 +37,8 @@ struct SessionMetrics
   double meanForce = 0.0;      ///< N, on the hand while the burr turned, mean over time
   double maxForce = 0.0;       ///< N, on the hand
   double maxThrust = 0.0;      ///< N
-  std::size_t drillStarts = 0; ///< how often the burr was switched on
+  std::size_t drillStarts = 0; ///< how often the burr was switched on; an interruption
+                               ///< (session::isInterruption) is no switch
 };
 
 /// Course and metrics of a recording from its ticks, in order. The metrics are those of all ticks;
@@ -66,6 +67,7 @@ private:
   session::SpindleMeter m_spindle;
   session::TickInput m_lastInput;
   bool m_placed = false;
+  bool m_isOn = false; // the drill, interruptions included
 };
 
 /// The tool at any time: interpolated, and at both ends as there. None of an empty course.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +34,10 @@ const std::vector<KnownDevice>& knownDevices();
 /// The entry for a device's interface; nullopt for other devices, and for interfaces of a
 /// SpaceMouse other than the cap (usage 1:8, if the usage is known).
 std::optional<KnownDevice> known(const HidInterface& interface);
+
+/// Whether the kernel lists a SpaceMouse or pedal that is known, by the hidraw nodes below
+/// `nodes`. Reads a few files of sysfs; loads no library and opens no device.
+bool isKnownPluggedIn(const std::filesystem::path& nodes = "/sys/class/hidraw");
 
 enum class Access : std::uint8_t
 {

@@ -34,15 +34,15 @@ struct HidInterface
   std::uint16_t usage = 0;
 };
 
-/// hidapi as a table of functions: those this program is linked with, or those of a shared library
-/// with the same C interface (hidapi 0.13), by which tests simulate devices.
+/// hidapi as a table of functions: the system's, or those of a shared library with the same C
+/// interface (hidapi 0.13), by which tests simulate devices.
 ///
 /// hidapi has global state for enumerating and opening devices, so these calls are serialised here;
 /// create one library per program and share it. An open device belongs to one thread.
 class HidLibrary
 {
 public:
-  /// The hidapi this program is linked with.
+  /// The system's hidapi, which is not loaded before its first use.
   HidLibrary();
 
   /// The shared library at `path`. Throws HidError naming it and what is missing.
@@ -52,7 +52,8 @@ public:
   HidLibrary(const HidLibrary&) = delete;
   HidLibrary& operator=(const HidLibrary&) = delete;
 
-  /// Connected interfaces, including those without permission to open them.
+  /// Connected interfaces, including those without permission to open them. Throws HidError if the
+  /// system's hidapi cannot be loaded; so does `open`.
   std::vector<HidInterface> list() const;
 
   /// An open device; closed on destruction. Must not outlive its library.
@@ -88,11 +89,12 @@ private:
     void (*close)(hid_device_*) = nullptr;
     int (*readTimeout)(hid_device_*, unsigned char*, std::size_t, int) = nullptr;
   };
-  void initialise(const std::string& name);
+  void load() const; // unless it is; with m_mutex held
 
-  Functions m_functions;
-  void* m_handle = nullptr; // of the loaded library
+  std::string m_path;
   mutable std::mutex m_mutex;
+  mutable Functions m_functions;
+  mutable void* m_handle = nullptr; // of the loaded library
 };
 
 } // namespace petrous::devices

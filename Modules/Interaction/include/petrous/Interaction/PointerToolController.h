@@ -21,9 +21,10 @@ struct AimSettings
   };
   Mode mode = Mode::Surface;
 
-  /// Angle between shaft and line of sight, degrees, in [0, 80]. At 20 the default handpiece (6 mm,
-  /// from 30 mm on) does not occlude the largest burr of 7 mm: 30 sin 20 - 6 cos 20 = 4.6 > 3.5 mm;
-  /// with a larger angle the shaft would touch the rim of a narrow cavity earlier.
+  static constexpr double kMaxTilt = 80.0; ///< degrees
+  /// Angle between shaft and line of sight, degrees, in [0, kMaxTilt]. At 20 the default handpiece
+  /// (6 mm, from 30 mm on) does not occlude the largest burr of 7 mm: 30 sin 20 - 6 cos 20 = 4.6
+  /// > 3.5 mm; with a larger angle the shaft would touch the rim of a narrow cavity earlier.
   double tilt = 20.0;
   double turn =
       -40.0; ///< degrees on the screen from right (0) to up (90): a right hand, from below

@@ -85,11 +85,19 @@ struct StereoView
   std::optional<double> convergence;   ///< mm from the camera; nullopt: the focal point
 };
 
+/// How the mouse's handpiece lies on the screen.
+struct HandpieceView
+{
+  double turn = 0.0; ///< degrees from right (0) to up (90), -180 to 180
+  double tilt = 0.0; ///< degrees from the line of sight, 0 to 90
+};
+
 struct ToolView
 {
   dissection::Burr burr;
-  double thrust = 1.0;  ///< N, of a device without force
-  bool byWheel = false; ///< the wheel moves the burr in depth
+  double thrust = 1.0;                         ///< N, of a device without force
+  bool byWheel = false;                        ///< the wheel moves the burr in depth
+  std::optional<HandpieceView> handpiece = {}; ///< nullopt: as at first
 };
 
 /// An instrument of the user's that was used with the case: a closed mesh that is felt and removes
@@ -113,6 +121,7 @@ struct ViewState
   using Slices = SlicesView;
   using Light = LightView;
   using Stereo = StereoView;
+  using Handpiece = HandpieceView;
   using Tool = ToolView;
   using Instrument = InstrumentView;
 
@@ -158,6 +167,7 @@ bool operator==(const ViewState::Slices& a, const ViewState::Slices& b);
 bool operator==(const ViewState::Light& a, const ViewState::Light& b);
 bool operator==(const ViewState::Stereo& a, const ViewState::Stereo& b);
 bool operator==(const ViewState::Clipping& a, const ViewState::Clipping& b);
+bool operator==(const ViewState::Handpiece& a, const ViewState::Handpiece& b);
 bool operator==(const ViewState::Tool& a, const ViewState::Tool& b);
 /// Of the same object, or the same mesh in memory.
 bool operator==(const ViewState::Instrument& a, const ViewState::Instrument& b);

@@ -90,6 +90,10 @@ static_assert(sizeof(TickRecord) == 8 + sizeof(TickInput) + 2 * 56 + 2 * 48 + 8 
 /// One sentence on the tick's fault; empty if there is none. Allocates.
 std::string toString(const TickRecord& record);
 
+/// Whether the tick had a valid reading and knows the tool's pose. At any other tick `mapped` and
+/// `proxy` stand where they were, or at the origin before the tool is placed.
+bool hasToolPose(const TickRecord& record) noexcept;
+
 /// "the shaft", "the handpiece", "shaft and handpiece": which parts other than the burr press on
 /// tissue; empty if none. Allocates.
 std::string holderToString(std::uint8_t held);
@@ -99,6 +103,10 @@ bool isHeldOff(const TickRecord& record) noexcept;
 
 /// The drill is to be on, but a pointer's tool is still on its way to where it is pressed.
 bool isArriving(const TickRecord& record) noexcept;
+
+/// The drill is to be on, but the machine stood still, a reading was lost, or a pointer's tool is
+/// on its way back after that. Of a drill that was on, it divides no stroke.
+bool isInterruption(const TickRecord& record) noexcept;
 
 /// Whether two records are bit-identical.
 bool identical(const TickRecord& a, const TickRecord& b) noexcept;

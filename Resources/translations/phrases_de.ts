@@ -2564,6 +2564,42 @@
         <translation>das MR wird umgerechnet</translation>
     </message>
     <message>
+        <source>it does not stand out from the noise</source>
+        <translation>sie hebt sich nicht vom Rauschen ab</translation>
+    </message>
+    <message>
+        <source>it is narrower than two voxels</source>
+        <translation>sie ist schmaler als zwei Voxel</translation>
+    </message>
+    <message>
+        <source>what is seen is wider than the structure can be</source>
+        <translation>was zu sehen ist, ist breiter, als die Struktur sein kann</translation>
+    </message>
+    <message>
+        <source>the path runs through air or bone, not through a nerve</source>
+        <translation>der Verlauf geht durch Luft oder Knochen, nicht durch einen Nerv</translation>
+    </message>
+    <message>
+        <source>the path leads through something of another intensity</source>
+        <translation>der Verlauf führt durch etwas von anderer Intensität</translation>
+    </message>
+    <message>
+        <source>a quarter of its circumference or more has no wall, as at an edge</source>
+        <translation>ein Viertel ihres Umfangs oder mehr hat keine Wand, wie an einer Kante</translation>
+    </message>
+    <message>
+        <source>the path is a long detour between two points; set another one between them</source>
+        <translation>der Verlauf ist ein langer Umweg zwischen zwei Punkten; setzen Sie einen weiteren dazwischen</translation>
+    </message>
+    <message>
+        <source>what is seen is too short a piece of it</source>
+        <translation>was zu sehen ist, ist ein zu kurzes Stück davon</translation>
+    </message>
+    <message>
+        <source>Not resolved from %#1 to %#2 mm: %~3.</source>
+        <translation>Nicht aufgelöst von %#1 bis %#2 mm: %~3.</translation>
+    </message>
+    <message>
         <source>where it is thinner than the voxels it is drawn one voxel wide, so that it has no gap: %#1 of its %#2 voxels, which its volume counts whole</source>
         <translation>wo sie dünner als die Voxel ist, wird sie ein Voxel breit gezeichnet, damit sie keine Lücke hat: %#1 ihrer %#2 Voxel, die ihr Volumen ganz zählt</translation>
     </message>

@@ -166,6 +166,7 @@ Made tube(const SegmentOptions& options, const scene::Case& value, const scene::
 {
   segmentation::TubeOptions tracing;
   tracing.widest = segmentation::widestFor(options.name);
+  tracing.usual = segmentation::usualFor(options.name);
   if (&source == &value.ct && presenters::displayOf(value).hounsfield)
     tracing.lumen = segmentation::lumenFor(options.name);
   if (options.radius != kAutomatic)

@@ -9360,6 +9360,10 @@
         <translation>Röhre: der Radius %~1</translation>
     </message>
     <message>
+        <source>tube: the usual radius %~1</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>tube: the largest radius %~1</source>
         <translation>Röhre: der größte Radius %~1</translation>
     </message>

@@ -413,6 +413,25 @@ TEST(TubeTrace, SaysWhereTheImageShowsNothing)
   EXPECT_GE(tube.smallestRadius, 0.2);
 }
 
+// A nerve in a fluid or a muscle that looks like it: what is measured there is noise.
+TEST(TubeTrace, WhereNothingIsSeenTheRadiusIsTheUsualOne)
+{
+  const auto grid = cube(0.4);
+  Scan scan{grid, bend(grid)};
+  const auto points = scan.clicks(5, 0.0);
+  TubeOptions options;
+  options.usual = usualFor("facial_nerve");
+  EXPECT_NEAR(traceTube(scan.image(), points, options).radius, 0.8, 0.2) << "what is seen counts";
+  scan.inside = scan.outside;
+  const Tube tube = traceTube(scan.image(), points, options);
+  EXPECT_EQ(tube.smallestRadius, 0.6);
+  EXPECT_EQ(tube.largestRadius, 0.6);
+  EXPECT_EQ(usualFor("Chorda tympani"), 0.2);
+  EXPECT_FALSE(usualFor("sigmoid sinus"));
+  options.usual = 0.0;
+  EXPECT_THROW(traceTube(scan.image(), points, options), core::InvalidParameter);
+}
+
 namespace
 {
 

@@ -1326,12 +1326,14 @@ SegmentEditor::Computed SegmentEditor::computed() const
   case Tool::Nerve:
     return [base, values, image = *m_image, points = m_draft->points,
             widest = segmentation::widestFor(m_draft->name),
+            usual = segmentation::usualFor(m_draft->name),
             lumen = lumenOf(m_draft->name, display(), isSourceMr())](const core::Progress& progress)
     {
       Preview preview;
       segmentation::TubeOptions options;
       options.radius = values.tubeRadius;
       options.widest = widest;
+      options.usual = usual;
       options.lumen = lumen;
       Tube tube = traceOnCt(*image.own, image.ownFromCt, points, options, progress.part(0.0, 0.8));
       volume::Segment segment;

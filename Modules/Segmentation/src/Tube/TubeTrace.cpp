@@ -31,6 +31,8 @@ void checkOptions(const TubeOptions& options)
 {
   if (options.radius && !TubeOptions::kRadii.contains(*options.radius))
     throw InvalidParameter("tube: the radius " + TubeOptions::kRadii.refusal(*options.radius));
+  if (options.usual && !TubeOptions::kRadii.contains(*options.usual))
+    throw InvalidParameter("tube: the usual radius " + TubeOptions::kRadii.refusal(*options.usual));
   if (!TubeOptions::kRadii.contains(options.widest))
     throw InvalidParameter("tube: the largest radius " +
                            TubeOptions::kRadii.refusal(options.widest));
@@ -270,8 +272,9 @@ void dropFragments(Tube& tube, const std::vector<double>& lengths)
 
 /// Where the image does not resolve the tube, its half-maximum width says nothing of the radius,
 /// and less the blur may leave none: there the radius of what is resolved on either side goes on,
-/// linearly. If nothing is resolved, no radius is below `least`.
-void bridgeUnresolved(Tube& tube, const std::vector<double>& lengths, double least)
+/// linearly. If nothing is resolved, they are the usual one, or none is below `least`.
+void bridgeUnresolved(Tube& tube, const std::vector<double>& lengths, double least,
+                      const std::optional<double>& usual)
 {
   const std::size_t n = tube.radii.size();
   std::size_t before = n; // the last resolved vertex; n: none yet
@@ -289,6 +292,8 @@ void bridgeUnresolved(Tube& tube, const std::vector<double>& lengths, double lea
     }
     before = i;
   }
+  if (before == n && usual)
+    return std::fill(tube.radii.begin(), tube.radii.end(), *usual);
   for (std::size_t k = before == n ? 0 : before + 1; k < n; ++k)
     tube.radii[k] = before == n ? std::max(tube.radii[k], least) : tube.radii[before];
 }
@@ -467,7 +472,7 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
   {
     for (double& radius : tube.radii)
       radius = std::min(radius, options.widest);
-    bridgeUnresolved(tube, lengths, 0.5 * geometry.minSpacing());
+    bridgeUnresolved(tube, lengths, 0.5 * geometry.minSpacing(), options.usual);
   }
   std::vector<double> ordered = tube.radii;
   std::sort(ordered.begin(), ordered.end());
@@ -524,6 +529,14 @@ double widestFor(std::string_view name)
   if (lower.find("chorda") != lower.npos)
     return 0.5;
   return lower.find("facial") != lower.npos ? 1.3 : TubeOptions{}.widest;
+}
+
+std::optional<double> usualFor(std::string_view name)
+{
+  const std::string lower = lowerCase(name);
+  if (lower.find("chorda") != lower.npos)
+    return 0.2;
+  return lower.find("facial") != lower.npos ? std::optional(0.6) : std::nullopt;
 }
 
 std::size_t insertionIndex(const Tube& tube, const Vector3d& point)

@@ -44,6 +44,10 @@ struct TubeOptions
   /// image shows nothing narrower, the tube is not resolved. See widestFor.
   double widest = 6.0;
 
+  /// Radius where the image resolves nothing of the tube, mm: widths that are measured there are
+  /// those of noise. Unset: these, but half a voxel at least. See usualFor.
+  std::optional<double> usual;
+
   /// Sigma of the scan's Gaussian point spread with the voxel's own, mm. Unset: 0.7 voxels.
   std::optional<double> blur;
 
@@ -96,7 +100,7 @@ struct Tube
 {
   std::vector<Eigen::Vector3d> line; ///< from the first point to the last, <= half a voxel apart
   /// mm, free of the scan's blur as far as it is known; where not resolved, interpolated from where
-  /// it is.
+  /// it is; where nothing is, TubeOptions::usual.
   std::vector<double> radii;
   std::vector<double> contrast; ///< surroundings against lumen, in sigma of the noise, >= 0
   /// 1: there is no doubt.
@@ -162,6 +166,10 @@ std::optional<volume::ValueRange> lumenFor(std::string_view name);
 /// [normal canals are up to about 0.9 mm wide], a facial nerve in its canal below 1.3; else the
 /// option's default.
 double widestFor(std::string_view name);
+
+/// TubeOptions::usual for a structure of this name, mm; our choice: 0.6 of a facial nerve, 0.2 of a
+/// chorda tympani. Of any other unset.
+std::optional<double> usualFor(std::string_view name);
 
 /// The order in which 3 to 12 points make the shortest line, first and last as near to theirs as
 /// possible, if it is shorter than their own order's by more than a quarter: they were probably not

@@ -512,6 +512,10 @@
         <translation>%1: wurde in einem anderen Bezugssystem gezeichnet als dem des %2, die Lage im %3 ist daher nicht bekannt; gehört es doch zu diesem %4, fügen Sie es noch einmal hinzu und wählen Sie „auf dem CT“, oder fügen Sie das MR hinzu, auf dem gezeichnet wurde</translation>
     </message>
     <message>
+        <source>%1: has another grid than the CT, which was repaired; drawn on the slices as they lie in the files, by a program that takes them for straight and even, it lies elsewhere by up to %#2 mm. Say --labels-as-they-lie if it is to be added where it lies, and look whether it fits the bone</source>
+        <translation>%1: hat ein anderes Gitter als das CT, das repariert wurde; auf den Schichten gezeichnet, wie sie in den Dateien liegen, von einem Programm, das sie für gerade und gleichmäßig hält, liegt sie bis zu %#2 mm anderswo. Fügen Sie sie noch einmal hinzu, so wie sie liegt, und sehen Sie nach, ob sie zum Knochen passt</translation>
+    </message>
+    <message>
         <source>%1: states another patient than the case's images do (what differs: %~2); look whether it is this patient's, and say --other-patient if it is to be added all the same</source>
         <translation>%1: nennt einen anderen Patienten als die Bilder des Falls (es unterscheiden sich: %~2); sehen Sie nach, ob es dieser Patient ist</translation>
     </message>
@@ -9361,7 +9365,7 @@
     </message>
     <message>
         <source>tube: the usual radius %~1</source>
-        <translation type="unfinished"></translation>
+        <translation>Röhre: der übliche Radius %~1</translation>
     </message>
     <message>
         <source>tube: the largest radius %~1</source>

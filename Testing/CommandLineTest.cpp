@@ -593,6 +593,21 @@ TEST_F(CommandLine, RefusesATiltedScanInWordsAndRepairsItOnRequest)
   const auto info = json("new ear --repair --ct " + quoted(m_folder / "patient/ct"));
   EXPECT_NE(info["ct"]["notes"].dump().find("18.5 degrees"), std::string::npos) << info["ct"];
   EXPECT_EQ(json("info ear")["ct"]["notes"], info["ct"]["notes"]);
+  // Labels of another program on the stack as it lies in the files.
+  std::ofstream labels(m_folder / "vein.nrrd", std::ios::binary);
+  labels << "NRRD0004\ntype: uchar\ndimension: 3\nspace: left-posterior-superior\n"
+         << "sizes: 4 4 4\nspace directions: (3,0,0) (0,3,0) (0,0,3)\n"
+         << "space origin: (-40.3,0,0)\nencoding: raw\nendian: little\n\n"
+         << std::string(64, '\1');
+  labels.close();
+  const std::string add = "add ear --labels " + quoted(m_folder / "vein.nrrd");
+  expectRefused(add, 3, "--labels-as-they-lie");
+  EXPECT_TRUE(json("info ear")["labels"].empty());
+  json(add + " --labels-as-they-lie");
+  EXPECT_EQ(json("info ear")["labels"].size(), 1U);
+  EXPECT_NE(json("info ear")["labels"].dump().find("which was repaired"), std::string::npos);
+  expectRefused("new none --labels-as-they-lie --repair --ct " + quoted(m_folder / "patient/ct"), 2,
+                "--labels-as-they-lie goes with --labels");
 }
 
 TEST_F(CommandLine, RefusesBadInputInOneLineAndLeavesTheLibrary)

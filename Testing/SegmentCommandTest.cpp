@@ -200,6 +200,31 @@ TEST_F(SegmentCommand, TracesANerveThroughAFewPoints)
   EXPECT_FALSE(structure("ball").contains("traced_tubes"));
 }
 
+// Through the bone beside the canal, where there is no nerve.
+TEST_F(SegmentCommand, SaysWhereNoNerveIsSeenAndKeepsIt)
+{
+  const std::filesystem::path file = m_folder / "nowhere.csv";
+  std::ofstream(file) << "x_mm,y_mm,z_mm\n14,4,6\n17,7,7\n19,12,7\n21,16,6\n";
+  const Outcome outcome =
+      run("--json segment ear \"facial nerve elsewhere\" --tube " + quoted(file));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto made = nlohmann::json::parse(outcome.out);
+  double unresolved = 0.0;
+  for (const auto& stretch : made["unresolved"])
+  {
+    EXPECT_LT(stretch["from_mm"], stretch["to_mm"]);
+    EXPECT_NE(stretch["why"], "none");
+    unresolved += stretch["to_mm"].get<double>() - stretch["from_mm"].get<double>();
+  }
+  EXPECT_NEAR(unresolved, made["length_mm"].get<double>() - made["resolved_mm"].get<double>(),
+              1e-6);
+  EXPECT_GT(unresolved, 0.8 * made["length_mm"].get<double>());
+  EXPECT_NE(made["warnings"].dump().find("not resolved from "), std::string::npos);
+  EXPECT_NE(json("info ear").dump().find("'facial nerve elsewhere': Not resolved from "),
+            std::string::npos)
+      << "it is kept in the case";
+}
+
 TEST_F(SegmentCommand, IsUndoneByRemovingAndReplacesOnlyWhenTold)
 {
   json("segment ear ball --threshold 200,650 --seed 22,22,13.35");

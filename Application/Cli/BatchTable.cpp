@@ -42,7 +42,7 @@ struct Column
   const char* text;
 };
 
-constexpr std::array<Column, 34> kColumns{{
+constexpr std::array<Column, 35> kColumns{{
     {"name", Step::None, "the case's name (needed)"},
     {"folder", Step::Build, "CT: DICOM folder or image file; blank: the case is there already"},
     {"series", Step::Build, "which series of the folder: UID or UID#VOLUME; of a file #VOLUME"},
@@ -54,6 +54,8 @@ constexpr std::array<Column, 34> kColumns{{
     {"ct_unit", Step::Build, "mm, cm, m or um, if an image file states none or a wrong one"},
     {"mr_unit", Step::Build, "likewise, of the MR"},
     {"labels_unit", Step::Build, "likewise, of the labels"},
+    {"labels_as_they_lie", Step::Build,
+     "yes or no: add labels on another grid than a repaired CT where they lie"},
     {"bits", Step::Build, "stored or allocated, where bits of DICOM pixels are not declared"},
     {"roi", Step::Build, "x0,x1,y0,y1,z0,z1 in patient LPS mm"},
     {"repair", Step::Build, "yes or no: resample tilted, uneven or gapped slices"},
@@ -304,6 +306,7 @@ private:
     {
       labels.assumeRas = frame("labels_frame");
       labels.unit = unit("labels_unit");
+      labels.asTheyLie = isYes("labels_as_they_lie", cell("labels_as_they_lie"));
       labels.isOtherPatient = isYes("other_patient", cell("other_patient"));
       labels.skipsTaken = isYes("skip_taken", cell("skip_taken"));
       labels.numbersTaken = isYes("rename_taken", cell("rename_taken"));

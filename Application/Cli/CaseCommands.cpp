@@ -64,6 +64,7 @@ struct PartOptions
   std::string mrFrame;
   std::string mrUnit;
   std::string labelsUnit;
+  bool labelsAsTheyLie = false;
   std::string mrRoi;
   std::string labelsFrame;
   bool repair = false;
@@ -145,6 +146,8 @@ struct PartOptions
         .add_option("--labels-unit", labelsUnit,
                     "Unit of length of label files, instead of what they state")
         ->check(oneOf({"mm", "cm", "m", "um", "nm", "inch"}));
+    command.add_flag("--labels-as-they-lie", labelsAsTheyLie,
+                     "Add labels on another grid than a repaired CT where they lie");
   }
 
   presenters::PartSources sources() const
@@ -160,6 +163,8 @@ struct PartOptions
       throw UsageError("--mr-unit goes with --mr");
     if (!labelsUnit.empty() && labels.empty())
       throw UsageError("--labels-unit goes with --labels");
+    if (labelsAsTheyLie && labels.empty())
+      throw UsageError("--labels-as-they-lie goes with --labels");
     if (!mrRoi.empty() && mr.empty())
       throw UsageError("--mr-roi goes with --mr");
     if (meshParts && meshes.empty())
@@ -201,6 +206,7 @@ struct PartOptions
       if (!labelsUnit.empty())
         result.labels.back().unit = millimetresOf(labelsUnit);
       result.labels.back().isOtherPatient = otherPatient;
+      result.labels.back().asTheyLie = labelsAsTheyLie;
       result.labels.back().skipsTaken = skipTaken;
       result.labels.back().numbersTaken = renameTaken;
       result.labels.back().newNames = newNames;

@@ -372,6 +372,8 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
                         {"provenance",
                          {{"assumed_axes", axesJson(part.provenance.assumedRas)},
                           {"frame_assumed", part.provenance.isFrameAssumed}}}});
+      if (!part.notes.empty())
+        labels.back()["notes"] = part.notes;
       addPlace(labels.back(), place);
       addReadings(labels.back(), value, s.readings);
       if (!(s.tubes == scene::TracedTubes()))

@@ -65,6 +65,13 @@ struct Made
   scene::TracedTubes tubes = {};
 };
 
+// What is kept of it is said as well, as warnings are: no capital and no full stop.
+void appendNotes(Made& made)
+{
+  for (const std::string& note : made.notes)
+    made.warnings.push_back(core::asciiLower(note.front()) + note.substr(1, note.size() - 2));
+}
+
 // The brightest region of an MR, its seed in the CT's patient space.
 segmentation::ProposedRegion proposedRegion(const SegmentOptions& options, const scene::Case& value,
                                             const scene::ImagePart& source,
@@ -144,8 +151,7 @@ Made region(const SegmentOptions& options, const scene::Case& value, const scene
              made.mask, range, unit, isHounsfield ? std::optional(value.iso) : std::nullopt))
       made.notes.push_back(std::move(text));
   }
-  for (const std::string& note : made.notes)
-    made.warnings.push_back(core::asciiLower(note.front()) + note.substr(1, note.size() - 2));
+  appendNotes(made);
   made.facts["threshold"] = {range.min, range.max};
   made.lines.push_back(
       "  between " + core::plainText(range.min) + " and " + core::plainText(range.max) +
@@ -159,6 +165,9 @@ Made tube(const SegmentOptions& options, const scene::Case& value, const scene::
 {
   segmentation::TubeOptions tracing;
   tracing.widest = segmentation::widestFor(options.name);
+  tracing.usual = segmentation::usualFor(options.name);
+  if (&source == &value.ct && presenters::displayOf(value).hounsfield)
+    tracing.lumen = segmentation::lumenFor(options.name);
   if (options.radius != kAutomatic)
   {
     const double radius = parseNumbers(options.radius, 1, "--radius")[0];
@@ -181,10 +190,15 @@ Made tube(const SegmentOptions& options, const scene::Case& value, const scene::
   made.facts = {
       {"length_mm", tube.length},
       {"resolved_mm", tube.resolvedLength},
+      {"unresolved", nlohmann::json::array()},
       {"bridging_voxels", label.bridging},
       {"radius_mm",
        {{"min", tube.smallestRadius}, {"median", tube.radius}, {"max", tube.largestRadius}}},
       {"points_to_path_mm", {{"max", farthest}, {"each", tube.pointDistances}}}};
+  for (const segmentation::TubeStretch& stretch : segmentation::unresolvedStretches(tube))
+    made.facts["unresolved"].push_back({{"from_mm", stretch.from},
+                                        {"to_mm", stretch.to},
+                                        {"why", presenters::nameOf(stretch.doubt)}});
   nlohmann::json line = nlohmann::json::array();
   for (const Eigen::Vector3d& p : tube.line)
     line.push_back({p[0], p[1], p[2]});
@@ -209,6 +223,8 @@ Made tube(const SegmentOptions& options, const scene::Case& value, const scene::
     made.warnings.push_back("the image resolves " + fixed(tube.resolvedLength, 1) + " of " +
                             fixed(tube.length, 1) +
                             " mm; elsewhere path and radius follow the points alone");
+  made.notes = presenters::unresolvedTexts(tube);
+  appendNotes(made);
   return made;
 }
 

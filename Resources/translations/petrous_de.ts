@@ -1912,6 +1912,22 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>Bringing back %1</source>
         <translation>%1 wird zurückgeholt</translation>
     </message>
+    <message>
+        <source>Does it lie where it belongs?</source>
+        <translation>Liegt sie, wo sie hingehört?</translation>
+    </message>
+    <message>
+        <source>“%1” has another grid than the CT, which was repaired.</source>
+        <translation>„%1“ hat ein anderes Gitter als das CT, das repariert wurde.</translation>
+    </message>
+    <message>
+        <source>Drawn on the slices as they lie in the files, by a program that takes them for straight and even, it lies up to %1 mm off the bone. How each slice was moved is not known of it, so that it cannot follow the repair: export the repaired CT and draw it there. What was drawn on the repaired CT, or where each slice really lies, fits.</source>
+        <translation>Wurde sie auf den Schichten gezeichnet, wie sie in den Dateien liegen, von einem Programm, das sie für gerade und gleichmäßig hält, so liegt sie bis zu %1 mm neben dem Knochen. Wie jede Schicht bewegt wurde, ist nicht bekannt, daher kann sie der Reparatur nicht folgen: Exportieren Sie das reparierte CT und zeichnen Sie darauf. Was auf dem reparierten CT gezeichnet wurde, oder wo jede Schicht wirklich liegt, passt.</translation>
+    </message>
+    <message>
+        <source>&amp;Add it as it lies</source>
+        <translation>So &amp;hinzufügen, wie sie liegt</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::CaseJobs</name>

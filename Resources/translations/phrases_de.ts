@@ -516,6 +516,10 @@
         <translation>%1: wurde in einem anderen Bezugssystem gezeichnet als dem des %2, die Lage im %3 ist daher nicht bekannt; gehört es doch zu diesem %4, fügen Sie es noch einmal hinzu und wählen Sie „auf dem CT“, oder fügen Sie das MR hinzu, auf dem gezeichnet wurde</translation>
     </message>
     <message>
+        <source>%1: has another grid than the CT, which was repaired; drawn on the slices as they lie in the files, by a program that takes them for straight and even, it lies elsewhere by up to %#2 mm. Say --labels-as-they-lie if it is to be added where it lies, and look whether it fits the bone</source>
+        <translation>%1: hat ein anderes Gitter als das CT, das repariert wurde; auf den Schichten gezeichnet, wie sie in den Dateien liegen, von einem Programm, das sie für gerade und gleichmäßig hält, liegt sie bis zu %#2 mm anderswo. Fügen Sie sie noch einmal hinzu, so wie sie liegt, und sehen Sie nach, ob sie zum Knochen passt</translation>
+    </message>
+    <message>
         <source>%1: states another patient than the case's images do (what differs: %~2); look whether it is this patient's, and say --other-patient if it is to be added all the same</source>
         <translation>%1: nennt einen anderen Patienten als die Bilder des Falls (es unterscheiden sich: %~2); sehen Sie nach, ob es dieser Patient ist</translation>
     </message>
@@ -2574,6 +2578,42 @@
     <message>
         <source>resampling the MR</source>
         <translation>das MR wird umgerechnet</translation>
+    </message>
+    <message>
+        <source>it does not stand out from the noise</source>
+        <translation>sie hebt sich nicht vom Rauschen ab</translation>
+    </message>
+    <message>
+        <source>it is narrower than two voxels</source>
+        <translation>sie ist schmaler als zwei Voxel</translation>
+    </message>
+    <message>
+        <source>what is seen is wider than the structure can be</source>
+        <translation>was zu sehen ist, ist breiter, als die Struktur sein kann</translation>
+    </message>
+    <message>
+        <source>the path runs through air or bone, not through a nerve</source>
+        <translation>der Verlauf geht durch Luft oder Knochen, nicht durch einen Nerv</translation>
+    </message>
+    <message>
+        <source>the path leads through something of another intensity</source>
+        <translation>der Verlauf führt durch etwas von anderer Intensität</translation>
+    </message>
+    <message>
+        <source>a quarter of its circumference or more has no wall, as at an edge</source>
+        <translation>ein Viertel ihres Umfangs oder mehr hat keine Wand, wie an einer Kante</translation>
+    </message>
+    <message>
+        <source>the path is a long detour between two points; set another one between them</source>
+        <translation>der Verlauf ist ein langer Umweg zwischen zwei Punkten; setzen Sie einen weiteren dazwischen</translation>
+    </message>
+    <message>
+        <source>what is seen is too short a piece of it</source>
+        <translation>was zu sehen ist, ist ein zu kurzes Stück davon</translation>
+    </message>
+    <message>
+        <source>Not resolved from %#1 to %#2 mm: %~3.</source>
+        <translation>Nicht aufgelöst von %#1 bis %#2 mm: %~3.</translation>
     </message>
     <message>
         <source>where it is thinner than the voxels it is drawn one voxel wide, so that it has no gap: %#1 of its %#2 voxels, which its volume counts whole</source>
@@ -9358,6 +9398,10 @@
     <message>
         <source>tube: the radius %~1</source>
         <translation>Röhre: der Radius %~1</translation>
+    </message>
+    <message>
+        <source>tube: the usual radius %~1</source>
+        <translation>Röhre: der übliche Radius %~1</translation>
     </message>
     <message>
         <source>tube: the largest radius %~1</source>

@@ -243,7 +243,7 @@ TEST_F(CaseBuilder, PutsTheSurfaceWhereBoneIsInUnitsOfItsOwn)
 }
 
 // On real data a label of the unrepaired stack lies 38 mm off.
-TEST_F(CaseBuilder, SaysOfLabelsOnAnotherGridThatTheCtWasRepaired)
+TEST_F(CaseBuilder, AsksAboutLabelsOnAnotherGridThanARepairedCt)
 {
   auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(
       core::GridGeometry({16, 12, 8}, Vector3d(1.0, 1.0, 1.2), Vector3d(-8, 2, 3)),
@@ -260,6 +260,25 @@ TEST_F(CaseBuilder, SaysOfLabelsOnAnotherGridThatTheCtWasRepaired)
           value.ct.provenance.interpolated = {{3, 2 + missing}};
         presenters::PartSources parts;
         parts.labels = {{"", m_folder / (file + std::string(".nii.gz"))}};
+        if (file == std::string("vein") && (shift > 0.0 || missing > 0))
+        {
+          try
+          {
+            presenters::addParts(value, parts, {});
+            ADD_FAILURE() << "was added";
+          }
+          catch (const presenters::LabelsUnrepaired& unrepaired)
+          {
+            EXPECT_NEAR(unrepaired.apart, shift + missing, 1e-9);
+            EXPECT_NE(std::string(unrepaired.what()).find("--labels-as-they-lie"),
+                      std::string::npos);
+          }
+          EXPECT_TRUE(value.labels.empty());
+          const auto failures = presenters::addSoundParts(value, parts, {});
+          ASSERT_EQ(failures.size(), 1U);
+          EXPECT_NEAR(failures[0].unrepaired, shift + missing, 1e-9);
+          parts.labels[0].asTheyLie = true;
+        }
         presenters::addParts(value, parts, {});
         std::string told;
         for (const std::string& note : value.labels.at(0).notes)
@@ -268,6 +287,27 @@ TEST_F(CaseBuilder, SaysOfLabelsOnAnotherGridThatTheCtWasRepaired)
         EXPECT_EQ(isTold, file == std::string("vein") && (shift > 0.0 || missing > 0)) << told;
         EXPECT_EQ(told.find(core::fixedText(shift + missing, 1) + " mm") != told.npos, isTold);
       }
+}
+
+// What was cut out of the repaired CT, or reaches beyond it, is on its voxels.
+TEST_F(CaseBuilder, AsksNotAboutLabelsOnTheVoxelsOfARepairedCt)
+{
+  auto value = presenters::buildCase("ear", m_sources, {});
+  value.ct.provenance.shift = 20.0;
+  const core::GridGeometry& ct = value.ct.geometry;
+  for (const Vector3d& first : {Vector3d(2, 3, 1), Vector3d(-2, 0, 0)})
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(
+        core::GridGeometry({6, 5, 4}, ct.spacing(), ct.patientFromVoxel(first), ct.direction()),
+        std::uint16_t{0});
+    voxels->at(3, 3, 2) = 1;
+    imaging::writeLabelFile(m_folder / "part.nrrd", volume::makeLabelMap(voxels, {}));
+    presenters::PartSources parts;
+    parts.labels = {{"vein", m_folder / "part.nrrd"}};
+    scene::Case with = value;
+    presenters::addParts(with, parts, {});
+    EXPECT_EQ(with.labels.size(), 1U);
+  }
 }
 
 // A box without air and soft tissue shows no unit; that of the whole image is known.

@@ -1235,7 +1235,7 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
       const bool isQuestion = !failure.likely.empty() || failure.isOtherPatient ||
                               failure.isSideUnclear || failure.isFrameUnclear ||
                               failure.isBitsUnclear || !failure.unitDoubt.likely.empty() ||
-                              !failure.taken.empty();
+                              failure.unrepaired > 0.0 || !failure.taken.empty();
       if (!isQuestion || !isOpen(target))
         lost += phrase(failure.why);
       else if (const auto source = askAgain(failure, target))
@@ -1354,6 +1354,12 @@ CaseDocumentController::askAgain(const presenters::PartFailure& failure, const T
     source.drawnOn = askDrawnOn(failure);
     if (source.drawnOn.empty())
       return std::nullopt;
+  }
+  else if (failure.unrepaired > 0.0)
+  {
+    if (!askAsTheyLie(failure))
+      return std::nullopt;
+    source.asTheyLie = true;
   }
   else if (!failure.taken.empty())
   {
@@ -1489,6 +1495,28 @@ std::string CaseDocumentController::askDrawnOn(const presenters::PartFailure& fa
     if (box.clickedButton() == button)
       return name;
   return {};
+}
+
+// Whether structures that may have been drawn on the slices before the repair of the CT are added
+// where they lie.
+bool CaseDocumentController::askAsTheyLie(const presenters::PartFailure& failure)
+{
+  QMessageBox box(
+      QMessageBox::Warning, tr("Does it lie where it belongs?"),
+      tr("“%1” has another grid than the CT, which was repaired.").arg(titleOf(failure.source)),
+      QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askAsTheyLie");
+  box.setInformativeText(
+      tr("Drawn on the slices as they lie in the files, by a program that takes them for straight "
+         "and even, it lies up to %1 mm off the bone. How each slice was moved is not known of it, "
+         "so that it cannot follow the repair: export the repaired CT and draw it there. What was "
+         "drawn on the repaired CT, or where each slice really lies, fits.")
+          .arg(numberText(failure.unrepaired, 1)));
+  const auto* add = box.addButton(tr("&Add it as it lies"), QMessageBox::ActionRole);
+  box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+  box.exec();
+  return box.clickedButton() == add;
 }
 
 // Parts of a file that have names of the case: what they are called here, or whether the others

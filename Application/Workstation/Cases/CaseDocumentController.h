@@ -180,6 +180,7 @@ private:
   std::optional<bool> askSide(const std::filesystem::path& path);
   std::optional<double> askUnit(const std::filesystem::path& path, const imaging::UnitDoubt& doubt);
   std::string askDrawnOn(const presenters::PartFailure& failure);
+  bool askAsTheyLie(const presenters::PartFailure& failure);
   bool askNewNames(presenters::PartSource& source, const std::vector<std::string>& taken,
                    std::size_t others);
   bool askTaken(presenters::PartSources& parts, const std::vector<Item>& others);

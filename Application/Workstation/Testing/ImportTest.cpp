@@ -1405,6 +1405,45 @@ TEST_F(Import, ACaseIsNotNamedAfterThePatient)
   }
 }
 
+TEST_F(Import, LabelsOnAnotherGridThanARepairedCtAreAskedAbout)
+{
+  scene::Case ball = ballCase("ball");
+  ball.labels.clear();
+  ball.ct.provenance.shift = 20.0;
+  library().save(ball);
+  const core::GridGeometry& ct = ball.ct.geometry;
+  const auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(
+      core::GridGeometry({12, 12, 12}, Eigen::Vector3d::Constant(0.8), ct.origin()),
+      std::uint16_t{1});
+  volume::Segment vein;
+  vein.name = "vein";
+  vein.index = 1;
+  imaging::writeLabelFile(folder() / "vein.seg.nrrd", volume::makeLabelMap(voxels, {vein}));
+  openWindow("ball");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  for (const char* answer : {"Cancel", "Add it as it lies"})
+  {
+    EXPECT_TRUE(window().model().value().labels.empty());
+    QString asked;
+    onDialog(
+        [&](QDialog& dialog)
+        {
+          if (clicked(dialog, "Add to"))
+            return false;
+          if (dialog.objectName() != "askAsTheyLie")
+            return false;
+          asked = textOf(dialog);
+          buttonOf(dialog, answer)->click();
+          return true;
+        });
+    dropPath(folder() / "vein.seg.nrrd");
+    ASSERT_TRUE(waitFor([&] { return !asked.isEmpty(); }));
+    EXPECT_TRUE(settled());
+    EXPECT_TRUE(asked.contains("20.0 mm")) << asked.toStdString();
+  }
+  ASSERT_TRUE(waitFor([this] { return window().model().value().labels.size() == 1; }));
+}
+
 // From the same CT in another library: new identifiers, the same place.
 TEST_F(Import, ASegmentationOfAnotherFrameIsAskedAbout)
 {

@@ -413,6 +413,183 @@ TEST(TubeTrace, SaysWhereTheImageShowsNothing)
   EXPECT_GE(tube.smallestRadius, 0.2);
 }
 
+// A nerve in a fluid or a muscle that looks like it: what is measured there is noise.
+TEST(TubeTrace, WhereNothingIsSeenTheRadiusIsTheUsualOne)
+{
+  const auto grid = cube(0.4);
+  Scan scan{grid, bend(grid)};
+  const auto points = scan.clicks(5, 0.0);
+  TubeOptions options;
+  options.usual = usualFor("facial_nerve");
+  EXPECT_NEAR(traceTube(scan.image(), points, options).radius, 0.8, 0.2) << "what is seen counts";
+  scan.inside = scan.outside;
+  const Tube tube = traceTube(scan.image(), points, options);
+  EXPECT_EQ(tube.smallestRadius, 0.6);
+  EXPECT_EQ(tube.largestRadius, 0.6);
+  EXPECT_EQ(usualFor("Chorda tympani"), 0.2);
+  EXPECT_FALSE(usualFor("sigmoid sinus"));
+  options.usual = 0.0;
+  EXPECT_THROW(traceTube(scan.image(), points, options), core::InvalidParameter);
+}
+
+namespace
+{
+
+/// An image of `tissue`, each voxel the mean of eight places in it, with noise.
+volume::IntensityVolume imageOf(const core::GridGeometry& grid,
+                                const std::function<double(const Vector3d&)>& tissue, double noise)
+{
+  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid);
+  std::mt19937 random(11);
+  std::normal_distribution<double> gauss(0.0, noise);
+  for (int k = 0; k < grid.dims()[2]; ++k)
+    for (int j = 0; j < grid.dims()[1]; ++j)
+      for (int i = 0; i < grid.dims()[0]; ++i)
+      {
+        double sum = 0.0;
+        for (int part = 0; part < 8; ++part)
+          sum += tissue(grid.patientFromVoxel(Vector3d(i + 0.5 * (part & 1) - 0.25,
+                                                       j + 0.5 * (part >> 1 & 1) - 0.25,
+                                                       k + 0.5 * (part >> 2) - 0.25)));
+        voxels->at(i, j, k) = static_cast<std::int16_t>(std::lround(sum / 8.0 + gauss(random)));
+      }
+  return volume::IntensityVolume(std::shared_ptr<const volume::Volume<std::int16_t>>(voxels));
+}
+
+double unresolvedShare(const Tube& tube)
+{
+  double length = 0.0;
+  for (const TubeStretch& stretch : unresolvedStretches(tube))
+    length += stretch.to - stretch.from;
+  return length / tube.length;
+}
+
+} // namespace
+
+// Contrast alone does not make a tube: a plate of bone has as much.
+TEST(TubeTrace, APlateIsNoTube)
+{
+  const auto grid = cube(0.4);
+  const Vector3d middle = grid.origin() + Vector3d(13.0, 13.0, 13.0);
+  const volume::IntensityVolume image = imageOf(
+      grid, [&](const Vector3d& p) { return std::abs(p.y() - middle.y()) < 0.9 ? 1400.0 : 40.0; },
+      30.0);
+  std::vector<Vector3d> points;
+  for (const double x : {-8.0, -4.0, 0.5, 4.0, 8.0})
+    points.push_back(middle + Vector3d(x, 0.2, 0.1 * x));
+  const Tube tube = traceTube(image, points);
+  EXPECT_EQ(tube.resolvedLength, 0.0);
+  EXPECT_NEAR(unresolvedShare(tube), 1.0, 1e-9);
+}
+
+// Four places that have nothing in common, in tissue whose texture is far above the noise.
+TEST(TubeTrace, UnrelatedPlacesOfATextureAreNoNerve)
+{
+  const auto grid = cube(0.5);
+  const auto texture = [](const Vector3d& p)
+  {
+    return 1100.0 +
+           350.0 * (std::sin(1.9 * p.x() + 0.7 * p.y()) +
+                    std::sin(1.7 * p.y() + 1.3 * p.z()) * std::sin(2.1 * p.z() - 0.9 * p.x()));
+  };
+  const volume::IntensityVolume image = imageOf(grid, texture, 10.0);
+  TubeOptions options;
+  options.widest = widestFor("facial_nerve");
+  options.lumen = lumenFor("facial_nerve");
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto some = [&]
+  {
+    const double x = uniform(random), y = uniform(random), z = uniform(random);
+    return Vector3d(x, y, z);
+  };
+  double resolved = 0.0, all = 0.0;
+  for (int trial = 0; trial < 8; ++trial)
+  {
+    std::vector<Vector3d> points{grid.origin() + Vector3d(13.0, 13.0, 13.0) + 4.0 * some()};
+    while (points.size() < 4)
+    {
+      const Vector3d next = points.back() + 5.0 * some();
+      const Vector3d within = next - grid.origin();
+      if ((next - points.back()).norm() > 3.0 && within.minCoeff() > 4.0 &&
+          within.maxCoeff() < 22.0)
+        points.push_back(next);
+    }
+    const Tube tube = traceTube(image, points, options);
+    resolved += tube.resolvedLength;
+    all += tube.length;
+  }
+  EXPECT_LT(resolved, 0.05 * all);
+}
+
+TEST(TubeTrace, AnAirCellIsNoNerve)
+{
+  const auto grid = cube(0.4);
+  Scan scan{grid, bend(grid)};
+  scan.inside = -900.0;
+  const auto image = scan.image();
+  const auto points = scan.clicks(5, 0.3);
+  EXPECT_GT(traceTube(image, points).resolvedLength, 20.0) << "a tube it is";
+  TubeOptions options;
+  options.lumen = lumenFor("facial nerve");
+  const Tube tube = traceTube(image, points, options);
+  EXPECT_EQ(tube.resolvedLength, 0.0);
+  const auto stretches = unresolvedStretches(tube);
+  ASSERT_EQ(stretches.size(), 1U);
+  EXPECT_EQ(stretches[0].doubt, TubeDoubt::Foreign);
+  EXPECT_FALSE(lumenFor("sigmoid sinus"));
+  EXPECT_TRUE(lumenFor("Nervus facialis"));
+}
+
+TEST(TubeTrace, SaysWhereACanalEnds)
+{
+  const auto grid = cube(0.4);
+  const Scan scan{grid, bend(grid)};
+  const auto line = scan.dense();
+  const volume::IntensityVolume image = imageOf(
+      grid,
+      [&](const Vector3d& p)
+      {
+        double nearest = 1e9;
+        for (std::size_t n = 0; n < 1300; n += 20) // of 2001: the first 65 %
+          nearest = std::min(nearest, (p - line[n]).norm());
+        return nearest < scan.radius ? 50.0 : 1200.0;
+      },
+      30.0);
+  const Tube tube = traceTube(image, scan.clicks(6, 0.0));
+  const auto stretches = unresolvedStretches(tube);
+  ASSERT_FALSE(stretches.empty());
+  EXPECT_NEAR(stretches.back().to, tube.length, 1e-9);
+  const double end = stretches.back().from;
+  std::size_t vertex = 0;
+  double along = 0.0;
+  while (along < end && vertex + 1 < tube.line.size())
+  {
+    along += (tube.line[vertex + 1] - tube.line[vertex]).norm();
+    ++vertex;
+  }
+  EXPECT_LT((tube.line[vertex] - line[1300]).norm(), 1.6);
+}
+
+TEST(TubeTrace, ALongDetourIsDoubted)
+{
+  const auto grid = cube(0.4);
+  const auto winding = [&grid](double t)
+  {
+    return Vector3d(grid.origin() +
+                    Vector3d(4.0 + 18.0 * t, 13.0 + 3.0 * std::sin(5.0 * kPi * t), 13.0));
+  };
+  const Scan scan{grid, winding};
+  const auto image = scan.image();
+  EXPECT_LT(unresolvedShare(traceTube(image, scan.clicks(11, 0.1))), 0.02);
+  const Tube tube = traceTube(image, scan.clicks(2, 0.0));
+  ASSERT_GT(tube.length, 25.0) << "it follows the canal";
+  const auto stretches = unresolvedStretches(tube);
+  ASSERT_EQ(stretches.size(), 1U);
+  EXPECT_EQ(stretches[0].doubt, TubeDoubt::Stray);
+  EXPECT_EQ(tube.resolvedLength, 0.0);
+}
+
 TEST(TubeTrace, WhatIsWiderThanTheStructureCanBeDoesNotResolveIt)
 {
   const auto grid = cube(0.4);

@@ -873,14 +873,34 @@ std::optional<std::string> drawnOn(const scene::Case& value, const PartSource& s
   return names.front();
 }
 
-// Other programs take the slices of a tilted or gapped stack for straight and even.
-std::string repairedNote(const scene::ImagePart& ct)
+// Whether the voxels are some of those of another grid, or would be beyond its borders.
+bool isOnLatticeOf(const core::GridGeometry& grid, const core::GridGeometry& whole)
 {
-  const auto& done = ct.provenance;
-  const double between = volume::sliceCount(done.interpolated) * ct.geometry.spacing()[2];
-  const double apart = done.shift + between;
-  if (!(apart > 0.0))
-    return {};
+  constexpr double kNear = 0.02; // voxels
+  const Eigen::Vector3d first = whole.voxelFromPatient(grid.patientFromVoxel({0.0, 0.0, 0.0}));
+  if ((first - first.array().round().matrix()).cwiseAbs().maxCoeff() > kNear)
+    return false;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    Eigen::Vector3d last = Eigen::Vector3d::Zero();
+    last[axis] = grid.dims()[static_cast<std::size_t>(axis)];
+    const Eigen::Vector3d end = whole.voxelFromPatient(grid.patientFromVoxel(last));
+    if ((end - first - last).cwiseAbs().maxCoeff() > kNear)
+      return false;
+  }
+  return true;
+}
+
+// How far apart a stack that other programs take for straight and even, and the repaired image may
+// lie, mm.
+double repairedBy(const scene::ImagePart& ct)
+{
+  return ct.provenance.shift +
+         volume::sliceCount(ct.provenance.interpolated) * ct.geometry.spacing()[2];
+}
+
+std::string repairedNote(double apart)
+{
   return "has another grid than the CT, which was repaired. If it was drawn on the slices as they "
          "lie in the files, by a program that takes them for straight and even, it lies elsewhere "
          "by up to " +
@@ -1417,9 +1437,14 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     part.provenance = provenance;
     part.drawnOn = drawnOn(value, source, map.voxels->geometry());
     if (part.drawnOn.value_or("").empty() &&
-        !core::sameGrid(map.voxels->geometry(), value.ct.geometry))
-      if (std::string repaired = repairedNote(value.ct); !repaired.empty())
-        part.notes.push_back(std::move(repaired));
+        !isOnLatticeOf(map.voxels->geometry(), value.ct.geometry))
+      if (const double apart = repairedBy(value.ct); apart > 0.0)
+      {
+        if (!source.asTheyLie && !imaging::isDicomSegmentation(source.path) &&
+            !imaging::isStructureSet(source.path))
+          throw LabelsUnrepaired(source.path, apart);
+        part.notes.push_back(repairedNote(apart));
+      }
     for (const std::string& name : noteOutside(value, part, map))
       for (StructureReport& one : reports)
         one.isOutside = one.isOutside || one.name == name;
@@ -1754,6 +1779,19 @@ FrameUnclear::FrameUnclear(const fs::path& file, const std::string& image)
 {
 }
 
+LabelsUnrepaired::LabelsUnrepaired(const fs::path& file, double mm)
+  : core::InvalidParameter(
+        file.string() +
+        ": has another grid than the CT, which was repaired; drawn on the slices as they lie in "
+        "the files, by a program that takes them for straight and even, it lies elsewhere by up "
+        "to " +
+        core::fixedText(mm, 1) +
+        " mm. Say --labels-as-they-lie if it is to be added where it lies, and look whether it "
+        "fits the bone")
+  , apart(mm)
+{
+}
+
 OtherPatient::OtherPatient(const fs::path& file, const imaging::PatientDifferences& differences)
   : core::Error(core::Fault::Refused,
                 file.string() +
@@ -2078,6 +2116,11 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
       {
         failures.push_back({source, unclear.what()});
         failures.back().isFrameUnclear = true;
+      }
+      catch (const LabelsUnrepaired& unrepaired)
+      {
+        failures.push_back({source, unrepaired.what()});
+        failures.back().unrepaired = unrepaired.apart;
       }
       catch (const NamesTaken& taken)
       {

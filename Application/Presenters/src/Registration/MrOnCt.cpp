@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "petrous/Core/NumberText.h"
 #include "petrous/Volume/Rounded.h"
 
 namespace petrous::presenters
@@ -43,6 +44,33 @@ volume::Volume<T> resampled(const volume::IntensityVolume& mr, const core::GridG
           }
       });
   return result;
+}
+
+const char* reasonOf(segmentation::TubeDoubt doubt)
+{
+  using segmentation::TubeDoubt;
+  switch (doubt)
+  {
+  case TubeDoubt::Faint:
+    return "it does not stand out from the noise";
+  case TubeDoubt::Thin:
+    return "it is narrower than two voxels";
+  case TubeDoubt::Wide:
+    return "what is seen is wider than the structure can be";
+  case TubeDoubt::Foreign:
+    return "the path runs through air or bone, not through a nerve";
+  case TubeDoubt::Uneven:
+    return "the path leads through something of another intensity";
+  case TubeDoubt::Open:
+    return "a quarter of its circumference or more has no wall, as at an edge";
+  case TubeDoubt::Stray:
+    return "the path is a long detour between two points; set another one between them";
+  case TubeDoubt::Fragment:
+    return "what is seen is too short a piece of it";
+  case TubeDoubt::None:
+    break;
+  }
+  return "";
 }
 
 } // namespace
@@ -93,6 +121,44 @@ std::string likelyOrderText(const std::vector<Eigen::Vector3d>& points)
 scene::TracedTubes tracedTubes(const segmentation::Tube& tube, const segmentation::TubeLabel& label)
 {
   return {tube.length, std::max(tube.length - tube.resolvedLength, 0.0), label.bridging};
+}
+
+const char* nameOf(segmentation::TubeDoubt doubt)
+{
+  using segmentation::TubeDoubt;
+  switch (doubt)
+  {
+  case TubeDoubt::Faint:
+    return "faint";
+  case TubeDoubt::Thin:
+    return "thin";
+  case TubeDoubt::Wide:
+    return "wide";
+  case TubeDoubt::Foreign:
+    return "foreign";
+  case TubeDoubt::Uneven:
+    return "uneven";
+  case TubeDoubt::Open:
+    return "open";
+  case TubeDoubt::Stray:
+    return "stray";
+  case TubeDoubt::Fragment:
+    return "fragment";
+  case TubeDoubt::None:
+    break;
+  }
+  return "none";
+}
+
+std::vector<std::string> unresolvedTexts(const segmentation::Tube& tube)
+{
+  constexpr double kShort = 0.5; // mm; about as far as its cross-sections are averaged along it
+  std::vector<std::string> texts;
+  for (const segmentation::TubeStretch& stretch : segmentation::unresolvedStretches(tube))
+    if (stretch.to - stretch.from >= kShort)
+      texts.push_back("Not resolved from " + core::fixedText(stretch.from, 1) + " to " +
+                      core::fixedText(stretch.to, 1) + " mm: " + reasonOf(stretch.doubt) + ".");
+  return texts;
 }
 
 std::string bridgingText(const segmentation::TubeLabel& label)

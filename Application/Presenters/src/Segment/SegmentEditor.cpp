@@ -231,6 +231,13 @@ scene::MrReadings readingsOf(const scene::Case& value, const scene::LabelPart& p
   return readings;
 }
 
+// What the lumen of a structure of that name can be follows from it on a CT alone.
+std::optional<volume::ValueRange> lumenOf(const std::string& name, const IntensityDisplay& display,
+                                          bool isMr)
+{
+  return display.hounsfield && !isMr ? segmentation::lumenFor(name) : std::nullopt;
+}
+
 std::string warningOf(const Tube& tube, const segmentation::TubeLabel& label)
 {
   std::string text;
@@ -563,12 +570,15 @@ void SegmentEditor::followEdited()
     nameDraft(draft.edited);
 }
 
-// How wide a nerve may be follows from its name.
+// How wide a nerve may be, and what its lumen can be, follow from its name.
 void SegmentEditor::nameDraft(const std::string& name)
 {
   const std::string before = std::exchange(m_draft->name, name);
-  if (m_tool == Tool::Nerve && !m_values.tubeRadius && needsPreview() &&
-      segmentation::widestFor(before) != segmentation::widestFor(name))
+  const bool isOtherWidth =
+      !m_values.tubeRadius && segmentation::widestFor(before) != segmentation::widestFor(name);
+  if (m_tool == Tool::Nerve && needsPreview() &&
+      (isOtherWidth || lumenOf(before, display(), isSourceMr()).has_value() !=
+                           lumenOf(name, display(), isSourceMr()).has_value()))
     outdate();
 }
 
@@ -1315,12 +1325,16 @@ SegmentEditor::Computed SegmentEditor::computed() const
     };
   case Tool::Nerve:
     return [base, values, image = *m_image, points = m_draft->points,
-            widest = segmentation::widestFor(m_draft->name)](const core::Progress& progress)
+            widest = segmentation::widestFor(m_draft->name),
+            usual = segmentation::usualFor(m_draft->name),
+            lumen = lumenOf(m_draft->name, display(), isSourceMr())](const core::Progress& progress)
     {
       Preview preview;
       segmentation::TubeOptions options;
       options.radius = values.tubeRadius;
       options.widest = widest;
+      options.usual = usual;
+      options.lumen = lumen;
       Tube tube = traceOnCt(*image.own, image.ownFromCt, points, options, progress.part(0.0, 0.8));
       volume::Segment segment;
       segment.name = "tube";
@@ -1332,6 +1346,9 @@ SegmentEditor::Computed SegmentEditor::computed() const
                            ? std::nullopt
                            : std::optional(options.widest));
       preview.warning = warningOf(tube, label);
+      preview.doubts = unresolvedTexts(tube);
+      for (const std::string& text : preview.doubts)
+        preview.warning += (preview.warning.empty() ? "" : " ") + text;
       preview.traced = tracedTubes(tube, label);
       preview.tube = std::make_shared<const Tube>(std::move(tube));
       preview.result = united(base, segmentation::maskOf(label.map, 1), Combine::Add);

@@ -56,14 +56,6 @@ std::vector<Vector3d> sphereAxes()
   return axes;
 }
 
-template <class T>
-double medianOf(std::vector<T> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
-}
-
 /// Rounded to a geometric ladder of steps of about a fifth.
 double rounded(double value)
 {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,6 +14,15 @@
 
 namespace petrous::segmentation
 {
+
+/// The value in the middle, the upper one of two; of at least one value.
+template <class T>
+double medianOf(std::vector<T> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return static_cast<double>(*middle);
+}
 
 /// The part of an image around the points, as float. Voxels without a valid value (padding, NaN)
 /// have the median of the valid ones.

@@ -110,6 +110,8 @@ struct Section
   double shiftV = 0.0;
   double halfRadius = 0.0;
   double contrast = 0.0;
+  double lumen = 0.0; ///< darker than the wall
+  double closure = 0.0;
   double weight = 0.0; ///< of the shift
 };
 
@@ -149,6 +151,7 @@ Section fitSection(const float* profiles, const ProfileGrid& grid, double expect
     for (std::size_t k = 0; k <= core; ++k)
       lumen += value(a, k);
   lumen /= static_cast<double>(kAngles * (core + 1));
+  section.lumen = lumen;
 
   std::array<double, kAngles> wall{};
   std::array<std::size_t, kAngles> peak{};
@@ -170,6 +173,9 @@ Section fitSection(const float* profiles, const ProfileGrid& grid, double expect
   section.contrast = std::max(typical, 0.0);
   if (typical <= 0.0)
     return section;
+  const auto quarter = ordered.begin() + kAngles / 4;
+  std::nth_element(ordered.begin(), quarter, ordered.end());
+  section.closure = std::max(*quarter - lumen, 0.0) / typical;
 
   // r + shift . (cos, sin) = distance of the border; least squares, outliers weigh less
   std::array<double, kAngles> border{};
@@ -335,6 +341,8 @@ CentreLine refineLine(const TubeImage& image, const std::vector<Vector3d>& path,
     std::vector<Vector3d> shifts(n);
     std::vector<double> found(n);
     result.contrast.resize(n);
+    result.lumen.resize(n);
+    result.closure.resize(n);
     for (std::size_t i = 0; i < n; ++i)
     {
       weights[i] = std::max(sections[i].weight, 1e-3);
@@ -342,6 +350,8 @@ CentreLine refineLine(const TubeImage& image, const std::vector<Vector3d>& path,
                   (sections[i].shiftU * frames[i].u + sections[i].shiftV * frames[i].v);
       found[i] = sections[i].halfRadius;
       result.contrast[i] = sections[i].contrast;
+      result.lumen[i] = static_cast<double>(sign) * sections[i].lumen;
+      result.closure[i] = sections[i].closure;
     }
     radii = smoothedAlong(found, weights, std::max(typicalRadius, 0.5) / spacing, 0.0);
     std::vector<double> ordered = radii;

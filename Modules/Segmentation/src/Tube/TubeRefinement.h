@@ -16,7 +16,21 @@ struct CentreLine
   std::vector<Eigen::Vector3d> vertices; ///< about evenly spaced, patient LPS mm
   std::vector<double> halfRadius;        ///< of the half-maximum border, mm
   std::vector<double> contrast;          ///< surroundings against lumen, image units, >= 0
+  std::vector<double> lumen;             ///< mean of the lumen, image units
+  /// How much of that contrast the wall has at the quarter of the circumference where it is least:
+  /// 1 where the surroundings are the same all around, about 0 beside a plate or at an edge.
+  std::vector<double> closure;
 };
+
+/// Calls `change` with each of the line's lists of numbers.
+template <class Change>
+void forEachNumber(CentreLine& line, const Change& change)
+{
+  change(line.halfRadius);
+  change(line.contrast);
+  change(line.lumen);
+  change(line.closure);
+}
 
 /// Arc length from the first vertex to each, mm.
 std::vector<double> arcLengths(const std::vector<Eigen::Vector3d>& line);

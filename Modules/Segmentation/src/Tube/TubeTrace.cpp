@@ -31,6 +31,8 @@ void checkOptions(const TubeOptions& options)
 {
   if (options.radius && !TubeOptions::kRadii.contains(*options.radius))
     throw InvalidParameter("tube: the radius " + TubeOptions::kRadii.refusal(*options.radius));
+  if (options.usual && !TubeOptions::kRadii.contains(*options.usual))
+    throw InvalidParameter("tube: the usual radius " + TubeOptions::kRadii.refusal(*options.usual));
   if (!TubeOptions::kRadii.contains(options.widest))
     throw InvalidParameter("tube: the largest radius " +
                            TubeOptions::kRadii.refusal(options.widest));
@@ -127,15 +129,14 @@ void trimEnds(CentreLine& line, const Vector3d& first, const Vector3d& last)
     const auto cut = [&](auto& values)
     { values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i)); };
     cut(line.vertices);
-    cut(line.halfRadius);
-    cut(line.contrast);
+    forEachNumber(line, cut);
     line.vertices.front() = foot.position;
   };
   const auto reverse = [&]
   {
     std::reverse(line.vertices.begin(), line.vertices.end());
-    std::reverse(line.halfRadius.begin(), line.halfRadius.end());
-    std::reverse(line.contrast.begin(), line.contrast.end());
+    forEachNumber(line,
+                  [](std::vector<double>& values) { std::reverse(values.begin(), values.end()); });
   };
   trimFront(first);
   reverse();
@@ -149,7 +150,7 @@ void densify(CentreLine& line, std::size_t pieces)
 {
   if (pieces < 2)
     return;
-  CentreLine dense;
+  std::vector<Vector3d> dense;
   const std::vector<Vector3d>& v = line.vertices;
   const std::size_t n = v.size();
   for (std::size_t i = 0; i + 1 < n; ++i)
@@ -163,18 +164,25 @@ void densify(CentreLine& line, std::size_t pieces)
       const double t = static_cast<double>(p) / static_cast<double>(pieces);
       const double t2 = t * t;
       const double t3 = t2 * t;
-      dense.vertices.emplace_back((2 * t3 - 3 * t2 + 1) * v[i] + (t3 - 2 * t2 + t) * start +
-                                  (3 * t2 - 2 * t3) * v[i + 1] + (t3 - t2) * end);
-      const auto mix = [&](const std::vector<double>& values)
-      { return (1.0 - t) * values[i] + t * values[i + 1]; };
-      dense.halfRadius.push_back(mix(line.halfRadius));
-      dense.contrast.push_back(mix(line.contrast));
+      dense.emplace_back((2 * t3 - 3 * t2 + 1) * v[i] + (t3 - 2 * t2 + t) * start +
+                         (3 * t2 - 2 * t3) * v[i + 1] + (t3 - t2) * end);
     }
   }
-  dense.vertices.push_back(v.back());
-  dense.halfRadius.push_back(line.halfRadius.back());
-  dense.contrast.push_back(line.contrast.back());
-  line = std::move(dense);
+  dense.push_back(v.back());
+  line.vertices = std::move(dense); // v, too
+  const auto mix = [n, pieces](std::vector<double>& values)
+  {
+    std::vector<double> between;
+    for (std::size_t i = 0; i + 1 < n; ++i)
+      for (std::size_t p = 0; p < pieces; ++p)
+      {
+        const double t = static_cast<double>(p) / static_cast<double>(pieces);
+        between.push_back((1.0 - t) * values[i] + t * values[i + 1]);
+      }
+    between.push_back(values.back());
+    values = std::move(between);
+  };
+  forEachNumber(line, mix);
 }
 
 /// The width of a voxel across the line, mm: the largest over the directions across it.
@@ -192,10 +200,81 @@ double voxelAcross(const core::GridGeometry& geometry, const Vector3d& tangent)
 namespace
 {
 
+std::string lowerCase(std::string_view name)
+{
+  std::string lower(name);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](char c)
+                 { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return lower;
+}
+
+/// How far each point lies from the line, and the vertex there.
+void placePoints(Tube& tube)
+{
+  const std::size_t n = tube.line.size();
+  std::size_t from = 0;
+  for (std::size_t p = 0; p < tube.points.size(); ++p)
+  {
+    const Foot foot = nearestOn(tube.line, tube.points[p], std::min(from, n - 2));
+    std::size_t vertex = foot.segment + (foot.fraction > 0.5 ? 1 : 0);
+    if (p == 0 || p + 1 == tube.points.size())
+      vertex = p == 0 ? 0 : n - 1;
+    tube.pointDistances.push_back(foot.distance);
+    tube.pointVertices.push_back(std::max(vertex, from));
+    from = tube.pointVertices.back();
+  }
+}
+
+/// Between neighbouring points: whether the line is so long a detour that the points do not guide
+/// it. Beyond a half circle's length a point between them is missing, or it follows something else;
+/// points that lie close together may be off by `slack` mm.
+std::vector<std::uint8_t> straysOf(const Tube& tube, const std::vector<double>& lengths,
+                                   double slack)
+{
+  constexpr double kDetour = 0.55; // of the straight line; of a half circle 0.57
+  std::vector<std::uint8_t> strays(tube.line.size(), 0);
+  for (std::size_t p = 1; p < tube.points.size(); ++p)
+  {
+    const std::size_t from = tube.pointVertices[p - 1];
+    const std::size_t to = tube.pointVertices[p];
+    const double chord = (tube.points[p] - tube.points[p - 1]).norm();
+    if (lengths[to] - lengths[from] - chord > std::max(kDetour * chord, slack))
+      std::fill(strays.begin() + static_cast<std::ptrdiff_t>(from),
+                strays.begin() + static_cast<std::ptrdiff_t>(to) + 1, std::uint8_t{1});
+  }
+  return strays;
+}
+
+/// Half of the segments on either side of a vertex, mm.
+double shareOf(const std::vector<double>& lengths, std::size_t vertex)
+{
+  return 0.5 *
+         (lengths[std::min(vertex + 1, lengths.size() - 1)] - lengths[vertex > 0 ? vertex - 1 : 0]);
+}
+
+/// What is resolved between doubtful stretches over less than the diameter is no tube by itself.
+void dropFragments(Tube& tube, const std::vector<double>& lengths)
+{
+  const std::size_t n = tube.doubts.size();
+  for (std::size_t i = 0; i < n;)
+  {
+    std::size_t end = i;
+    while (end < n && (tube.doubts[end] == TubeDoubt::None) == (tube.doubts[i] == TubeDoubt::None))
+      ++end;
+    if (tube.doubts[i] == TubeDoubt::None && i > 0 && end < n &&
+        lengths[end - 1] - lengths[i] < 2.0 * tube.radii[i])
+      std::fill(tube.doubts.begin() + static_cast<std::ptrdiff_t>(i),
+                tube.doubts.begin() + static_cast<std::ptrdiff_t>(end), TubeDoubt::Fragment);
+    i = end;
+  }
+}
+
 /// Where the image does not resolve the tube, its half-maximum width says nothing of the radius,
 /// and less the blur may leave none: there the radius of what is resolved on either side goes on,
-/// linearly. If nothing is resolved, no radius is below `least`.
-void bridgeUnresolved(Tube& tube, const std::vector<double>& lengths, double least)
+/// linearly. If nothing is resolved, they are the usual one, or none is below `least`.
+void bridgeUnresolved(Tube& tube, const std::vector<double>& lengths, double least,
+                      const std::optional<double>& usual)
 {
   const std::size_t n = tube.radii.size();
   std::size_t before = n; // the last resolved vertex; n: none yet
@@ -213,6 +292,8 @@ void bridgeUnresolved(Tube& tube, const std::vector<double>& lengths, double lea
     }
     before = i;
   }
+  if (before == n && usual)
+    return std::fill(tube.radii.begin(), tube.radii.end(), *usual);
   for (std::size_t k = before == n ? 0 : before + 1; k < n; ++k)
     tube.radii[k] = before == n ? std::max(tube.radii[k], least) : tube.radii[before];
 }
@@ -327,7 +408,6 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
 
   tube.line = std::move(line.vertices);
   tube.radii = radiiFromHalfMaximum(line.halfRadius, sigma);
-  constexpr double kMostly = 0.5;
   constexpr double kAtLimit = 0.97; // of the largest radius: what is seen there is something else
   const double limit =
       options.radius ? std::numeric_limits<double>::infinity() : kAtLimit * options.widest;
@@ -336,32 +416,63 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
   const std::size_t n = tube.line.size();
   const std::vector<double> lengths = arcLengths(tube.line);
   tube.length = lengths.back();
+  placePoints(tube);
+  const std::vector<std::uint8_t> strays = straysOf(tube, lengths, TubeOptions{}.reach);
+  const double lumen = medianOf(line.lumen);
+  const double contrast = medianOf(line.contrast);
   for (std::size_t i = 0; i < n; ++i)
   {
     constexpr double kMost = 1e6; // of images without noise
+    // Of the contrast, at the lowest quarter of the wall. A nerve's canal may be open to a cavity,
+    // or its wall thinner than the voxels; an edge has none over half of the circumference.
+    constexpr double kClosed = 0.3;
     tube.contrast.push_back(
         std::min(tube.noise > 0.0 ? line.contrast[i] / tube.noise : kMost, kMost));
     const Vector3d tangent =
         (tube.line[std::min(i + 1, n - 1)] - tube.line[i > 0 ? i - 1 : 0]).normalized();
-    const bool resolved = model.contrast > 0.0 && tube.contrast[i] >= options.resolvedContrast &&
-                          tube.radii[i] >= voxelAcross(geometry, tangent) && tube.radii[i] < limit;
-    tube.resolved.push_back(resolved ? 1 : 0);
-    // half of each neighbouring segment
-    if (resolved)
-      tube.resolvedLength += 0.5 * (lengths[std::min(i + 1, n - 1)] - lengths[i > 0 ? i - 1 : 0]);
+    TubeDoubt doubt = TubeDoubt::None;
+    if (!(model.contrast > 0.0) || tube.contrast[i] < options.resolvedContrast)
+      doubt = TubeDoubt::Faint;
+    else if (tube.radii[i] < voxelAcross(geometry, tangent))
+      doubt = TubeDoubt::Thin;
+    else if (tube.radii[i] >= limit)
+      doubt = TubeDoubt::Wide;
+    else if (options.lumen &&
+             (line.lumen[i] < options.lumen->min || line.lumen[i] > options.lumen->max))
+      doubt = TubeDoubt::Foreign;
+    else if (std::abs(line.lumen[i] - lumen) * options.resolvedContrast > contrast)
+      doubt = TubeDoubt::Uneven;
+    else if (line.closure[i] < kClosed)
+      doubt = TubeDoubt::Open;
+    else if (strays[i] != 0)
+      doubt = TubeDoubt::Stray;
+    tube.doubts.push_back(doubt);
   }
+  dropFragments(tube, lengths);
+  const auto resolvedLength = [&]
+  {
+    double length = 0.0;
+    for (std::size_t i = 0; i < n; ++i)
+      if (tube.doubts[i] == TubeDoubt::None)
+        length += shareOf(lengths, i);
+    return length;
+  };
+  tube.resolvedLength = resolvedLength();
   // Of a tube that is mostly too thin or too faint to be seen, what stands out here and there is as
   // well something else beside it: a cell, a marrow space.
+  constexpr double kMostly = 0.5;
   if (tube.resolvedLength < kMostly * tube.length)
   {
-    std::fill(tube.resolved.begin(), tube.resolved.end(), std::uint8_t{0});
+    std::replace(tube.doubts.begin(), tube.doubts.end(), TubeDoubt::None, TubeDoubt::Fragment);
     tube.resolvedLength = 0.0;
   }
+  for (const TubeDoubt doubt : tube.doubts)
+    tube.resolved.push_back(doubt == TubeDoubt::None ? 1 : 0);
   if (!options.radius)
   {
     for (double& radius : tube.radii)
       radius = std::min(radius, options.widest);
-    bridgeUnresolved(tube, lengths, 0.5 * geometry.minSpacing());
+    bridgeUnresolved(tube, lengths, 0.5 * geometry.minSpacing(), options.usual);
   }
   std::vector<double> ordered = tube.radii;
   std::sort(ordered.begin(), ordered.end());
@@ -369,32 +480,63 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
   tube.smallestRadius = ordered.front();
   tube.largestRadius = ordered.back();
 
-  std::size_t from = 0;
   for (std::size_t p = 0; p < points.size(); ++p)
-  {
-    const Foot foot = nearestOn(tube.line, points[p], std::min(from, n - 2));
-    const std::size_t vertex =
-        p == 0 ? 0
-               : (p + 1 == points.size() ? n - 1 : foot.segment + (foot.fraction > 0.5 ? 1 : 0));
-    tube.pointDistances.push_back(foot.distance);
-    tube.pointVertices.push_back(std::max(vertex, from));
-    from = tube.pointVertices.back();
     tube.outsideAtPoint.push_back(
-        foot.distance > std::max(tube.radii[from], geometry.spacing().maxCoeff()) ? 1 : 0);
-  }
+        tube.pointDistances[p] >
+                std::max(tube.radii[tube.pointVertices[p]], geometry.spacing().maxCoeff())
+            ? 1
+            : 0);
   progress.report(1.0, "trace tube");
   return tube;
 }
 
+std::vector<TubeStretch> unresolvedStretches(const Tube& tube)
+{
+  std::vector<TubeStretch> stretches;
+  const std::vector<double> lengths = arcLengths(tube.line);
+  const std::size_t n = tube.doubts.size();
+  for (std::size_t i = 0; i < n;)
+  {
+    if (tube.doubts[i] == TubeDoubt::None)
+    {
+      ++i;
+      continue;
+    }
+    std::array<double, static_cast<std::size_t>(TubeDoubt::Fragment) + 1> along{};
+    TubeStretch stretch{0.5 * (lengths[i] + lengths[i > 0 ? i - 1 : 0]), 0.0, TubeDoubt::None};
+    for (; i < n && tube.doubts[i] != TubeDoubt::None; ++i)
+      along[static_cast<std::size_t>(tube.doubts[i])] += shareOf(lengths, i);
+    stretch.to = 0.5 * (lengths[i - 1] + lengths[std::min(i, n - 1)]);
+    stretch.doubt =
+        static_cast<TubeDoubt>(std::max_element(along.begin(), along.end()) - along.begin());
+    stretches.push_back(stretch);
+  }
+  return stretches;
+}
+
+std::optional<volume::ValueRange> lumenFor(std::string_view name)
+{
+  const std::string lower = lowerCase(name);
+  for (const char* word : {"nerv", "chorda", "facial"})
+    if (lower.find(word) != lower.npos)
+      return volume::ValueRange{-500.0, 700.0}; // soft tissue 40, air -1000, cortical bone 1400 HU
+  return std::nullopt;
+}
+
 double widestFor(std::string_view name)
 {
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](char c)
-                 { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string lower = lowerCase(name);
   if (lower.find("chorda") != lower.npos)
     return 0.5;
   return lower.find("facial") != lower.npos ? 1.3 : TubeOptions{}.widest;
+}
+
+std::optional<double> usualFor(std::string_view name)
+{
+  const std::string lower = lowerCase(name);
+  if (lower.find("chorda") != lower.npos)
+    return 0.2;
+  return lower.find("facial") != lower.npos ? std::optional(0.6) : std::nullopt;
 }
 
 std::size_t insertionIndex(const Tube& tube, const Vector3d& point)

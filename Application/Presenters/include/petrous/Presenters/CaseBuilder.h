@@ -54,6 +54,9 @@ struct PartSource
   /// Meshes: of a file that holds several objects each becomes a part of its own, named as
   /// structures of a file are: "NAME object", without words that may be a patient's name.
   bool isPerObject = false;
+  /// Structures: added where they lie although they may have been drawn on the slices of the CT as
+  /// they were before its repair (LabelsUnrepaired).
+  bool asTheyLie = false;
 
   /// "NAME=FILE" or "FILE". A string that is the path of an existing file is a FILE.
   static PartSource parse(const std::string& text);
@@ -138,6 +141,16 @@ struct FrameUnclear : core::InvalidParameter
 {
   /// `image`: primaryName.
   FrameUnclear(const std::filesystem::path& file, const std::string& image);
+};
+
+/// Structures on another lattice than the CT, which was repaired: a program that takes the slices
+/// of a tilted or gapped stack for straight and even places what was drawn on them elsewhere. The
+/// user has to say whether they lie where they belong. Not thrown of DICOM, which states where each
+/// slice or contour lies.
+struct LabelsUnrepaired : core::InvalidParameter
+{
+  LabelsUnrepaired(const std::filesystem::path& file, double apart);
+  double apart; ///< mm, by how much they lie elsewhere at most
 };
 
 /// Names of a part or of structures of one source that the case has already: the user has to say
@@ -229,14 +242,15 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
                       std::vector<StructureReport>* report = nullptr);
 
 /// Adds parts to a case; strong exception guarantee. Structure names must be new to the case's
-/// labels, mesh names to its meshes. A part without a given name is named by the structure words of
-/// its file name (fileName), and its notes say so. An MR or a file of structures, if it and an
-/// image of the case state different patients (imaging::samePatient), is OtherPatient unless its
-/// source allows it; its notes then say so. An MR or label file that leaves open which side of the
-/// patient is left is ImageSideUnclear unless its source says it, or it is a label file with the
-/// grid of an image of the case, which it follows. Throws NamesTaken (Refused) for names that are
-/// taken; InvalidParameter for labels without a
-/// voxel, and for a mesh that extends beyond the image on which it was drawn by more than
+/// labels, mesh names to its meshes. Label files that may have been drawn on the slices before the
+/// CT's repair are LabelsUnrepaired unless their source says that they lie where they belong. A
+/// part without a given name is named by the structure words of its file name (fileName), and its
+/// notes say so. An MR or a file of structures, if it and an image of the case state different
+/// patients (imaging::samePatient), is OtherPatient unless its source allows it; its notes then say
+/// so. An MR or label file that leaves open which side of the patient is left is ImageSideUnclear
+/// unless its source says it, or it is a label file with the grid of an image of the case, which it
+/// follows. Throws NamesTaken (Refused) for names that are taken; InvalidParameter for labels
+/// without a voxel, and for a mesh that extends beyond the image on which it was drawn by more than
 /// volume::maxReach; MeshSpaceUnclear for one that lies in it only in another frame or unit.
 /// `report`, if given, gets every structure of `parts.labels`.
 void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress,
@@ -255,6 +269,7 @@ struct PartFailure
   bool isBitsUnclear = false;                           ///< imaging::BitsUnclearError
   bool canKeepBits = false;                             ///< likewise
   bool isFrameUnclear = false;                          ///< FrameUnclear
+  double unrepaired = 0.0;                              ///< mm; LabelsUnrepaired
   std::vector<std::string> taken = {};                  ///< NamesTaken
   std::size_t others = 0;                               ///< likewise
   std::vector<PartSource> PartSources::*kind = nullptr; ///< of which it is one

@@ -38,6 +38,13 @@ std::string likelyOrderText(const std::vector<Eigen::Vector3d>& points);
 scene::TracedTubes tracedTubes(const segmentation::Tube& tube,
                                const segmentation::TubeLabel& label);
 
+/// Where the image does not resolve a tube, and why, a sentence for each stretch of half a
+/// millimetre and more; millimetres along the line from the first point.
+std::vector<std::string> unresolvedTexts(const segmentation::Tube& tube);
+
+/// Why, as JSON says it: "faint", "thin".
+const char* nameOf(segmentation::TubeDoubt doubt);
+
 /// That the voxels are too wide for a tube along part of it; empty if they are not.
 std::string bridgingText(const segmentation::TubeLabel& label);
 

@@ -44,6 +44,10 @@ struct TubeOptions
   /// image shows nothing narrower, the tube is not resolved. See widestFor.
   double widest = 6.0;
 
+  /// Radius where the image resolves nothing of the tube, mm: widths that are measured there are
+  /// those of noise. Unset: these, but half a voxel at least. See usualFor.
+  std::optional<double> usual;
+
   /// Sigma of the scan's Gaussian point spread with the voxel's own, mm. Unset: 0.7 voxels.
   std::optional<double> blur;
 
@@ -51,8 +55,27 @@ struct TubeOptions
   /// is on the line: the surgeon knows better than an image that shows nothing nearby.
   double reach = 1.5;
 
-  /// Contrast, in standard deviations of the noise, from which on the structure counts as resolved.
+  /// Contrast, in standard deviations of the noise, from which on the structure counts as resolved;
+  /// and in deviations of the lumen from that of the rest of the tube.
   double resolvedContrast = 3.0;
+
+  /// What the lumen of the structure can be, in the image's units; outside of it the tube is not
+  /// resolved. Unset: anything. See lumenFor.
+  std::optional<volume::ValueRange> lumen;
+};
+
+/// Why the image does not resolve a tube at a place.
+enum class TubeDoubt : std::uint8_t
+{
+  None,    ///< it does
+  Faint,   ///< the contrast is within the noise
+  Thin,    ///< narrower than two voxels
+  Wide,    ///< as wide as the structure can be at most: what is seen is something else
+  Foreign, ///< the lumen is not that of the structure, e.g. air, bone
+  Uneven,  ///< the lumen is not that of the rest of the tube: it leads through something else
+  Open,    ///< a quarter of the circumference or more has no wall: an edge, a plate
+  Stray,   ///< the way between two points is a long detour: it follows something else
+  Fragment ///< resolved by itself, but hardly longer than wide, or little beside what is not
 };
 
 /// What the points' surroundings say of the tube as a whole; the minimal paths depend on it. The
@@ -77,12 +100,13 @@ struct Tube
 {
   std::vector<Eigen::Vector3d> line; ///< from the first point to the last, <= half a voxel apart
   /// mm, free of the scan's blur as far as it is known; where not resolved, interpolated from where
-  /// it is.
+  /// it is; where nothing is, TubeOptions::usual.
   std::vector<double> radii;
   std::vector<double> contrast; ///< surroundings against lumen, in sigma of the noise, >= 0
-  /// 1: contrast and diameter (two voxels) suffice; nowhere, unless they do over half of the
-  /// length.
+  /// 1: there is no doubt.
   std::vector<std::uint8_t> resolved;
+  /// Of several the first. Nowhere None, unless it is None over half of the length.
+  std::vector<TubeDoubt> doubts;
 
   std::vector<Eigen::Vector3d> points;    ///< as given
   std::vector<double> pointDistances;     ///< from each point to the line, mm
@@ -122,10 +146,30 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Eigen::Ve
                const TubeOptions& options = {}, const core::Progress& progress = {},
                const Tube* before = nullptr);
 
+/// A part of a tube that the image does not resolve.
+struct TubeStretch
+{
+  double from = 0.0; ///< mm along the line, from the first point
+  double to = 0.0;
+  TubeDoubt doubt = TubeDoubt::None; ///< along most of it
+};
+
+/// The parts of a tube that the image does not resolve, in their order.
+std::vector<TubeStretch> unresolvedStretches(const Tube& tube);
+
+/// TubeOptions::lumen for a structure of this name on a CT in Hounsfield units: of a nerve (by its
+/// name, or a chorda tympani) half of the way from soft tissue to air and to cortical bone, as
+/// partial volume and blur take a resolved lumen no farther. Of any other unset.
+std::optional<volume::ValueRange> lumenFor(std::string_view name);
+
 /// TubeOptions::widest for a structure of this name, mm: a chorda tympani or its canal is below 0.5
 /// [normal canals are up to about 0.9 mm wide], a facial nerve in its canal below 1.3; else the
 /// option's default.
 double widestFor(std::string_view name);
+
+/// TubeOptions::usual for a structure of this name, mm; our choice: 0.6 of a facial nerve, 0.2 of a
+/// chorda tympani. Of any other unset.
+std::optional<double> usualFor(std::string_view name);
 
 /// The order in which 3 to 12 points make the shortest line, first and last as near to theirs as
 /// possible, if it is shorter than their own order's by more than a quarter: they were probably not

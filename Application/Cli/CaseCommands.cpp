@@ -66,6 +66,9 @@ struct PartOptions
   std::string labelsUnit;
   std::string mrRoi;
   std::string labelsFrame;
+  std::string mrAxes;
+  std::string labelsAxes;
+  std::string meshAxes;
   bool repair = false;
   std::string bits;
   bool otherPatient = false;
@@ -85,6 +88,11 @@ struct PartOptions
         .add_option("--mr-frame", mrFrame,
                     "Axes of MR files that do not say which side is left: lps or ras")
         ->check(oneOf({"lps", "ras"}));
+    command
+        .add_option("--mr-axes", mrAxes,
+                    "Corrects axes that MR files state wrongly: where that points which they call "
+                    "left, posterior and superior, such as RPS")
+        ->type_name("XYZ");
     command
         .add_option("--mr-roi", mrRoi,
                     "Part of each MR to load, in LPS mm of the MR as its own files place it")
@@ -110,6 +118,11 @@ struct PartOptions
                     "Axes of label files that do not say which side is left, and do not have the "
                     "grid of an image of the case: lps or ras")
         ->check(oneOf({"lps", "ras"}));
+    command
+        .add_option("--labels-axes", labelsAxes,
+                    "Likewise of label files, in place of the correction of their image (LPS: they "
+                    "lie where they belong)")
+        ->type_name("XYZ");
     command.add_flag("--skip-taken", skipTaken,
                      "Of several structures leave out those whose names are in the case already");
     command.add_flag("--rename-taken", renameTaken,
@@ -132,6 +145,9 @@ struct PartOptions
         .add_option("--mesh-frame", meshFrame,
                     "Coordinate system of the meshes: lps (DICOM, ITK) or ras (Slicer, NIfTI)")
         ->check(oneOf({"lps", "ras"}));
+    command
+        .add_option("--mesh-axes", meshAxes, "Likewise of meshes, about the centre of their image")
+        ->type_name("XYZ");
     command.add_option("--mesh-unit", meshUnit, "Unit of the meshes: mm, cm, m, um or inch (mm)")
         ->check(oneOf({"mm", "cm", "m", "um", "inch"}));
     command.add_flag("--mesh-parts", meshParts,
@@ -156,6 +172,12 @@ struct PartOptions
       throw UsageError("--other-patient goes with --mr or --labels");
     if (!mrFrame.empty() && mr.empty())
       throw UsageError("--mr-frame goes with --mr");
+    if (!mrAxes.empty() && mr.empty())
+      throw UsageError("--mr-axes goes with --mr");
+    if (!labelsAxes.empty() && labels.empty())
+      throw UsageError("--labels-axes goes with --labels");
+    if (!meshAxes.empty() && meshes.empty())
+      throw UsageError("--mesh-axes goes with --mesh");
     if (!mrUnit.empty() && mr.empty())
       throw UsageError("--mr-unit goes with --mr");
     if (!labelsUnit.empty() && labels.empty())
@@ -189,6 +211,8 @@ struct PartOptions
         result.mr.back().assumeRas = mrFrame == "ras";
       if (!mrUnit.empty())
         result.mr.back().unit = millimetresOf(mrUnit);
+      if (!mrAxes.empty())
+        result.mr.back().axes = parseAxes(mrAxes, "--mr-axes");
       if (!mrRoi.empty())
         result.mr.back().roi = parseBox(mrRoi, "--mr-roi");
       result.mr.back().isOtherPatient = otherPatient;
@@ -200,6 +224,8 @@ struct PartOptions
         result.labels.back().assumeRas = labelsFrame == "ras";
       if (!labelsUnit.empty())
         result.labels.back().unit = millimetresOf(labelsUnit);
+      if (!labelsAxes.empty())
+        result.labels.back().axes = parseAxes(labelsAxes, "--labels-axes");
       result.labels.back().isOtherPatient = otherPatient;
       result.labels.back().skipsTaken = skipTaken;
       result.labels.back().numbersTaken = renameTaken;
@@ -223,6 +249,8 @@ struct PartOptions
         result.meshes.back().isRas = meshFrame == "ras";
       if (!meshUnit.empty())
         result.meshes.back().unit = millimetresOf(meshUnit);
+      if (!meshAxes.empty())
+        result.meshes.back().axes = parseAxes(meshAxes, "--mesh-axes");
     }
     return result;
   }
@@ -430,7 +458,7 @@ void addNew(CLI::App& app, Context& context)
 {
   struct Options
   {
-    std::string name, ct, series, volume, roi, modality, frame, unit;
+    std::string name, ct, series, volume, roi, modality, frame, axes, unit;
     PartOptions parts;
   };
   auto options = std::make_shared<Options>();
@@ -450,6 +478,8 @@ void addNew(CLI::App& app, Context& context)
                                                        : scene::Modality::Unknown;
         if (!options->frame.empty())
           sources.assumeRas = options->frame == "ras";
+        if (!options->axes.empty())
+          sources.axes = parseAxes(options->axes, "--ct-axes");
         if (!options->unit.empty())
         {
           if (isDicomImage(options->ct))
@@ -488,6 +518,11 @@ void addNew(CLI::App& app, Context& context)
       ->add_option("--ct-frame", options->frame,
                    "Axes of an image file that does not say which side is left: lps or ras")
       ->check(oneOf({"lps", "ras"}));
+  command
+      ->add_option("--ct-axes", options->axes,
+                   "Corrects axes that the file states wrongly: where that points which it calls "
+                   "left, posterior and superior, such as RPS for a mirrored one")
+      ->type_name("XYZ");
   command
       ->add_option("--ct-unit", options->unit,
                    "Unit of length of a CT file of voxels, instead of what it states")

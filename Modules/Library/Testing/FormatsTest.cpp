@@ -137,6 +137,10 @@ void expectCase(const scene::Case& value, int format, bool isArchived = false)
     EXPECT_EQ(value.view.instrument->axis, "z+");
     EXPECT_EQ(value.view.instrument->mesh.get()->vertices.at(3), Eigen::Vector3f(-1, -1, 60));
   }
+  for (const core::AxesCorrection& axes :
+       {value.ct.provenance.axes, value.labels[0].provenance.axes})
+    EXPECT_EQ(axes.text(), format >= 10 ? "RPS" : "LPS");
+  EXPECT_TRUE(value.mr[0].provenance.axes.isIdentity());
   EXPECT_EQ(value.ct.frameOfReference.empty(), format < 3 || (isArchived && format > 3));
 }
 
@@ -209,8 +213,8 @@ TEST_F(Formats, ACaseOfANewerFormatIsRefusedInWordsAndStays)
   {
     EXPECT_EQ(error.reason, scene::ManifestError::Reason::NewerFormat);
     EXPECT_NE(std::string(error.what())
-                  .find("format-10.json: written by format 10; this program "
-                        "reads up to 9"),
+                  .find("format-11.json: written by format 11; this program "
+                        "reads up to 10"),
               std::string::npos)
         << error.what();
   }
@@ -345,6 +349,6 @@ TEST_F(Formats, AnArchiveOfANewerFormatIsRefusedInWords)
   };
   EXPECT_NE(refusedAs("archive-2.petrous").find("written by a newer version of this program"),
             std::string::npos);
-  EXPECT_NE(refusedAs("archive-1-case-10.petrous").find("written by format 10"), std::string::npos);
+  EXPECT_NE(refusedAs("archive-1-case-11.petrous").find("written by format 11"), std::string::npos);
   EXPECT_TRUE(m_library.list().empty());
 }

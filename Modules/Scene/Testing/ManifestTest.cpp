@@ -527,7 +527,7 @@ TEST(Manifest, RefusesANewerFormatInWords)
   std::string text = scene::toManifest(fullCase());
   const auto at = text.find("\"petrous_case\": 3");
   ASSERT_NE(at, std::string::npos);
-  text.replace(at, 17, "\"petrous_case\": 10");
+  text.replace(at, 17, "\"petrous_case\": 11");
   try
   {
     scene::fromManifest(text, "m.json");
@@ -536,7 +536,7 @@ TEST(Manifest, RefusesANewerFormatInWords)
   catch (const scene::ManifestError& error)
   {
     EXPECT_EQ(error.reason, scene::ManifestError::Reason::NewerFormat);
-    EXPECT_NE(std::string(error.what()).find("format 10"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("format 11"), std::string::npos);
   }
 }
 
@@ -829,7 +829,7 @@ TEST(Manifest, GivesTheDescriptionAlone)
   EXPECT_EQ(scene::descriptionFromManifest(j.dump(), "m"), value.description);
   j["description"]["side"] = "up";
   EXPECT_THROW(scene::descriptionFromManifest(j.dump(), "m"), scene::ManifestError);
-  j["petrous_case"] = 10;
+  j["petrous_case"] = 11;
   EXPECT_THROW(scene::descriptionFromManifest(j.dump(), "m"), scene::ManifestError);
   EXPECT_THROW(scene::descriptionFromManifest(text.substr(0, text.size() / 2), "m"),
                scene::ManifestError);

@@ -155,6 +155,9 @@ def manifest(version):
                             "landmarks": [{"patient_mm": [12, -18, 33], "still_px": [960.5, 540]}]}]}})
     if version >= 9:
         case["view"]["instrument"] = {"object": TOOL, "axis": "z+", "name": "pick.stl"}
+    if version >= 10:
+        case["ct"]["provenance"] = {"corrected_axes": "RPS"}
+        case["labels"][0]["provenance"] = {"corrected_axes": "RPS"}
     return case
 
 
@@ -235,7 +238,7 @@ def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent)
     for part in ("cases", "objects"):
         (folder / part).mkdir(parents=True, exist_ok=True)
-    for version in range(1, 11):
+    for version in range(1, 12):
         (folder / "cases" / ("format-%d.json" % version)).write_text(json.dumps(manifest(version), indent=1))
     for name, data in objects.items():
         (folder / "objects" / name).write_bytes(data)
@@ -248,7 +251,7 @@ def main():
         archive(folder / ("archive-1-case-%d.petrous" % version), 1, manifest(version))
     archive(folder / "archive-1-plan.petrous", 1, manifest(5), isPlan=True)
     archive(folder / "archive-2.petrous", 2, manifest(5))
-    archive(folder / "archive-1-case-10.petrous", 1, manifest(10))
+    archive(folder / "archive-1-case-11.petrous", 1, manifest(11))
 
 
 main()

@@ -23,9 +23,10 @@ struct ManifestError : core::Error
 /// 2: branches; 3: how an MR was registered, and what was drawn on one; 4: codes of structures; 5:
 /// description of the case; 6: attachments, and of the view more than the cameras of branches,
 /// crosshair and grey window; 7: measurements, saved views, planes that were turned, slabs; 8:
-/// bookmarks and stills of videos; 9: an instrument. Older formats can be opened; a case is written
-/// in the lowest format from 3 that holds it, which older programs open.
-constexpr int kManifestFormat = 9;
+/// bookmarks and stills of videos; 9: an instrument; 10: axes of a file that were corrected. Older
+/// formats can be opened; a case is written in the lowest format from 3 that holds it, which older
+/// programs open.
+constexpr int kManifestFormat = 10;
 
 /// The case as JSON: everything but the voxels, which are referenced by object name. Equal cases
 /// give the same text. Numbers round-trip exactly. Throws InvalidParameter naming the first

@@ -14,12 +14,14 @@
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/CorrectedCase.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Presenters/PartFiles.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/ExposedSurfaces.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::cli
 {
@@ -572,6 +574,65 @@ void addAdd(CLI::App& app, Context& context)
   options->parts.addTo(*command);
 }
 
+// What of a case stays with it alone.
+std::string leftText(const presenters::LeftBehind& left)
+{
+  std::string text;
+  const auto add = [&text](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+  const auto count = [&add](std::size_t number, const std::string& one)
+  {
+    if (number > 0)
+      add(std::to_string(number) + " " + one + (number == 1 ? "" : "s"));
+  };
+  if (!left.mr.empty())
+    add((left.mr.size() == 1 ? "MR " : "MRs ") + scene::listed(left.mr));
+  if (!left.drawnOnMr.empty())
+    add(scene::listed(left.drawnOnMr) + ", drawn on an MR");
+  count(left.strokes, "stroke");
+  count(left.measurements, "measurement");
+  count(left.attachments, "attachment");
+  count(left.savedViews, "saved view");
+  return text;
+}
+
+void addCorrectAxes(CLI::App& app, Context& context)
+{
+  struct Options
+  {
+    std::string name, axes, as;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = context.addCommand(
+      app, "correct-axes", "Make a case of another one's CT whose file states wrong axes",
+      [options, &context]
+      {
+        const core::AxesCorrection axes = parseAxes(options->axes, "--axes");
+        if (axes.isIdentity())
+          throw UsageError("--axes: LPS leaves the axes as they are");
+        library::Library library = context.openLibrary();
+        scene::checkCaseName(options->as);
+        library::refuseTakenName(library.folder(), options->as);
+        const scene::Case from = library.open(options->name);
+        scene::Case value = presenters::correctedCase(from, axes, options->as, context.progress());
+        library.save(value);
+        if (const std::string left = leftText(presenters::leftBehind(from)); !left.empty())
+          context.warn("stays with case '" + from.name + "' alone: " + left);
+        if (from.description.side != scene::Side::Unknown)
+          context.warn("which ear it is was not taken over; 'petrous describe --side' says it");
+        const CaseFacts facts = factsOf(value);
+        printCase(context, value, facts);
+        context.printJson(infoJson(value, facts));
+      });
+  command->add_option("CASE", options->name)->required();
+  command
+      ->add_option("--axes", options->axes,
+                   "Where that really points which is now left, posterior and superior, such as "
+                   "RPS for a mirrored one")
+      ->type_name("XYZ")
+      ->required();
+  command->add_option("--as", options->as, "Name of the new case")->type_name("NAME")->required();
+}
+
 void addRemove(CLI::App& app, Context& context)
 {
   struct Options
@@ -639,6 +700,7 @@ void addCaseCommands(CLI::App& app, Context& context)
 {
   addNew(app, context);
   addAdd(app, context);
+  addCorrectAxes(app, context);
   addRemove(app, context);
   addInfo(app, context);
 }

@@ -227,7 +227,7 @@ json axesJson(const std::optional<bool>& assumedRas)
 
 json correctedJson(const core::AxesCorrection& axes)
 {
-  return axes.isIdentity() ? json() : json(axes.text());
+  return axes.isIdentity() ? json() : json(axes.letters());
 }
 
 // Slices are numbered from 1, as in texts and views.

@@ -52,6 +52,7 @@ public:
   QAction* addLabels;
   QAction* addMasks;
   QAction* addMesh;
+  QAction* correctAxes;
   QActionGroup* sides; ///< checkable; each one's data is its scene::Side
   QAction* restorePart;
   QAction* exportPart;

@@ -53,7 +53,7 @@ TEST(AxesCorrection, StatesWhereTheFilesAxesReallyPoint)
   EXPECT_EQ(permuted.matrix() * Vector3d(3, 5, 7), Vector3d(5, -7, 3));
   EXPECT_EQ(permuted.letter(2), 'A');
   EXPECT_TRUE(AxesCorrection().isIdentity());
-  EXPECT_EQ(AxesCorrection().text(), "LPS");
+  EXPECT_EQ(AxesCorrection().letters(), "LPS");
 }
 
 TEST(AxesCorrection, ReadsAndWritesEverySignedPermutation)
@@ -62,7 +62,7 @@ TEST(AxesCorrection, ReadsAndWritesEverySignedPermutation)
   for (const std::string& text : allTexts())
   {
     const AxesCorrection one = AxesCorrection::parse(text);
-    EXPECT_EQ(one.text(), text);
+    EXPECT_EQ(one.letters(), text);
     mirroring += one.isMirroring();
     EXPECT_TRUE((one * one.inverse()).isIdentity()) << text;
     EXPECT_TRUE((one.inverse() * one).isIdentity()) << text;

@@ -57,19 +57,19 @@ bool isPlus(char direction)
 
 } // namespace
 
-AxesCorrection AxesCorrection::parse(std::string_view text)
+AxesCorrection AxesCorrection::parse(std::string_view letters)
 {
   AxesCorrection correction;
   std::array<int, 3> uses{};
-  bool isGood = text.size() == correction.m_letters.size();
-  for (std::size_t n = 0; isGood && n < text.size(); ++n)
+  bool isGood = letters.size() == correction.m_letters.size();
+  for (std::size_t n = 0; isGood && n < letters.size(); ++n)
   {
-    const char direction = directionOf(text[n]);
+    const char direction = directionOf(letters[n]);
     correction.m_letters[n] = direction;
     isGood = direction != 0 && ++uses[static_cast<std::size_t>(axisOf(direction))] == 1;
   }
   if (!isGood)
-    throw InvalidParameter("axes: '" + std::string(text) +
+    throw InvalidParameter("axes: '" + std::string(letters) +
                            "' is not one letter each of R or L, A or P, and S or I (H or F), such "
                            "as LPS (as the file states them) or RPS (left and right exchanged)");
   return correction;

@@ -139,7 +139,7 @@ void expectCase(const scene::Case& value, int format, bool isArchived = false)
   }
   for (const core::AxesCorrection& axes :
        {value.ct.provenance.axes, value.labels[0].provenance.axes})
-    EXPECT_EQ(axes.text(), format >= 10 ? "RPS" : "LPS");
+    EXPECT_EQ(axes.letters(), format >= 10 ? "RPS" : "LPS");
   EXPECT_TRUE(value.mr[0].provenance.axes.isIdentity());
   EXPECT_EQ(value.ct.frameOfReference.empty(), format < 3 || (isArchived && format > 3));
 }

@@ -258,16 +258,16 @@ TEST(Provenance, OfCorrectedAxesIsKeptAndIsOfFormat10)
   Case value = none;
   value.ct.provenance.axes = core::AxesCorrection::parse("RPS");
   EXPECT_EQ(formatOf(value), 10);
-  EXPECT_EQ(again(value).ct.provenance.axes.text(), "RPS");
+  EXPECT_EQ(again(value).ct.provenance.axes.letters(), "RPS");
   value = none;
   value.mr[0].provenance.axes = core::AxesCorrection::parse("SLA");
   EXPECT_EQ(formatOf(value), 10);
-  EXPECT_EQ(again(value).mr[0].provenance.axes.text(), "SLA");
+  EXPECT_EQ(again(value).mr[0].provenance.axes.letters(), "SLA");
   value = none;
   value.labels[0].provenance.axes = core::AxesCorrection::parse("LAI");
   EXPECT_EQ(formatOf(value), 10);
   const Case back = again(value);
-  EXPECT_EQ(back.labels[0].provenance.axes.text(), "LAI");
+  EXPECT_EQ(back.labels[0].provenance.axes.letters(), "LAI");
   EXPECT_TRUE(back.ct.provenance.axes.isIdentity());
   EXPECT_EQ(toManifest(back), toManifest(value));
 }

@@ -274,7 +274,7 @@ std::optional<bool> assumedRasIn(const json& j)
 void putCorrectedAxes(json& j, const core::AxesCorrection& axes)
 {
   if (!axes.isIdentity())
-    j[kCorrectedAxes] = axes.text();
+    j[kCorrectedAxes] = axes.letters();
 }
 
 core::AxesCorrection correctedAxesIn(const json& j)

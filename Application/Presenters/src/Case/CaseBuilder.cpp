@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include "BoxOnGrid.h"
+#include "CorrectAxes.h"
 #include "MeshForm.h"
 #include "MeshSpace.h"
 #include "PatientHashes.h"
@@ -488,17 +489,6 @@ imaging::ReadOptions optionsOf(bool repair, const std::optional<core::PatientBox
   return options;
 }
 
-// Of axes that the file states.
-void correctAxes(scene::ImagePart& image, const core::AxesCorrection& axes)
-{
-  if (axes.isIdentity())
-    return;
-  image.geometry = axes.applied(image.geometry);
-  image.volume = volume::onGrid(image.volume.get(), image.geometry);
-  image.provenance.axes = axes;
-  image.notes.push_back(correctedAxesText(axes) + ", as asked");
-}
-
 // Where its file has it.
 core::GridGeometry statedGrid(const scene::ImagePart& image)
 {
@@ -519,14 +509,6 @@ std::vector<std::string> mrOfGrid(const scene::Case& value, const core::GridGeom
     if (hasGridOf(mr, grid))
       names.push_back(mr.name);
   return names;
-}
-
-// Of structures or a mesh of an image whose axes were corrected.
-std::string followedNote(const scene::ImagePart& image)
-{
-  return "lies in the space of '" + image.name +
-         "' as its file states it, and follows the correction of its axes (" +
-         image.provenance.axes.text() + ")";
 }
 
 // `isPrimary`: of a case. `assumeRas`, `axes`: as CaseSources.
@@ -1369,7 +1351,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
       provenance.axes = follow(value, source, isNamed || frame.isStated, loaded);
   }
   if (source.axes && !source.axes->isIdentity())
-    loaded.notes.push_back(correctedAxesText(*source.axes) + ", as asked");
+    loaded.notes.push_back(correctedAxesText(*source.axes));
   std::vector<std::string> notes = std::move(loaded.notes);
   noteLostSalt(value, patientHash(loaded.patient), salted, notes);
   if (isOfOtherPatient(value, source, loaded.patient, salted))
@@ -1694,17 +1676,6 @@ scene::ImagePart asStated(scene::ImagePart image, const core::AxesCorrection& ax
   return image;
 }
 
-void correctAxes(core::TriangleMesh& mesh, const core::AxesCorrection& axes,
-                 const Eigen::Vector3d& center)
-{
-  const Eigen::Matrix3d matrix = axes.matrix();
-  for (Eigen::Vector3f& vertex : mesh.vertices)
-    vertex = (center + matrix * (vertex.cast<double>() - center)).cast<float>();
-  if (axes.isMirroring())
-    for (auto& triangle : mesh.triangles)
-      std::swap(triangle[1], triangle[2]);
-}
-
 void addMesh(scene::Case& value, const PartSource& source, const scene::IdentitySalt& salted,
              const core::Progress& progress)
 {
@@ -1732,8 +1703,7 @@ void addMesh(scene::Case& value, const PartSource& source, const scene::Identity
   if (!axes.isIdentity())
   {
     correctAxes(loaded.mesh, axes, drawn.geometry.center());
-    part.notes.push_back(source.axes ? correctedAxesText(axes) + ", as asked"
-                                     : followedNote(drawn));
+    part.notes.push_back(source.axes ? correctedAxesText(axes) : followedNote(drawn));
   }
   requireNear(source.path, loaded.mesh, image.grid, image.name);
   part.notes.insert(part.notes.end(), loaded.notes.begin(), loaded.notes.end());
@@ -1896,7 +1866,7 @@ FrameUnclear::FrameUnclear(const fs::path& file, const std::string& image,
                            const core::AxesCorrection& axes, const std::string& option)
   : core::InvalidParameter(file.string() + ": does not tell whether it lies in the space of '" +
                            image + "' as its file states it, or with its axes corrected (" +
-                           axes.text() + "); say FILE@" + image +
+                           axes.letters() + "); say FILE@" + image +
                            " if it follows the correction, " + option +
                            " LPS if it lies where it belongs already")
 {

@@ -52,7 +52,7 @@ std::string assumedSideText(bool assumedRas)
          " axes, as the file does not say which side of the patient is left";
 }
 
-const char* directionName(char letter)
+const char* directionText(char letter)
 {
   switch (letter)
   {
@@ -73,9 +73,9 @@ const char* directionName(char letter)
 
 std::string correctedAxesText(const core::AxesCorrection& axes)
 {
-  return "axes of the file corrected (" + axes.text() +
-         "): what it calls left, back and head is the patient's " + directionName(axes.letter(0)) +
-         ", " + directionName(axes.letter(1)) + " and " + directionName(axes.letter(2));
+  return "axes of the file corrected (" + axes.letters() +
+         "): what it calls left, back and head is the patient's " + directionText(axes.letter(0)) +
+         ", " + directionText(axes.letter(1)) + " and " + directionText(axes.letter(2));
 }
 
 std::string interpolatedText(const scene::ImagePart& image)

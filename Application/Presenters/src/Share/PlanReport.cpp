@@ -1251,7 +1251,7 @@ private:
     if (provenance.assumedRas)
       texts.push_back(sidesText(*provenance.assumedRas));
     if (!provenance.axes.isIdentity())
-      texts.push_back(axesText(provenance.axes));
+      texts.push_back(say(correctedAxesText(provenance.axes)));
     if (provenance.pixels.isLossy)
       texts.push_back(say("compressed with loss") +
                       (provenance.pixels.lossyRatio
@@ -1271,21 +1271,13 @@ private:
                   assumedRas ? "RAS" : "LPS");
   }
 
-  std::string axesText(const core::AxesCorrection& axes) const
-  {
-    const auto direction = [&](std::size_t axis) { return say(directionName(axes.letter(axis))); };
-    return filled(say("axes of the file corrected (%1): what it calls left, back and head is the "
-                      "patient's %2, %3 and %4"),
-                  axes.text(), direction(0), direction(1), direction(2));
-  }
-
   std::vector<std::string> placeGuessesOf(const scene::LabelPart& part) const
   {
     std::vector<std::string> texts;
     if (part.provenance.assumedRas)
       texts.push_back(sidesText(*part.provenance.assumedRas));
     if (!part.provenance.axes.isIdentity())
-      texts.push_back(axesText(part.provenance.axes));
+      texts.push_back(say(correctedAxesText(part.provenance.axes)));
     if (part.provenance.isFrameAssumed)
       texts.push_back(say("not known to be in the frame of reference of the image on which it is "
                           "shown"));

@@ -36,7 +36,7 @@ std::string assumedSideText(bool assumedRas);
 std::string correctedAxesText(const core::AxesCorrection& axes);
 
 /// "right", "back", .. of a letter of an AxesCorrection.
-const char* directionName(char letter);
+const char* directionText(char letter);
 
 /// The images and structures whose left and right are assumed, or whose axes were corrected, a line
 /// each: "CT: left and right taken as RAS axes, ..".

@@ -26,9 +26,9 @@ public:
   AxesCorrection() = default; ///< "LPS"
 
   /// R or L, A or P, S (or H) or I (or F), each axis once, in any case. Throws InvalidParameter.
-  static AxesCorrection parse(std::string_view text);
+  static AxesCorrection parse(std::string_view letters);
 
-  std::string text() const { return {m_letters.begin(), m_letters.end()}; }
+  std::string letters() const { return {m_letters.begin(), m_letters.end()}; }
 
   /// Where that really points which the file calls left (0), posterior (1) or superior (2): one of
   /// R, L, A, P, S and I.

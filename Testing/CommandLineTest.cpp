@@ -1226,6 +1226,54 @@ TEST_F(CommandLine, StructuresThatNoVoxelCarriesCountAsTaken)
   EXPECT_EQ(built.err.find("were not taken"), std::string::npos) << built.err;
 }
 
+// A label at a known voxel, of a CT with wrong axes, by the way of files.
+TEST_F(CommandLine, AxesThatAreWrongAreCorrected)
+{
+  const auto write = [this](const std::string& name, const std::string& type, std::size_t bytes,
+                            std::size_t voxel, const std::string& value)
+  {
+    std::string data(bytes * 10 * 8 * 6, '\0');
+    data.replace(bytes * voxel, bytes, value);
+    std::ofstream(m_folder / name, std::ios::binary)
+        << "NRRD0004\ntype: " << type
+        << "\ndimension: 3\nspace: left-posterior-superior\nsizes: 10 8 6\nspace directions: "
+           "(1,0,0) (0,1,0) (0,0,1)\nendian: little\nencoding: raw\nspace origin: (20,30,40)\n\n"
+        << data;
+    return quoted(m_folder / name);
+  };
+  const std::string ct = write("ct.nrrd", "short", 2, 5, std::string("\xb0\x04", 2)); // 1200
+  // Voxel 1, 2, 3: by the file at 21, 32, 43; the centre is 24.5, 33.5, 42.5.
+  const std::string labels =
+      write("incus.nrrd", "uchar", 1, 1 + 10 * (2 + 8 * 3), std::string(1, '\1'));
+  const auto built = json("new ear --modality CT --ct " + ct +
+                          " --ct-axes rph --labels incus=" + quoted(m_folder / "incus.nrrd"));
+  EXPECT_EQ(built["ct"]["provenance"]["corrected_axes"], "RPS");
+  EXPECT_EQ(built["labels"][0]["provenance"]["corrected_axes"], "RPS");
+  EXPECT_NEAR(built["labels"][0]["volume_mm3"].get<double>(), 1.0, 1e-9);
+  const std::string text = run("info ear").out;
+  EXPECT_NE(text.find("axes of the file corrected (RPS): what it calls left, back and head is the "
+                      "patient's right, back and head"),
+            std::string::npos)
+      << text;
+  // Exported and read by themselves, both say where they are.
+  ASSERT_EQ(run("export ear --what ct --out " + quoted(m_folder / "out.nrrd")).code, 0);
+  const std::string header = textOf(m_folder / "out.nrrd");
+  EXPECT_NE(header.find("space origin: (29,30,40)"), std::string::npos) << header.substr(0, 500);
+
+  json("new plain --modality CT --ct " + ct + " --labels incus=" + labels);
+  const Outcome corrected = run("correct-axes plain --axes RPS --as mirrored --json");
+  ASSERT_EQ(corrected.code, 0) << corrected.err;
+  const auto mirrored = nlohmann::json::parse(corrected.out);
+  EXPECT_EQ(mirrored["ct"]["provenance"]["corrected_axes"], "RPS");
+  EXPECT_EQ(mirrored["labels"][0]["provenance"]["corrected_axes"], "RPS");
+  EXPECT_TRUE(json("info plain")["ct"]["provenance"]["corrected_axes"].is_null());
+
+  expectRefused("new none --ct " + ct + " --ct-axes LLS", 2, "--ct-axes");
+  expectRefused("new none --ct " + ct + " --labels-axes RPS", 2, "--labels");
+  expectRefused("correct-axes plain --axes LPS --as none", 2, "--axes");
+  expectRefused("correct-axes plain --axes RPS --as mirrored", 4, "mirrored");
+}
+
 TEST_F(CommandLine, StrictScanTakesASegmentationForWhatItIs)
 {
   makePatient("--dims 32,32,40 --spacing 2");

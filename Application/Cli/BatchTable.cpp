@@ -42,7 +42,7 @@ struct Column
   const char* text;
 };
 
-constexpr std::array<Column, 35> kColumns{{
+constexpr std::array<Column, 38> kColumns{{
     {"name", Step::None, "the case's name (needed)"},
     {"folder", Step::Build, "CT: DICOM folder or image file; blank: the case is there already"},
     {"series", Step::Build, "which series of the folder: UID or UID#VOLUME; of a file #VOLUME"},
@@ -51,6 +51,9 @@ constexpr std::array<Column, 35> kColumns{{
     {"mr_frame", Step::Build, "likewise, of the MR"},
     {"mr_roi", Step::Build, "x0,x1,y0,y1,z0,z1 in LPS mm of each MR"},
     {"labels_frame", Step::Build, "likewise, of the labels that do not have the CT's grid"},
+    {"ct_axes", Step::Build, "where the axes L, P, S that its file states really point, as RPS"},
+    {"mr_axes", Step::Build, "likewise, of the MR"},
+    {"labels_axes", Step::Build, "likewise, of the labels; blank: with their image"},
     {"ct_unit", Step::Build, "mm, cm, m or um, if an image file states none or a wrong one"},
     {"mr_unit", Step::Build, "likewise, of the MR"},
     {"labels_unit", Step::Build, "likewise, of the labels"},
@@ -239,6 +242,14 @@ private:
     return text.empty() ? std::nullopt : std::optional<bool>(text == "ras");
   }
 
+  // nullopt: the column is blank.
+  std::optional<core::AxesCorrection> axes(const std::string& column) const
+  {
+    return cell(column).empty()
+               ? std::nullopt
+               : std::optional<core::AxesCorrection>(core::AxesCorrection::parse(cell(column)));
+  }
+
   // Of several texts one; empty: it is blank.
   std::string oneOf(const std::string& column, const std::vector<std::string>& texts) const
   {
@@ -288,6 +299,7 @@ private:
                        : modality == "ct" ? scene::Modality::Ct
                                           : scene::Modality::Unknown;
     sources.assumeRas = frame("ct_frame");
+    sources.axes = axes("ct_axes").value_or(core::AxesCorrection());
     sources.unit = unit("ct_unit");
     sources.undeclaredBits = undeclaredBitsOf(oneOf("bits", {"stored", "allocated"}));
     sources.roi = box("roi");
@@ -297,6 +309,7 @@ private:
       mr.repair = sources.repair;
       mr.roi = box("mr_roi");
       mr.assumeRas = frame("mr_frame");
+      mr.axes = axes("mr_axes");
       mr.unit = unit("mr_unit");
       mr.undeclaredBits = sources.undeclaredBits;
       mr.isOtherPatient = isYes("other_patient", cell("other_patient"));
@@ -305,6 +318,7 @@ private:
     for (presenters::PartSource& labels : sources.parts.labels)
     {
       labels.assumeRas = frame("labels_frame");
+      labels.axes = axes("labels_axes");
       labels.unit = unit("labels_unit");
       labels.asTheyLie = isYes("labels_as_they_lie", cell("labels_as_they_lie"));
       labels.isOtherPatient = isYes("other_patient", cell("other_patient"));

@@ -14,12 +14,14 @@
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/CorrectedCase.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Presenters/PartFiles.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/ExposedSurfaces.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::cli
 {
@@ -67,6 +69,9 @@ struct PartOptions
   bool labelsAsTheyLie = false;
   std::string mrRoi;
   std::string labelsFrame;
+  std::string mrAxes;
+  std::string labelsAxes;
+  std::string meshAxes;
   bool repair = false;
   std::string bits;
   bool otherPatient = false;
@@ -86,6 +91,11 @@ struct PartOptions
         .add_option("--mr-frame", mrFrame,
                     "Axes of MR files that do not say which side is left: lps or ras")
         ->check(oneOf({"lps", "ras"}));
+    command
+        .add_option("--mr-axes", mrAxes,
+                    "Corrects axes that MR files state wrongly: where that points which they call "
+                    "left, posterior and superior, such as RPS")
+        ->type_name("XYZ");
     command
         .add_option("--mr-roi", mrRoi,
                     "Part of each MR to load, in LPS mm of the MR as its own files place it")
@@ -111,6 +121,11 @@ struct PartOptions
                     "Axes of label files that do not say which side is left, and do not have the "
                     "grid of an image of the case: lps or ras")
         ->check(oneOf({"lps", "ras"}));
+    command
+        .add_option("--labels-axes", labelsAxes,
+                    "Likewise of label files, in place of the correction of their image (LPS: they "
+                    "lie where they belong)")
+        ->type_name("XYZ");
     command.add_flag("--skip-taken", skipTaken,
                      "Of several structures leave out those whose names are in the case already");
     command.add_flag("--rename-taken", renameTaken,
@@ -133,6 +148,9 @@ struct PartOptions
         .add_option("--mesh-frame", meshFrame,
                     "Coordinate system of the meshes: lps (DICOM, ITK) or ras (Slicer, NIfTI)")
         ->check(oneOf({"lps", "ras"}));
+    command
+        .add_option("--mesh-axes", meshAxes, "Likewise of meshes, about the centre of their image")
+        ->type_name("XYZ");
     command.add_option("--mesh-unit", meshUnit, "Unit of the meshes: mm, cm, m, um or inch (mm)")
         ->check(oneOf({"mm", "cm", "m", "um", "inch"}));
     command.add_flag("--mesh-parts", meshParts,
@@ -159,6 +177,12 @@ struct PartOptions
       throw UsageError("--other-patient goes with --mr or --labels");
     if (!mrFrame.empty() && mr.empty())
       throw UsageError("--mr-frame goes with --mr");
+    if (!mrAxes.empty() && mr.empty())
+      throw UsageError("--mr-axes goes with --mr");
+    if (!labelsAxes.empty() && labels.empty())
+      throw UsageError("--labels-axes goes with --labels");
+    if (!meshAxes.empty() && meshes.empty())
+      throw UsageError("--mesh-axes goes with --mesh");
     if (!mrUnit.empty() && mr.empty())
       throw UsageError("--mr-unit goes with --mr");
     if (!labelsUnit.empty() && labels.empty())
@@ -194,6 +218,8 @@ struct PartOptions
         result.mr.back().assumeRas = mrFrame == "ras";
       if (!mrUnit.empty())
         result.mr.back().unit = millimetresOf(mrUnit);
+      if (!mrAxes.empty())
+        result.mr.back().axes = parseAxes(mrAxes, "--mr-axes");
       if (!mrRoi.empty())
         result.mr.back().roi = parseBox(mrRoi, "--mr-roi");
       result.mr.back().isOtherPatient = otherPatient;
@@ -205,6 +231,8 @@ struct PartOptions
         result.labels.back().assumeRas = labelsFrame == "ras";
       if (!labelsUnit.empty())
         result.labels.back().unit = millimetresOf(labelsUnit);
+      if (!labelsAxes.empty())
+        result.labels.back().axes = parseAxes(labelsAxes, "--labels-axes");
       result.labels.back().isOtherPatient = otherPatient;
       result.labels.back().asTheyLie = labelsAsTheyLie;
       result.labels.back().skipsTaken = skipTaken;
@@ -229,6 +257,8 @@ struct PartOptions
         result.meshes.back().isRas = meshFrame == "ras";
       if (!meshUnit.empty())
         result.meshes.back().unit = millimetresOf(meshUnit);
+      if (!meshAxes.empty())
+        result.meshes.back().axes = parseAxes(meshAxes, "--mesh-axes");
     }
     return result;
   }
@@ -436,7 +466,7 @@ void addNew(CLI::App& app, Context& context)
 {
   struct Options
   {
-    std::string name, ct, series, volume, roi, modality, frame, unit;
+    std::string name, ct, series, volume, roi, modality, frame, axes, unit;
     PartOptions parts;
   };
   auto options = std::make_shared<Options>();
@@ -456,6 +486,8 @@ void addNew(CLI::App& app, Context& context)
                                                        : scene::Modality::Unknown;
         if (!options->frame.empty())
           sources.assumeRas = options->frame == "ras";
+        if (!options->axes.empty())
+          sources.axes = parseAxes(options->axes, "--ct-axes");
         if (!options->unit.empty())
         {
           if (isDicomImage(options->ct))
@@ -494,6 +526,11 @@ void addNew(CLI::App& app, Context& context)
       ->add_option("--ct-frame", options->frame,
                    "Axes of an image file that does not say which side is left: lps or ras")
       ->check(oneOf({"lps", "ras"}));
+  command
+      ->add_option("--ct-axes", options->axes,
+                   "Corrects axes that the file states wrongly: where that points which it calls "
+                   "left, posterior and superior, such as RPS for a mirrored one")
+      ->type_name("XYZ");
   command
       ->add_option("--ct-unit", options->unit,
                    "Unit of length of a CT file of voxels, instead of what it states")
@@ -541,6 +578,65 @@ void addAdd(CLI::App& app, Context& context)
       });
   command->add_option("CASE", options->name)->required();
   options->parts.addTo(*command);
+}
+
+// What of a case stays with it alone.
+std::string leftText(const presenters::LeftBehind& left)
+{
+  std::string text;
+  const auto add = [&text](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+  const auto count = [&add](std::size_t number, const std::string& one)
+  {
+    if (number > 0)
+      add(std::to_string(number) + " " + one + (number == 1 ? "" : "s"));
+  };
+  if (!left.mr.empty())
+    add((left.mr.size() == 1 ? "MR " : "MRs ") + scene::listed(left.mr));
+  if (!left.drawnOnMr.empty())
+    add(scene::listed(left.drawnOnMr) + ", drawn on an MR");
+  count(left.strokes, "stroke");
+  count(left.measurements, "measurement");
+  count(left.attachments, "attachment");
+  count(left.savedViews, "saved view");
+  return text;
+}
+
+void addCorrectAxes(CLI::App& app, Context& context)
+{
+  struct Options
+  {
+    std::string name, axes, as;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = context.addCommand(
+      app, "correct-axes", "Make a case of another one's CT whose file states wrong axes",
+      [options, &context]
+      {
+        const core::AxesCorrection axes = parseAxes(options->axes, "--axes");
+        if (axes.isIdentity())
+          throw UsageError("--axes: LPS leaves the axes as they are");
+        library::Library library = context.openLibrary();
+        scene::checkCaseName(options->as);
+        library::refuseTakenName(library.folder(), options->as);
+        const scene::Case from = library.open(options->name);
+        scene::Case value = presenters::correctedCase(from, axes, options->as, context.progress());
+        library.save(value);
+        if (const std::string left = leftText(presenters::leftBehind(from)); !left.empty())
+          context.warn("stays with case '" + from.name + "' alone: " + left);
+        if (from.description.side != scene::Side::Unknown)
+          context.warn("which ear it is was not taken over; 'petrous describe --side' says it");
+        const CaseFacts facts = factsOf(value);
+        printCase(context, value, facts);
+        context.printJson(infoJson(value, facts));
+      });
+  command->add_option("CASE", options->name)->required();
+  command
+      ->add_option("--axes", options->axes,
+                   "Where that really points which is now left, posterior and superior, such as "
+                   "RPS for a mirrored one")
+      ->type_name("XYZ")
+      ->required();
+  command->add_option("--as", options->as, "Name of the new case")->type_name("NAME")->required();
 }
 
 void addRemove(CLI::App& app, Context& context)
@@ -610,6 +706,7 @@ void addCaseCommands(CLI::App& app, Context& context)
 {
   addNew(app, context);
   addAdd(app, context);
+  addCorrectAxes(app, context);
   addRemove(app, context);
   addInfo(app, context);
 }

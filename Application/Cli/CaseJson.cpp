@@ -225,6 +225,11 @@ json axesJson(const std::optional<bool>& assumedRas)
   return assumedRas ? json(*assumedRas ? "RAS" : "LPS") : json();
 }
 
+json correctedJson(const core::AxesCorrection& axes)
+{
+  return axes.isIdentity() ? json() : json(axes.letters());
+}
+
 // Slices are numbered from 1, as in texts and views.
 json provenanceJson(const volume::ImageProvenance& provenance)
 {
@@ -244,6 +249,7 @@ json provenanceJson(const volume::ImageProvenance& provenance)
       {"tilt_deg", provenance.tilt},
       {"shift_mm", provenance.shift},
       {"assumed_axes", axesJson(provenance.assumedRas)},
+      {"corrected_axes", correctedJson(provenance.axes)},
       {"burned_in_text", kBurnedIn[static_cast<std::size_t>(provenance.pixels.burnedIn)]},
       {"lossy", provenance.pixels.isLossy},
       {"lossy_ratio", provenance.pixels.lossyRatio ? json(*provenance.pixels.lossyRatio) : json()},
@@ -371,6 +377,7 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
                         {"solid", s.look.solid},
                         {"provenance",
                          {{"assumed_axes", axesJson(part.provenance.assumedRas)},
+                          {"corrected_axes", correctedJson(part.provenance.axes)},
                           {"frame_assumed", part.provenance.isFrameAssumed}}}});
       if (!part.notes.empty())
         labels.back()["notes"] = part.notes;

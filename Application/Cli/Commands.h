@@ -8,7 +8,7 @@ namespace petrous::cli
 // Each adds its subcommands to the program; the context must outlive the parse.
 void addSampleCommand(CLI::App& app, Context& context);
 void addScanCommand(CLI::App& app, Context& context);
-void addCaseCommands(CLI::App& app, Context& context);    ///< new, add, remove, info
+void addCaseCommands(CLI::App& app, Context& context);    ///< new, add, correct-axes, remove, info
 void addArchiveCommands(CLI::App& app, Context& context); ///< archive, restore
 void addAttachCommands(CLI::App& app, Context& context);  ///< attach, attachments
 void addBatchCommand(CLI::App& app, Context& context);

@@ -118,6 +118,18 @@ core::PatientBox parseBox(const std::string& text, const std::string& option)
   return {Eigen::Vector3d(n[0], n[2], n[4]), Eigen::Vector3d(n[1], n[3], n[5])};
 }
 
+core::AxesCorrection parseAxes(const std::string& text, const std::string& option)
+{
+  try
+  {
+    return core::AxesCorrection::parse(text);
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    throw UsageError(option + ": " + error.what());
+  }
+}
+
 std::vector<Eigen::Vector3d> readPoints(const std::filesystem::path& path)
 {
   std::ifstream file = core::openInput(path, kLargestInput);

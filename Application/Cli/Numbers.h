@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
 
+#include "petrous/Core/AxesCorrection.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/PatientBox.h"
 #include "petrous/Dissection/BurrCatalogue.h"
@@ -48,6 +49,9 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count,
 
 /// "x0,x1,y0,y1,z0,z1", minimum before maximum; otherwise throws UsageError naming `option`.
 core::PatientBox parseBox(const std::string& text, const std::string& option);
+
+/// The letters of a correction of axes ("RPS"); otherwise throws UsageError naming `option`.
+core::AxesCorrection parseAxes(const std::string& text, const std::string& option);
 
 /// Patient points, LPS mm, from a CSV file with columns x_mm, y_mm and z_mm. Throws
 /// InvalidParameter naming file and line.

@@ -1024,6 +1024,133 @@
     </message>
 </context>
 <context>
+    <name>petrous::workstation::AxesDialog</name>
+    <message>
+        <source>Left</source>
+        <translation>Links</translation>
+    </message>
+    <message>
+        <source>Right</source>
+        <translation>Rechts</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Hinten</translation>
+    </message>
+    <message>
+        <source>Front</source>
+        <translation>Vorn</translation>
+    </message>
+    <message>
+        <source>Head</source>
+        <translation>Kopf</translation>
+    </message>
+    <message>
+        <source>Feet</source>
+        <translation>Füße</translation>
+    </message>
+    <message>
+        <source>MRs with their registrations: %1</source>
+        <translation>MRs mit ihren Registrierungen: %1</translation>
+    </message>
+    <message>
+        <source>Drawn on an MR: %1</source>
+        <translation>Auf einer MR gezeichnet: %1</translation>
+    </message>
+    <message>
+        <source>Strokes: %1</source>
+        <translation>Bohrzüge: %1</translation>
+    </message>
+    <message>
+        <source>Measurements: %1</source>
+        <translation>Messungen: %1</translation>
+    </message>
+    <message>
+        <source>Attachments: %1</source>
+        <translation>Anlagen: %1</translation>
+    </message>
+    <message>
+        <source>Saved views: %1</source>
+        <translation>Gespeicherte Ansichten: %1</translation>
+    </message>
+    <message>
+        <source>All of this case comes along.</source>
+        <translation>Alles in diesem Fall kommt mit.</translation>
+    </message>
+    <message>
+        <source>Stays with this case alone:</source>
+        <translation>Nur bei diesem Fall bleibt:</translation>
+    </message>
+    <message>
+        <source>Correct the axes</source>
+        <translation>Achsen korrigieren</translation>
+    </message>
+    <message>
+        <source>For an image whose file states wrong axes: it is mirrored, or lies otherwise than the letters say. What is right becomes a new case; “%1” stays as it is. Which ear it is will be asked again.</source>
+        <translation>Für ein Bild, dessen Datei falsche Achsen nennt: Es ist gespiegelt oder liegt anders, als die Buchstaben sagen. Das richtige wird ein neuer Fall; „%1“ bleibt, wie er ist. Welches Ohr es ist, wird neu gefragt.</translation>
+    </message>
+    <message>
+        <source>What is now &amp;left is really:</source>
+        <translation>Was jetzt &amp;links ist, ist wirklich:</translation>
+    </message>
+    <message>
+        <source>What is now &amp;back is really:</source>
+        <translation>Was jetzt &amp;hinten ist, ist wirklich:</translation>
+    </message>
+    <message>
+        <source>What is now &amp;head is really:</source>
+        <translation>Was jetzt &amp;Kopf ist, ist wirklich:</translation>
+    </message>
+    <message>
+        <source>Where this side of the image really is. Another one that had this direction takes the one that was here</source>
+        <translation>Wo diese Seite des Bildes wirklich ist. Eine andere, die diese Richtung hatte, bekommt die bisherige</translation>
+    </message>
+    <message>
+        <source>Exchange left and &amp;right</source>
+        <translation>Links und &amp;rechts tauschen</translation>
+    </message>
+    <message>
+        <source>Of a mirrored image: the side of the operation is at stake</source>
+        <translation>Bei einem gespiegelten Bild: Es geht um die Seite der Operation</translation>
+    </message>
+    <message>
+        <source>Exchange head and &amp;feet</source>
+        <translation>Kopf und &amp;Füße tauschen</translation>
+    </message>
+    <message>
+        <source>Of an image whose slices are in the wrong order, which mirrors it, too</source>
+        <translation>Bei einem Bild, dessen Schichten verkehrt geordnet sind, was es auch spiegelt</translation>
+    </message>
+    <message>
+        <source>&amp;Turn front to back</source>
+        <translation>&amp;Vorn nach hinten drehen</translation>
+    </message>
+    <message>
+        <source>Half a turn about the long axis, as of a patient who lay face down: front and back are exchanged, and left and right</source>
+        <translation>Eine halbe Drehung um die Längsachse, wie bei einem Patienten, der auf dem Bauch lag: vorn und hinten werden getauscht, und links und rechts</translation>
+    </message>
+    <message>
+        <source>&amp;Make the corrected case</source>
+        <translation>Korrigierten Fall &amp;anlegen</translation>
+    </message>
+    <message>
+        <source>A new case in the library, which is opened</source>
+        <translation>Ein neuer Fall in der Bibliothek, der geöffnet wird</translation>
+    </message>
+    <message>
+        <source>As it is. Choose what is wrong.</source>
+        <translation>Wie es ist. Wählen Sie, was falsch ist.</translation>
+    </message>
+    <message>
+        <source>The anatomy is mirrored: a left ear becomes a right one.</source>
+        <translation>Die Anatomie wird gespiegelt: Aus einem linken Ohr wird ein rechtes.</translation>
+    </message>
+    <message>
+        <source>The anatomy is turned, and not mirrored.</source>
+        <translation>Die Anatomie wird gedreht und nicht gespiegelt.</translation>
+    </message>
+</context>
+<context>
     <name>petrous::workstation::BackgroundWork</name>
     <message>
         <source>An unexpected fault.</source>
@@ -1927,6 +2054,22 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>&amp;Add it as it lies</source>
         <translation>So &amp;hinzufügen, wie sie liegt</translation>
+    </message>
+    <message>
+        <source>“%1” does not tell in which space of an image of this case it lies.</source>
+        <translation>„%1“ sagt nicht, in welchem Raum eines Bildes dieses Falls es liegt.</translation>
+    </message>
+    <message>
+        <source>The axes of an image were corrected. What was drawn on it as its file states it follows the correction; what lies where it belongs already, such as an export of this case, stays.</source>
+        <translation>Die Achsen eines Bildes wurden korrigiert. Was darauf gezeichnet wurde, wie die Datei es angibt, folgt der Korrektur; was schon richtig liegt, etwa ein Export dieses Falls, bleibt.</translation>
+    </message>
+    <message>
+        <source>&amp;Leave it where it is</source>
+        <translation>&amp;Lassen, wo es ist</translation>
+    </message>
+    <message>
+        <source>%1 (axes corrected)</source>
+        <translation>%1 (Achsen korrigiert)</translation>
     </message>
 </context>
 <context>
@@ -9808,6 +9951,14 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>F&amp;or an approach</source>
         <translation>Fü&amp;r einen Zugang</translation>
+    </message>
+    <message>
+        <source>&amp;Correct the axes…</source>
+        <translation>Achsen &amp;korrigieren…</translation>
+    </message>
+    <message>
+        <source>Of an image that is mirrored or lies otherwise than its letters say: a new case of it with the right ones</source>
+        <translation>Bei einem Bild, das gespiegelt ist oder anders liegt, als seine Buchstaben sagen: ein neuer Fall daraus mit den richtigen</translation>
     </message>
 </context>
 </TS>

@@ -316,7 +316,7 @@ WITHOUT = set("""
 """.split())
 # Of these the sources have single words, which are not told from names and codes otherwise.
 SHORT = {" ".join(word.split()) for word in """
-    Axial | Coronal | Sagittal | changed | unreadable | %#1 (%#2 images) | %#1 empty | %#1 meshes | %#1 mm ± %#2 | %#1 mm ± %2 | %#1 parts | %#1
+    Axial | Coronal | Sagittal | back | feet | front | head | changed | unreadable | %#1 (%#2 images) | %#1 empty | %#1 meshes | %#1 mm ± %#2 | %#1 mm ± %2 | %#1 parts | %#1
     slices | %#1 stroke | %#1 strokes | %#1 structures | %#1 to %#2 | %#1 to %~2 | %#1 x %#2 x
     %#3 voxels | %1 '%2' (%3, %#4 slices) | %1 '%2' (%3, %4 slices) | %1 (%#2 images) | %1 (%2
     images) | %1 (%2, %#3 slices) | %1 (%2, %3 slices) | %1 empty | %1 meshes | %1 mm ± %#2 | %1

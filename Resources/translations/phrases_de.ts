@@ -516,6 +516,10 @@
         <translation>%1: wurde in einem anderen Bezugssystem gezeichnet als dem des %2, die Lage im %3 ist daher nicht bekannt; gehört es doch zu diesem %4, fügen Sie es noch einmal hinzu und wählen Sie „auf dem CT“, oder fügen Sie das MR hinzu, auf dem gezeichnet wurde</translation>
     </message>
     <message>
+        <source>%1: does not tell whether it lies in the space of '%2' as its file states it, or with its axes corrected (%3); say FILE@%4 if it follows the correction, %5 LPS if it lies where it belongs already</source>
+        <translation>%1: sagt nicht, ob sie im Raum von „%2“ liegt, wie dessen Datei ihn angibt, oder mit korrigierten Achsen (%3); sagen Sie DATEI@%4, wenn sie der Korrektur folgt, %5 LPS, wenn sie schon richtig liegt</translation>
+    </message>
+    <message>
         <source>%1: has another grid than the CT, which was repaired; drawn on the slices as they lie in the files, by a program that takes them for straight and even, it lies elsewhere by up to %#2 mm. Say --labels-as-they-lie if it is to be added where it lies, and look whether it fits the bone</source>
         <translation>%1: hat ein anderes Gitter als das CT, das repariert wurde; auf den Schichten gezeichnet, wie sie in den Dateien liegen, von einem Programm, das sie für gerade und gleichmäßig hält, liegt sie bis zu %#2 mm anderswo. Fügen Sie sie noch einmal hinzu, so wie sie liegt, und sehen Sie nach, ob sie zum Knochen passt</translation>
     </message>
@@ -1228,6 +1232,18 @@
         <translation>%#1 von %#2 Instanzen nennen den Patienten anders als die erste: Es ist zweifelhaft, ob alle von einem Patienten sind; vergleichen Sie beim Knoten</translation>
     </message>
     <message>
+        <source>lies in the space of '%1' as its file states it, and follows the correction of its axes (%2)</source>
+        <translation>liegt im Raum von „%1“, wie dessen Datei ihn angibt, und folgt der Korrektur seiner Achsen (%2)</translation>
+    </message>
+    <message>
+        <source>axes: LPS leaves them as they are; say where what the file calls left, posterior and superior really points, such as RPS</source>
+        <translation>Achsen: LPS lässt sie, wie sie sind; sagen Sie, wohin das wirklich zeigt, was die Datei links, hinten und oben nennt, etwa RPS</translation>
+    </message>
+    <message>
+        <source>correcting the axes</source>
+        <translation>Achsen werden korrigiert</translation>
+    </message>
+    <message>
         <source>%1: the %~2 would lie in %3, which is never changed; give it another place</source>
         <translation>%1: %~2 läge in %3, worin nie etwas geändert wird; wählen Sie einen anderen Ort</translation>
     </message>
@@ -1454,6 +1470,34 @@
     <message>
         <source>left and right taken as LPS axes, as the file does not say which side of the patient is left</source>
         <translation>links und rechts als LPS-Achsen genommen, da die Datei nicht sagt, welche Seite des Patienten links ist</translation>
+    </message>
+    <message>
+        <source>left</source>
+        <translation>links</translation>
+    </message>
+    <message>
+        <source>right</source>
+        <translation>rechts</translation>
+    </message>
+    <message>
+        <source>back</source>
+        <translation>hinten</translation>
+    </message>
+    <message>
+        <source>front</source>
+        <translation>vorn</translation>
+    </message>
+    <message>
+        <source>head</source>
+        <translation>Kopf</translation>
+    </message>
+    <message>
+        <source>feet</source>
+        <translation>Füße</translation>
+    </message>
+    <message>
+        <source>axes of the file corrected (%1): what it calls left, back and head is the patient's %~2, %~3 and %~4</source>
+        <translation>Achsen der Datei korrigiert (%1): Was sie links, hinten und Kopf nennt, ist beim Patienten %~2, %~3 und %~4</translation>
     </message>
     <message>
         <source>%~1 interpolated</source>
@@ -3176,14 +3220,6 @@
         <translation>Deckkraft eines Standbilds</translation>
     </message>
     <message>
-        <source>left</source>
-        <translation>links</translation>
-    </message>
-    <message>
-        <source>right</source>
-        <translation>rechts</translation>
-    </message>
-    <message>
         <source>not stated</source>
         <translation>nicht angegeben</translation>
     </message>
@@ -3417,6 +3453,10 @@
 </context>
 <context>
     <name>Core</name>
+    <message>
+        <source>axes: '%1' is not one letter each of R or L, A or P, and S or I (H or F), such as LPS (as the file states them) or RPS (left and right exchanged)</source>
+        <translation>Achsen: „%1“ hat nicht je einen Buchstaben aus R oder L, A oder P und S oder I (H oder F), wie LPS (wie die Datei sie angibt) oder RPS (links und rechts getauscht)</translation>
+    </message>
     <message>
         <source>%1, line 1: column '%2' is there twice</source>
         <translation>%1, Zeile 1: Die Spalte „%2“ gibt es zweimal</translation>
@@ -9798,6 +9838,14 @@
     <message>
         <source>%~1 and %#2 others</source>
         <translation>%~1 und %#2 weitere</translation>
+    </message>
+    <message>
+        <source>grid: it must have as many voxels along each axis as the volume</source>
+        <translation>Gitter: Es muss entlang jeder Achse so viele Voxel haben wie das Volumen</translation>
+    </message>
+    <message>
+        <source>grid: there is no image to be placed on it</source>
+        <translation>Gitter: Es gibt kein Bild, das darauf liegen soll</translation>
     </message>
     <message>
         <source>borders of structures</source>

@@ -17,6 +17,7 @@
 #include "Application.h"
 #include "ArchiveDialog.h"
 #include "AskName.h"
+#include "AxesDialog.h"
 #include "Banner.h"
 #include "CaseSaver.h"
 #include "FaceCheck.h"
@@ -32,6 +33,7 @@
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/CaseNaming.h"
+#include "petrous/Presenters/CorrectedCase.h"
 #include "petrous/Presenters/IdentityText.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/LeavingImages.h"
@@ -1351,8 +1353,7 @@ CaseDocumentController::askAgain(const presenters::PartFailure& failure, const T
   }
   else if (failure.isFrameUnclear)
   {
-    source.drawnOn = askDrawnOn(failure);
-    if (source.drawnOn.empty())
+    if (!askDrawnOn(source))
       return std::nullopt;
   }
   else if (failure.unrepaired > 0.0)
@@ -1469,32 +1470,57 @@ std::optional<bool> CaseDocumentController::askSide(const fs::path& path)
 }
 
 // The image on which structures were drawn: "ct" or an MR's name; empty: the user does not know.
-std::string CaseDocumentController::askDrawnOn(const presenters::PartFailure& failure)
+bool CaseDocumentController::askDrawnOn(presenters::PartSource& source)
 {
   const QString primary = presenters::primaryName(m_model.value());
+  const auto isCorrected = [](const scene::ImagePart& image)
+  { return !image.provenance.axes.isIdentity(); };
+  const scene::Case& value = m_model.value();
+  const bool hasCorrected =
+      isCorrected(value.ct) || std::any_of(value.mr.begin(), value.mr.end(), isCorrected);
   QMessageBox box(QMessageBox::Question, tr("On which image was it drawn?"),
-                  tr("“%1” was drawn in another frame of reference than the images of this case.")
-                      .arg(titleOf(failure.source)),
+                  (hasCorrected
+                       ? tr("“%1” does not tell in which space of an image of this case it lies.")
+                       : tr("“%1” was drawn in another frame of reference than the images of this "
+                            "case."))
+                      .arg(titleOf(source)),
                   QMessageBox::NoButton, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askDrawnOn");
   box.setInformativeText(
+      (hasCorrected
+           ? tr("The axes of an image were corrected. What was drawn on it as its file states it "
+                "follows the correction; what lies where it belongs already, such as an export of "
+                "this case, stays.") +
+                 "\n\n"
+           : QString()) +
       tr("It may have been drawn on another scan of the patient, and would then lie in the wrong "
          "place. Where another program or library gave this very %1 new identifiers, it lies "
          "where it belongs. Look at the slices afterwards.")
           .arg(primary));
   std::vector<std::pair<const QAbstractButton*, std::string>> images;
   images.emplace_back(box.addButton(tr("On the &%1").arg(primary), QMessageBox::ActionRole), "ct");
-  for (const scene::ImagePart& mr : m_model.value().mr)
+  for (const scene::ImagePart& mr : value.mr)
     images.emplace_back(
         box.addButton(tr("On %1").arg(words(mr.name).replace('&', "&&")), QMessageBox::ActionRole),
         mr.name);
+  const QAbstractButton* stays =
+      hasCorrected ? box.addButton(tr("&Leave it where it is"), QMessageBox::ActionRole) : nullptr;
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
   box.exec();
+  if (stays && box.clickedButton() == stays)
+  {
+    source.drawnOn = "ct";
+    source.axes = core::AxesCorrection();
+    return true;
+  }
   for (const auto& [button, name] : images)
     if (box.clickedButton() == button)
-      return name;
-  return {};
+    {
+      source.drawnOn = name;
+      return true;
+    }
+  return false;
 }
 
 // Whether structures that may have been drawn on the slices before the repair of the CT are added
@@ -1930,6 +1956,40 @@ void CaseDocumentController::archive()
 {
   if (m_model.hasCase())
     archive(m_model.value().name);
+}
+
+void CaseDocumentController::correctAxes()
+{
+  if (writing())
+    return emit statusMessage(tr("One at a time: something is being read already"));
+  if (!m_model.hasCase())
+    return;
+  const scene::Case value = m_model.value(); // it may be closed meanwhile
+  core::AxesCorrection axes;
+  try
+  {
+    const QScopedValueRollback<bool> asking(m_asking, true);
+    AxesDialog dialog(value, &m_window);
+    if (dialog.exec() != QDialog::Accepted || m_model.library().folder().empty())
+      return;
+    axes = dialog.axes();
+  }
+  catch (const std::exception& fault)
+  {
+    return refuse(toString(fault));
+  }
+  m_model.stopTouch();
+  const std::string name = presenters::freeCaseName(
+      m_model.library(), bytes(tr("%1 (axes corrected)").arg(words(value.name))));
+  work(
+      tr("Making the case %1").arg(words(name)),
+      [this, value, axes, name](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        const auto next =
+            std::make_shared<scene::Case>(presenters::correctedCase(value, axes, name, progress));
+        return [this, next] { adopt(std::move(*next)); };
+      },
+      true);
 }
 
 void CaseDocumentController::archive(const std::string& which)

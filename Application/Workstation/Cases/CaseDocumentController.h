@@ -66,7 +66,9 @@ public:
   void exportPart(const QString& what = {}, const QString& part = {});
   void archive();                        ///< the open case to one file, with a dialog
   void archive(const std::string& name); ///< likewise any case of the library
-  void restore();                        ///< the case of an archive, with a dialog
+  /// A new case of the open one's primary image with other axes, with a dialog.
+  void correctAxes();
+  void restore(); ///< the case of an archive, with a dialog
 
   void makeSample();
 
@@ -179,7 +181,7 @@ private:
                                                  const Target& target);
   std::optional<bool> askSide(const std::filesystem::path& path);
   std::optional<double> askUnit(const std::filesystem::path& path, const imaging::UnitDoubt& doubt);
-  std::string askDrawnOn(const presenters::PartFailure& failure);
+  bool askDrawnOn(presenters::PartSource& source);
   bool askAsTheyLie(const presenters::PartFailure& failure);
   bool askNewNames(presenters::PartSource& source, const std::vector<std::string>& taken,
                    std::size_t others);

@@ -830,6 +830,12 @@ void MainWindow::connectActions()
        m_drill->releaseTool(); // ends an open stroke
        m_keeper->archive();
      });
+  on(m_actions->correctAxes,
+     [this]
+     {
+       m_drill->releaseTool(); // ends an open stroke
+       m_keeper->correctAxes();
+     });
   on(m_actions->restore, [this] { m_keeper->restore(); });
   on(m_actions->catalogues, [this] { editCatalogues(); });
   on(m_actions->openRecording, [this] { m_replay->openFile(); });

@@ -159,6 +159,9 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   addMesh = make(casePart, tr("Add m&esh…"), {}, tr("Surfaces of this patient, in mm"));
   casePart->addSeparator();
   addSides();
+  correctAxes = make(casePart, tr("&Correct the axes…"), {},
+                     tr("Of an image that is mirrored or lies otherwise than its letters say: a "
+                        "new case of it with the right ones"));
   attach = make(casePart, tr("A&ttach…"), {},
                 tr("A file goes with the case: recording of the tool, PNG, PDF or video"));
   exportPart = make(casePart, tr("E&xport…"), Qt::CTRL + Qt::Key_E,
@@ -355,6 +358,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                                        clipOff,
                                        cropBox,
                                        cropNumbers,
+                                       correctAxes,
                                        exportPart,
                                        archive,
                                        addMrFolder,

@@ -53,6 +53,7 @@ public:
   QAction* addLabels;
   QAction* addMasks;
   QAction* addMesh;
+  QAction* correctAxes;
   QActionGroup* sides; ///< checkable; each one's data is its scene::Side
   QAction* restorePart;
   QAction* exportPart;

@@ -149,6 +149,10 @@ void expectCase(const scene::Case& value, int format, bool isArchived = false)
     EXPECT_EQ(value.view.instrument->axis, "z+");
     EXPECT_EQ(value.view.instrument->mesh.get()->vertices.at(3), Eigen::Vector3f(-1, -1, 60));
   }
+  for (const core::AxesCorrection& axes :
+       {value.ct.provenance.axes, value.labels[0].provenance.axes})
+    EXPECT_EQ(axes.letters(), format >= 10 ? "RPS" : "LPS");
+  EXPECT_TRUE(value.mr[0].provenance.axes.isIdentity());
   EXPECT_EQ(value.ct.frameOfReference.empty(), format < 3 || (isArchived && format > 3));
 }
 

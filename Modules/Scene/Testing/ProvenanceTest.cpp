@@ -247,6 +247,31 @@ TEST(Provenance, TakesNoSliceFromANoteOfAnotherGridOrOneThatIsBent)
   EXPECT_FALSE(noted({"Compressed with loss, to 1/-3 of the size"}).pixels.lossyRatio);
 }
 
+// Programs before format 10 would drop it, and lay what comes later on the grid of the file.
+TEST(Provenance, OfCorrectedAxesIsKeptAndIsOfFormat10)
+{
+  const Case none = imagesAndLabels();
+  const auto formatOf = [](const Case& value)
+  { return json::parse(toManifest(value)).at("petrous_case").get<int>(); };
+  EXPECT_LT(formatOf(none), 10);
+  EXPECT_TRUE(again(none).ct.provenance.axes.isIdentity());
+  Case value = none;
+  value.ct.provenance.axes = core::AxesCorrection::parse("RPS");
+  EXPECT_EQ(formatOf(value), 10);
+  EXPECT_EQ(again(value).ct.provenance.axes.letters(), "RPS");
+  value = none;
+  value.mr[0].provenance.axes = core::AxesCorrection::parse("SLA");
+  EXPECT_EQ(formatOf(value), 10);
+  EXPECT_EQ(again(value).mr[0].provenance.axes.letters(), "SLA");
+  value = none;
+  value.labels[0].provenance.axes = core::AxesCorrection::parse("LAI");
+  EXPECT_EQ(formatOf(value), 10);
+  const Case back = again(value);
+  EXPECT_EQ(back.labels[0].provenance.axes.letters(), "LAI");
+  EXPECT_TRUE(back.ct.provenance.axes.isIdentity());
+  EXPECT_EQ(toManifest(back), toManifest(value));
+}
+
 TEST(Provenance, ThatCannotBeIsRefused)
 {
   const json good = json::parse(toManifest(imagesAndLabels()));
@@ -262,6 +287,9 @@ TEST(Provenance, ThatCannotBeIsRefused)
     refused("/ct/provenance/interpolated_slices", slices);
   refused("/ct/provenance/tilt_deg", nullptr);
   refused("/ct/provenance/assumed_axes", "left");
+  refused("/ct/provenance/corrected_axes", "LLS");
+  refused("/ct/provenance/corrected_axes", 7);
+  refused("/labels/0/provenance/corrected_axes", "none");
   refused("/ct/provenance/burned_in_text", "maybe");
   refused("/ct/provenance/lossy_ratio", 0.0);
   refused("/ct/provenance/masked", {"nose"});

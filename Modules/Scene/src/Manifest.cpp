@@ -206,7 +206,8 @@ constexpr int kFormatWithoutAttachments = 5;
 constexpr int kFormatWithoutMeasurements = 6; // and without saved views
 constexpr int kFormatWithoutVideoNotes = 7;
 constexpr int kFormatWithoutInstrument = 8;
-constexpr int kFormatWithCamerasOfBranches = 9; // and with nothing else of their views
+constexpr int kFormatWithCamerasOfBranches =
+    9; // and nothing else of their views, nor corrected axes
 constexpr const char* kPlanes[] = {"axial", "coronal", "sagittal"};
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
 constexpr const char* kPatient = "patient_salted_sha256";
@@ -247,6 +248,7 @@ constexpr const char* kNameParts = "name_parts";
 
 constexpr const char* kProvenance = "provenance"; // absent: older programs, whose notes say it
 constexpr const char* kAssumedAxes = "assumed_axes";
+constexpr const char* kCorrectedAxes = "corrected_axes"; // absent: as the file states them
 constexpr const char* kBurnedIn[] = {"none", "suspected", "stated"};
 using Flag = bool volume::ImageProvenance::*;
 constexpr std::pair<const char*, Flag> kMasked[] = {
@@ -270,6 +272,19 @@ std::optional<bool> assumedRasIn(const json& j)
   return axes == "RAS";
 }
 
+void putCorrectedAxes(json& j, const core::AxesCorrection& axes)
+{
+  if (!axes.isIdentity())
+    j[kCorrectedAxes] = axes.letters();
+}
+
+core::AxesCorrection correctedAxesIn(const json& j)
+{
+  return j.contains(kCorrectedAxes)
+             ? core::AxesCorrection::parse(j.at(kCorrectedAxes).get<std::string>())
+             : core::AxesCorrection();
+}
+
 // Slices are numbered from 1, as where a user sees them.
 json provenanceOut(const volume::ImageProvenance& provenance)
 {
@@ -281,6 +296,7 @@ json provenanceOut(const volume::ImageProvenance& provenance)
   if (provenance.shift != 0.0)
     j["shift_mm"] = provenance.shift;
   putAssumedAxes(j, provenance.assumedRas);
+  putCorrectedAxes(j, provenance.axes);
   if (provenance.pixels.burnedIn != volume::BurnedInText::None)
     j["burned_in_text"] = kBurnedIn[static_cast<std::size_t>(provenance.pixels.burnedIn)];
   if (provenance.pixels.isLossy)
@@ -310,6 +326,7 @@ volume::ImageProvenance provenanceIn(const json& j, int slices)
   provenance.tilt = j.value("tilt_deg", 0.0);
   provenance.shift = j.value("shift_mm", 0.0);
   provenance.assumedRas = assumedRasIn(j);
+  provenance.axes = correctedAxesIn(j);
   const auto burnedIn = j.value("burned_in_text", std::string(kBurnedIn[0]));
   const auto* found = std::find(std::begin(kBurnedIn), std::end(kBurnedIn), burnedIn);
   if (found == std::end(kBurnedIn))
@@ -496,6 +513,7 @@ json labelsOut(const LabelPart& part)
     j["notes"] = part.notes;
   json& provenance = j[kProvenance] = json::object();
   putAssumedAxes(provenance, part.provenance.assumedRas);
+  putCorrectedAxes(provenance, part.provenance.axes);
   if (part.provenance.isFrameAssumed)
     provenance["frame_assumed"] = true;
   return j;
@@ -511,7 +529,8 @@ LabelPart labelsIn(const json& j, const appearance::StructurePresets& presets)
     part.notes = plainTextsIn(j.at("notes"));
   if (j.contains(kProvenance))
     part.provenance = {assumedRasIn(j.at(kProvenance)),
-                       j.at(kProvenance).value("frame_assumed", false)};
+                       j.at(kProvenance).value("frame_assumed", false),
+                       correctedAxesIn(j.at(kProvenance))};
   else
     part.provenance = labelProvenanceFromNotes(part.notes);
   for (const json& s : j.at("structures"))
@@ -877,16 +896,21 @@ bool needsFormat9(const Case& value)
   return value.view.instrument.has_value();
 }
 
-// Likewise before format 10, which read the views of branches as cameras, and nothing else as one.
+// Likewise before format 10, which read the views of branches as cameras, and nothing else as one,
+// and would have dropped a correction of axes, and laid what comes later on the grid that the file
+// states.
 bool needsFormat10(const Case& value)
 {
   const auto& branches = value.view.branches;
   const auto& saved = value.view.saved;
+  const auto isCorrected = [](const auto& part) { return !part.provenance.axes.isIdentity(); };
   return std::any_of(branches.begin(), branches.end(),
                      [&value](const auto& one)
                      { return isOfABranch(value, one) && !isCameraAlone(one.second); }) ||
          std::any_of(saved.begin(), saved.end(),
-                     [](const auto& one) { return one.second.clipping.has_value(); });
+                     [](const auto& one) { return one.second.clipping.has_value(); }) ||
+         isCorrected(value.ct) || std::any_of(value.mr.begin(), value.mr.end(), isCorrected) ||
+         std::any_of(value.labels.begin(), value.labels.end(), isCorrected);
 }
 
 json stillOut(const VideoNotes::Still& still)

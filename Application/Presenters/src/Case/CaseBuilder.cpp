@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include "BoxOnGrid.h"
+#include "CorrectAxes.h"
 #include "MeshForm.h"
 #include "MeshSpace.h"
 #include "PatientHashes.h"
@@ -36,12 +37,14 @@
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Presenters/IdentityText.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Scene/Description.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Scene/PlainText.h"
 #include "petrous/Volume/IntensityScale.h"
 #include "petrous/Volume/MeshSolid.h"
+#include "petrous/Volume/OnGrid.h"
 
 namespace petrous::presenters
 {
@@ -487,11 +490,33 @@ imaging::ReadOptions optionsOf(bool repair, const std::optional<core::PatientBox
   return options;
 }
 
-// `isPrimary`: of a case. `assumeRas`: as CaseSources.
+// Where its file has it.
+core::GridGeometry statedGrid(const scene::ImagePart& image)
+{
+  return image.provenance.axes.inverse().applied(image.geometry);
+}
+
+// Of the image, as it is or as its file states it.
+bool hasGridOf(const scene::ImagePart& image, const core::GridGeometry& grid)
+{
+  return core::sameGrid(grid, image.geometry) ||
+         (!image.provenance.axes.isIdentity() && core::sameGrid(grid, statedGrid(image)));
+}
+
+std::vector<std::string> mrOfGrid(const scene::Case& value, const core::GridGeometry& grid)
+{
+  std::vector<std::string> names;
+  for (const scene::ImagePart& mr : value.mr)
+    if (hasGridOf(mr, grid))
+      names.push_back(mr.name);
+  return names;
+}
+
+// `isPrimary`: of a case. `assumeRas`, `axes`: as CaseSources.
 ReadImage readImage(const fs::path& path, const std::string& selector,
                     const imaging::ReadOptions& options, bool isPrimary,
                     const std::optional<bool>& assumeRas, const std::optional<double>& unit,
-                    const core::Progress& progress)
+                    const core::AxesCorrection& axes, const core::Progress& progress)
 {
   ReadImage read;
   scene::ImagePart& part = read.part;
@@ -555,6 +580,7 @@ ReadImage readImage(const fs::path& path, const std::string& selector,
   const auto image = part.volume.get();
   part.geometry = image->geometry();
   part.range = image->range();
+  correctAxes(part, axes);
   const auto& n = part.geometry.dims();
   const auto& h = part.geometry.spacing();
   core::log::info("import: image of " + std::to_string(n[0]) + " x " + std::to_string(n[1]) +
@@ -762,8 +788,16 @@ void placeOn(scene::Case& value, const scene::ImagePart& mr)
 {
   for (scene::LabelPart& part : value.labels)
   {
-    if (part.drawnOn || !core::sameGrid(part.labels.get()->voxels->geometry(), mr.geometry))
+    if (part.drawnOn || !hasGridOf(mr, part.labels.get()->voxels->geometry()))
       continue;
+    if (!core::sameGrid(part.labels.get()->voxels->geometry(), mr.geometry))
+    {
+      part.labels =
+          std::make_shared<const volume::LabelMap>(volume::onGrid(*part.labels.get(), mr.geometry));
+      part.object.clear();
+      part.provenance.axes = mr.provenance.axes;
+      part.notes.push_back(followedNote(mr));
+    }
     part.drawnOn = mr.name;
     part.notes.push_back("has the grid of the MR '" + mr.name +
                          "', which was added later: it was taken to be drawn on that MR, and lies "
@@ -811,9 +845,9 @@ void addMr(scene::Case& value, const PartSource& source, const scene::IdentitySa
   checkNewName(value, source.path, name, wanted);
   requireSide(source.path, source.assumeRas, "--mr-frame");
   requireUnit(source.path, source.unit, "--mr-unit");
-  ReadImage read = readImage(source.path, source.series,
-                             optionsOf(source.repair, source.roi, source.undeclaredBits), false,
-                             source.assumeRas, source.unit, progress);
+  ReadImage read = readImage(
+      source.path, source.series, optionsOf(source.repair, source.roi, source.undeclaredBits),
+      false, source.assumeRas, source.unit, source.axes.value_or(core::AxesCorrection()), progress);
   scene::ImagePart& part = read.part;
   if (!read.otherQuantity.why.empty() && !read.otherQuantity.isUnspecified)
     part.notes.push_back(read.otherQuantity.why);
@@ -860,9 +894,9 @@ std::optional<std::string> drawnOn(const scene::Case& value, const PartSource& s
 {
   if (!source.drawnOn.empty())
     return drawnOnNamed(value, source);
-  if (core::sameGrid(grid, value.ct.geometry))
+  if (hasGridOf(value.ct, grid))
     return std::string();
-  const auto names = scene::mrWithGrid(value, grid);
+  const auto names = mrOfGrid(value, grid);
   if (names.size() > 1)
     throw core::InvalidParameter(source.path.string() +
                                  ": several MR images have its grid; say on "
@@ -1021,11 +1055,19 @@ std::vector<std::string> noteOutside(const scene::Case& value, scene::LabelPart&
 
 // A DICOM segmentation states the frame of reference in which it was drawn: that of the CT, or of
 // an MR. Of a stored case only salted hashes are known. What cannot be compared is noted, unless
-// the grid shows it. Returns LabelProvenance::isFrameAssumed.
-bool settleFrame(const scene::Case& value, PartSource& source, const std::string& frameUid,
-                 const core::GridGeometry* grid, const scene::IdentitySalt& salted,
-                 std::vector<std::string>& notes)
+// the grid shows it.
+struct SettledFrame
 {
+  bool isAssumed = false;  ///< LabelProvenance::isFrameAssumed
+  bool isStated = false;   ///< it is that which the file of the image states
+  bool isExported = false; ///< it is that of files exported from the case
+};
+SettledFrame settleFrame(const scene::Case& value, PartSource& source, const std::string& frameUid,
+                         const core::GridGeometry* grid, const scene::IdentitySalt& salted,
+                         std::vector<std::string>& notes)
+{
+  constexpr SettledFrame kStated{false, true, false};
+  constexpr SettledFrame kExported{false, false, true};
   const std::string frame = withoutIdentity(frameUid);
   const auto isExported = [&](const std::string& mr)
   { return frame == withoutIdentity(exportedFrame(value, mr)); };
@@ -1037,34 +1079,35 @@ bool settleFrame(const scene::Case& value, PartSource& source, const std::string
   {
     const bool isCt = source.drawnOn == "ct";
     const scene::ImagePart* image = isCt ? &value.ct : scene::findMr(value, source.drawnOn);
-    return image && !frame.empty() && isKnown(*image) && !isOf(*image) &&
-           !isExported(isCt ? "" : image->name);
+    if (image && isExported(isCt ? "" : image->name))
+      return kExported;
+    const bool isOther = image && !frame.empty() && isKnown(*image) && !isOf(*image);
+    return {isOther, !isOther, false};
   }
   const auto noteUnknown = [&](const std::string& why)
   {
-    const bool isShown = grid && (core::sameGrid(*grid, value.ct.geometry) ||
-                                  !scene::mrWithGrid(value, *grid).empty());
+    const bool isShown = grid && (hasGridOf(value.ct, *grid) || !mrOfGrid(value, *grid).empty());
     if (!isShown)
       notes.push_back(std::string("its frame of reference could not be compared with the ") +
                       primaryName(value) + "'s, as " + why +
                       "; look whether it lies where it belongs");
-    return !isShown;
+    return SettledFrame{!isShown, false, false};
   };
   if (frame.empty())
     return noteUnknown("it states none");
   if (isExported(""))
   {
     source.drawnOn = "ct";
-    return false;
+    return kExported;
   }
   for (const scene::ImagePart& mr : value.mr)
     if (isExported(mr.name))
     {
       source.drawnOn = mr.name;
-      return false;
+      return kExported;
     }
   if (isKnown(value.ct) && isOf(value.ct))
-    return false;
+    return kStated;
   // The MRs of one session share a frame of reference, and each may be registered by itself.
   std::vector<std::string> ofFrame;
   for (const scene::ImagePart& mr : value.mr)
@@ -1074,7 +1117,7 @@ bool settleFrame(const scene::Case& value, PartSource& source, const std::string
   {
     std::vector<std::string> ofGrid;
     for (const std::string& name : ofFrame)
-      if (core::sameGrid(*grid, scene::findMr(value, name)->geometry))
+      if (hasGridOf(*scene::findMr(value, name), *grid))
         ofGrid.push_back(name);
     if (!ofGrid.empty())
       ofFrame = std::move(ofGrid);
@@ -1087,7 +1130,7 @@ bool settleFrame(const scene::Case& value, PartSource& source, const std::string
   if (!ofFrame.empty())
   {
     source.drawnOn = ofFrame.front();
-    return false;
+    return kStated;
   }
   const std::string image = primaryName(value);
   if (!isKnown(value.ct))
@@ -1098,19 +1141,36 @@ bool settleFrame(const scene::Case& value, PartSource& source, const std::string
 // An RT structure set becomes voxels of the image on which it was drawn.
 imaging::LoadedLabels loadStructureSet(const scene::Case& value, PartSource& source,
                                        const scene::IdentitySalt& salted,
-                                       const core::Progress& progress, bool& isFrameAssumed)
+                                       const core::Progress& progress,
+                                       scene::LabelProvenance& provenance)
 {
   const imaging::StructureSet set = imaging::readStructureSet(source.path, progress.part(0.0, 0.3));
   isOfOtherPatient(value, source, set.patient, salted); // before it is computed
   std::vector<std::string> notes;
-  isFrameAssumed = settleFrame(value, source, set.frameOfReferenceUid, nullptr, salted, notes);
+  const bool isNamed = !source.drawnOn.empty();
+  const SettledFrame frame =
+      settleFrame(value, source, set.frameOfReferenceUid, nullptr, salted, notes);
+  provenance.isFrameAssumed = frame.isAssumed;
   const scene::ImagePart* mr = nullptr;
   if (!source.drawnOn.empty() && source.drawnOn != "ct")
     mr = scene::findMr(value, drawnOnNamed(value, source));
   if (source.drawnOn.empty())
     source.drawnOn = "ct"; // not an MR of the same grid
-  const core::GridGeometry& grid = mr ? mr->geometry : value.ct.geometry;
-  imaging::LoadedLabels loaded = imaging::labelsOf(set, grid, source.path, progress.part(0.3, 1.0));
+  const scene::ImagePart& image = mr ? *mr : value.ct;
+  const core::AxesCorrection& ofImage = image.provenance.axes;
+  if (source.axes)
+    provenance.axes = *source.axes;
+  else if (!ofImage.isIdentity() && !frame.isExported)
+  {
+    if (!isNamed && !frame.isStated)
+      throw FrameUnclear(source.path, image.name, ofImage, "--labels-axes");
+    provenance.axes = ofImage;
+    notes.push_back(followedNote(image));
+  }
+  imaging::LoadedLabels loaded = imaging::labelsOf(
+      set, provenance.axes.inverse().applied(image.geometry), source.path, progress.part(0.3, 1.0));
+  for (volume::LabelMap& map : loaded.maps)
+    map = volume::onGrid(map, image.geometry);
   loaded.notes.insert(loaded.notes.begin(), notes.begin(), notes.end());
   return loaded;
 }
@@ -1255,6 +1315,32 @@ void noteManyValues(const fs::path& path, const imaging::LoadedLabels& loaded,
                     "them and add it as an MR");
 }
 
+// Moves the maps that were drawn on an image in the axes that its file states to where they are by
+// the image's correction, which is returned if there is such a map. `isStated`: the image is known
+// otherwise than by the grid.
+core::AxesCorrection follow(const scene::Case& value, const PartSource& source, bool isStated,
+                            imaging::LoadedLabels& loaded)
+{
+  core::AxesCorrection followed;
+  for (volume::LabelMap& map : loaded.maps)
+  {
+    const core::GridGeometry& grid = map.voxels->geometry();
+    const std::string on = drawnOn(value, source, grid).value_or("");
+    const scene::ImagePart* mr = on.empty() ? nullptr : scene::findMr(value, on);
+    const scene::ImagePart& image = mr ? *mr : value.ct;
+    const core::AxesCorrection& axes = image.provenance.axes;
+    if (axes.isIdentity() || core::sameGrid(grid, image.geometry))
+      continue;
+    if (!isStated && !hasGridOf(image, grid))
+      throw FrameUnclear(source.path, image.name, axes, "--labels-axes");
+    map = volume::onGrid(map, axes.applied(grid, image.geometry.center()));
+    if (followed.isIdentity())
+      loaded.notes.push_back(followedNote(image));
+    followed = axes;
+  }
+  return followed;
+}
+
 void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
                const core::Progress& progress, std::vector<StructureReport>* report)
 {
@@ -1263,29 +1349,43 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
   imaging::LoadedLabels loaded;
   scene::LabelProvenance provenance;
   if (imaging::isStructureSet(source.path))
-    loaded = loadStructureSet(value, source, salted, progress, provenance.isFrameAssumed);
+    loaded = loadStructureSet(value, source, salted, progress, provenance);
   else
   {
+    const bool isNamed = !source.drawnOn.empty();
     imaging::LabelNaming naming{parts.labelNames, parts.labels.size() == 1};
     if (!source.labelNames.empty())
       naming = {source.labelNames, true};
-    const auto gridOf = [](const scene::ImagePart& image)
-    { return imaging::ImageGrid(image.geometry, image.provenance.assumedRas.has_value()); };
-    std::vector<imaging::ImageGrid> images{gridOf(value.ct)};
-    for (const scene::ImagePart& mr : value.mr)
-      images.push_back(gridOf(mr));
+    std::vector<imaging::ImageGrid> images;
+    const auto addGrids = [&images](const scene::ImagePart& image)
+    {
+      images.emplace_back(image.geometry, image.provenance.assumedRas.has_value());
+      if (!image.provenance.axes.isIdentity())
+        images.emplace_back(statedGrid(image), image.provenance.assumedRas.has_value());
+    };
+    addGrids(value.ct);
+    std::for_each(value.mr.begin(), value.mr.end(), addGrids);
     loaded = imaging::loadLabels(source.path, progress, naming, images, source.assumeRas, 0,
                                  source.unit);
     if (!loaded.unitDoubt.likely.empty())
       throw ImageUnitUnclear(source.path, loaded.unitDoubt, "--labels-unit");
     if (loaded.isSideOpen)
       throw ImageSideUnclear(source.path, "--labels-frame");
+    for (volume::LabelMap& map : loaded.maps)
+      if (source.axes && !source.axes->isIdentity())
+        map = volume::onGrid(map, source.axes->applied(map.voxels->geometry()));
+    SettledFrame frame;
     if (imaging::isDicomSegmentation(source.path))
-      provenance.isFrameAssumed =
-          settleFrame(value, source, loaded.frameOfReferenceUid,
-                      &loaded.maps.front().voxels->geometry(), salted, loaded.notes);
+      frame = settleFrame(value, source, loaded.frameOfReferenceUid,
+                          &loaded.maps.front().voxels->geometry(), salted, loaded.notes);
+    provenance.isFrameAssumed = frame.isAssumed;
     provenance.assumedRas = loaded.assumedRas;
+    provenance.axes = source.axes.value_or(core::AxesCorrection());
+    if (!source.axes && !frame.isExported)
+      provenance.axes = follow(value, source, isNamed || frame.isStated, loaded);
   }
+  if (source.axes && !source.axes->isIdentity())
+    loaded.notes.push_back(correctedAxesText(*source.axes));
   std::vector<std::string> notes = std::move(loaded.notes);
   noteLostSalt(value, patientHash(loaded.patient), salted, notes);
   if (isOfOtherPatient(value, source, loaded.patient, salted))
@@ -1603,6 +1703,18 @@ void addObjects(scene::Case& value, const PartSource& source, const scene::MeshP
                   std::to_string(count) + " objects");
 }
 
+// The image before a correction of its axes.
+scene::ImagePart asStated(scene::ImagePart image, const core::AxesCorrection& axes)
+{
+  if (axes.isIdentity())
+    return image;
+  image.geometry = axes.inverse().applied(image.geometry);
+  image.volume =
+      core::Lazy<volume::IntensityVolume>([corrected = image.volume, grid = image.geometry]
+                                          { return volume::onGrid(corrected.get(), grid); });
+  return image;
+}
+
 void addMesh(scene::Case& value, const PartSource& source, const scene::IdentitySalt& salted,
              const core::Progress& progress)
 {
@@ -1619,9 +1731,19 @@ void addMesh(scene::Case& value, const PartSource& source, const scene::Identity
   const MeshImage image{mr ? mr->geometry : value.ct.geometry,
                         mr ? "the MR on which it was drawn"
                            : std::string("the ") + primaryName(value)};
-  if (std::string note = judgeMeshSpace(source.path, loaded, mr ? *mr : value.ct, image.name);
+  const scene::ImagePart& drawn = mr ? *mr : value.ct;
+  const core::AxesCorrection& ofImage = drawn.provenance.axes;
+  if (!source.axes && !ofImage.isIdentity() && source.drawnOn.empty())
+    throw FrameUnclear(source.path, drawn.name, ofImage, "--mesh-axes");
+  const core::AxesCorrection axes = source.axes.value_or(ofImage);
+  if (std::string note = judgeMeshSpace(source.path, loaded, asStated(drawn, axes), image.name);
       !note.empty())
     part.notes.push_back(std::move(note));
+  if (!axes.isIdentity())
+  {
+    correctAxes(loaded.mesh, axes, drawn.geometry.center());
+    part.notes.push_back(source.axes ? correctedAxesText(axes) : followedNote(drawn));
+  }
   requireNear(source.path, loaded.mesh, image.grid, image.name);
   part.notes.insert(part.notes.end(), loaded.notes.begin(), loaded.notes.end());
   core::log::info("import: mesh of " + std::to_string(loaded.mesh.triangles.size()) + " triangles");
@@ -1779,6 +1901,16 @@ FrameUnclear::FrameUnclear(const fs::path& file, const std::string& image)
 {
 }
 
+FrameUnclear::FrameUnclear(const fs::path& file, const std::string& image,
+                           const core::AxesCorrection& axes, const std::string& option)
+  : core::InvalidParameter(file.string() + ": does not tell whether it lies in the space of '" +
+                           image + "' as its file states it, or with its axes corrected (" +
+                           axes.letters() + "); say FILE@" + image +
+                           " if it follows the correction, " + option +
+                           " LPS if it lies where it belongs already")
+{
+}
+
 LabelsUnrepaired::LabelsUnrepaired(const fs::path& file, double mm)
   : core::InvalidParameter(
         file.string() +
@@ -1871,7 +2003,7 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   ReadImage read = readImage(sources.ct, sources.series,
                              optionsOf(sources.repair, sources.roi, sources.undeclaredBits),
                              sources.modality != scene::Modality::Mr, sources.assumeRas,
-                             sources.unit, progress.part(0.0, 0.7));
+                             sources.unit, sources.axes, progress.part(0.0, 0.7));
   value.ct = std::move(read.part);
   value.ct.name = "ct";
   judgeContents(sources.ct, value.ct, sources.roi.has_value());

@@ -399,6 +399,8 @@ std::string guessedNote(const scene::ImagePart& part)
            " interpolated between neighbours: nothing was measured there";
   if (const auto& assumed = part.provenance.assumedRas)
     text += (text.empty() ? "" : "; ") + assumedSideText(*assumed);
+  if (!part.provenance.axes.isIdentity())
+    text += (text.empty() ? "" : "; ") + correctedAxesText(part.provenance.axes);
   return text.empty() ? text : "in '" + part.name + "', " + text;
 }
 

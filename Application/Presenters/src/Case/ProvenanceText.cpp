@@ -52,6 +52,32 @@ std::string assumedSideText(bool assumedRas)
          " axes, as the file does not say which side of the patient is left";
 }
 
+const char* directionText(char letter)
+{
+  switch (letter)
+  {
+  case 'L':
+    return "left";
+  case 'R':
+    return "right";
+  case 'P':
+    return "back";
+  case 'A':
+    return "front";
+  case 'S':
+    return "head";
+  default:
+    return "feet";
+  }
+}
+
+std::string correctedAxesText(const core::AxesCorrection& axes)
+{
+  return "axes of the file corrected (" + axes.letters() +
+         "): what it calls left, back and head is the patient's " + directionText(axes.letter(0)) +
+         ", " + directionText(axes.letter(1)) + " and " + directionText(axes.letter(2));
+}
+
 std::string interpolatedText(const scene::ImagePart& image)
 {
   constexpr std::size_t kNamed = 4; // ranges
@@ -97,6 +123,8 @@ std::vector<std::string> provenanceTexts(const scene::ImagePart& image)
   addMasks(provenance, texts);
   if (provenance.assumedRas)
     texts.push_back(assumedSideText(*provenance.assumedRas));
+  if (!provenance.axes.isIdentity())
+    texts.push_back(correctedAxesText(provenance.axes));
   if (provenance.pixels.isLossy)
     texts.push_back(
         "compressed with loss" +
@@ -115,6 +143,8 @@ std::vector<std::string> provenanceTexts(const scene::LabelPart& part)
   std::vector<std::string> texts;
   if (part.provenance.assumedRas)
     texts.push_back(assumedSideText(*part.provenance.assumedRas));
+  if (!part.provenance.axes.isIdentity())
+    texts.push_back(correctedAxesText(part.provenance.axes));
   if (part.provenance.isFrameAssumed)
     texts.push_back("not known to be in the frame of reference of the image on which it is shown");
   return texts;
@@ -123,17 +153,18 @@ std::vector<std::string> provenanceTexts(const scene::LabelPart& part)
 std::vector<std::string> assumedSideTexts(const scene::Case& value)
 {
   std::vector<std::string> lines;
-  const auto add = [&lines](const std::string& name, const std::optional<bool>& assumedRas)
+  const auto add = [&lines](const std::string& name, const auto& provenance)
   {
-    if (assumedRas)
-      lines.push_back(name + ": " + assumedSideText(*assumedRas));
+    if (provenance.assumedRas)
+      lines.push_back(name + ": " + assumedSideText(*provenance.assumedRas));
+    if (!provenance.axes.isIdentity())
+      lines.push_back(name + ": " + correctedAxesText(provenance.axes));
   };
-  add(primaryName(value), value.ct.provenance.assumedRas);
+  add(primaryName(value), value.ct.provenance);
   for (const scene::ImagePart& mr : value.mr)
-    add(mr.name, mr.provenance.assumedRas);
+    add(mr.name, mr.provenance);
   for (const scene::LabelPart& part : value.labels)
-    add(part.structures.size() == 1 ? part.structures.front().name : "structures",
-        part.provenance.assumedRas);
+    add(part.structures.size() == 1 ? part.structures.front().name : "structures", part.provenance);
   return lines;
 }
 
@@ -149,6 +180,8 @@ std::string derivationText(const scene::ImagePart& image, bool onCt)
     addMasks(image.provenance, texts);
     if (image.provenance.assumedRas)
       texts.push_back(assumedSideText(*image.provenance.assumedRas));
+    if (!image.provenance.axes.isIdentity())
+      texts.push_back(correctedAxesText(image.provenance.axes));
     for (std::size_t n = 0; n < texts.size(); ++n)
       text += (n == 0 ? "" : "; ") + texts[n];
     return texts.empty() ? std::string() : text;

@@ -98,7 +98,10 @@ Task taskOf(const scene::Case& value, const RegistrationRequest& request)
     scene::checkThrough(value, request.mr, request.onto);
     task.fixedFromCt = task.fixed->mrFromCt;
   }
-  task.commonFrame = !task.mr->frameOfReference.empty() &&
+  const auto liesAsStated = [](const scene::ImagePart& image)
+  { return image.provenance.axes.isIdentity(); };
+  task.commonFrame = liesAsStated(*task.mr) && liesAsStated(*task.fixed) &&
+                     !task.mr->frameOfReference.empty() &&
                      task.mr->isFrameSalted == task.fixed->isFrameSalted &&
                      task.mr->frameOfReference == task.fixed->frameOfReference;
   task.options.seed = request.seed;

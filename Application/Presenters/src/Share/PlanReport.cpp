@@ -1250,6 +1250,8 @@ private:
       texts.push_back(say("cropped to a region"));
     if (provenance.assumedRas)
       texts.push_back(sidesText(*provenance.assumedRas));
+    if (!provenance.axes.isIdentity())
+      texts.push_back(say(correctedAxesText(provenance.axes)));
     if (provenance.pixels.isLossy)
       texts.push_back(say("compressed with loss") +
                       (provenance.pixels.lossyRatio
@@ -1274,6 +1276,8 @@ private:
     std::vector<std::string> texts;
     if (part.provenance.assumedRas)
       texts.push_back(sidesText(*part.provenance.assumedRas));
+    if (!part.provenance.axes.isIdentity())
+      texts.push_back(say(correctedAxesText(part.provenance.axes)));
     if (part.provenance.isFrameAssumed)
       texts.push_back(say("not known to be in the frame of reference of the image on which it is "
                           "shown"));

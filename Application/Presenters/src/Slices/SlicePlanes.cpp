@@ -200,7 +200,8 @@ ObliquePlane planeWithNormal(const Eigen::Vector3d& normal)
 bool statesPlace(const scene::ImagePart& image)
 {
   const Eigen::Vector3d& origin = image.geometry.origin();
-  return (origin.x() != 0.0 || origin.y() != 0.0) && !image.provenance.assumedRas;
+  return (origin.x() != 0.0 || origin.y() != 0.0) && !image.provenance.assumedRas &&
+         image.provenance.axes.isIdentity();
 }
 
 scene::Side earOf(const scene::Case& value)

@@ -159,6 +159,8 @@ def manifest(version):
         case["view"]["branches"]["main"] = {
             "camera": CAMERA, "clipping": {"crop": {"lower": [0, 1, 2], "upper": [5, 6, 6]}},
             "slices": {"crosshair_mm": [11, -19, 32], "window_width": 400, "window_level": 40}}
+        case["ct"]["provenance"] = {"corrected_axes": "RPS"}
+        case["labels"][0]["provenance"] = {"corrected_axes": "RPS"}
     return case
 
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "petrous/Core/AxesCorrection.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
@@ -50,6 +51,9 @@ struct PartSource
   bool numbersTaken = false;
   /// Other names than the part, or its structures, would have.
   std::map<std::string, std::string> newNames = {};
+  /// Of an MR, as CaseSources. Of structures and meshes: theirs, in place of their image's (of
+  /// structures in voxels about the centre of their own grid); "LPS" leaves them where they are.
+  std::optional<core::AxesCorrection> axes = std::nullopt;
   std::string description = {}; ///< MR: SourceContent's
   /// Meshes: of a file that holds several objects each becomes a part of its own, named as
   /// structures of a file are: "NAME object", without words that may be a patient's name.
@@ -136,11 +140,15 @@ std::string unitName(double unit);
 std::string lengthText(double mm);
 
 /// Structures that state another frame of reference than each image of the case: the user has to
-/// say on which image they were drawn.
+/// say on which image they were drawn. Likewise of structures and meshes that do not tell whether
+/// they lie in an image's space as its file states it or with its axes corrected.
 struct FrameUnclear : core::InvalidParameter
 {
   /// `image`: primaryName.
   FrameUnclear(const std::filesystem::path& file, const std::string& image);
+  /// `image`: the part's name. `option`: of the command, that says that they are not moved.
+  FrameUnclear(const std::filesystem::path& file, const std::string& image,
+               const core::AxesCorrection& axes, const std::string& option);
 };
 
 /// Structures on another lattice than the CT, which was repaired: a program that takes the slices
@@ -228,6 +236,8 @@ struct CaseSources
   std::optional<bool> assumeRas = std::nullopt;
   /// Of its file of voxels, mm; nullopt: as it states, and if that is in doubt, it is refused.
   std::optional<double> unit = std::nullopt;
+  /// Of the axes that its file states, which are wrong; after all of the above.
+  core::AxesCorrection axes = {};
   PartSources parts;
 };
 
@@ -235,8 +245,11 @@ struct CaseSources
 /// whose image is unspecified, and whose grid is that of one MR and not the CT's, are taken as
 /// drawn on that MR; so is a DICOM SEG in the frame of reference of an MR and not the CT's, and one
 /// in neither, nor in that of files exported from the case (exportedFrame), is refused unless
-/// "FILE@ct" says otherwise. Throws the imaging module's errors, ImageSideUnclear,
-/// InvalidParameter (also if several MR images have that grid), OtherPatient, CancelledError.
+/// "FILE@ct" says otherwise. What was drawn on an image in the axes that its file states follows
+/// their correction: labels on that grid, or in the file's frame of reference, and what the user
+/// says was drawn on it; what does not tell is FrameUnclear. Throws the imaging module's errors,
+/// ImageSideUnclear, InvalidParameter (also if several MR images have that grid), OtherPatient,
+/// CancelledError.
 scene::Case buildCase(const std::string& name, const CaseSources& sources,
                       const core::Progress& progress,
                       std::vector<StructureReport>* report = nullptr);

@@ -31,8 +31,15 @@ std::vector<std::string> provenanceTexts(const scene::LabelPart& part);
 /// "left and right taken as RAS axes, .."
 std::string assumedSideText(bool assumedRas);
 
-/// The images and structures whose left and right are assumed, a line each: "CT: left and right
-/// taken as RAS axes, ..".
+/// "axes of the file corrected (RPS): what it calls left, back and head is the patient's right,
+/// back and head"
+std::string correctedAxesText(const core::AxesCorrection& axes);
+
+/// "right", "back", .. of a letter of an AxesCorrection.
+const char* directionText(char letter);
+
+/// The images and structures whose left and right are assumed, or whose axes were corrected, a line
+/// each: "CT: left and right taken as RAS axes, ..".
 std::vector<std::string> assumedSideTexts(const scene::Case& value);
 
 /// Derivation Description (0008,2111) of a series that is written of an image; empty: nothing was

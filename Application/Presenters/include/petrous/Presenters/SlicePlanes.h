@@ -86,8 +86,9 @@ struct ObliquePlane
 };
 ObliquePlane planeWithNormal(const Eigen::Vector3d& normal);
 
-/// Whether an image states where in the patient it lies: not if its file left a side open, or its
-/// first voxel is in the middle of the scanner (x and y 0), where exports without a header put it.
+/// Whether an image states where in the patient it lies: not if its file left a side open, if its
+/// axes were corrected, or if its first voxel is in the middle of the scanner (x and y 0), where
+/// exports without a header put it.
 bool statesPlace(const scene::ImagePart& image);
 
 /// The side that the case is described with; if none or both, left where the middle of its CT is

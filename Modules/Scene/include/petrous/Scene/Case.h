@@ -71,6 +71,7 @@ struct LabelProvenance
   /// Whether the file's frame of reference is not known to be that of the image whose space they
   /// are taken to lie in: it could not be compared, or the user overruled it (FILE@ct).
   bool isFrameAssumed = false;
+  core::AxesCorrection axes = {}; ///< as volume::ImageProvenance; with the image's, or their own
 };
 
 /// A label map with the structures that the case uses.

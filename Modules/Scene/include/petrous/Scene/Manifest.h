@@ -24,7 +24,7 @@ struct ManifestError : core::Error
 /// description of the case; 6: attachments, and of the view more than the cameras of branches,
 /// crosshair and grey window; 7: measurements, saved views, planes that were turned, slabs; 8:
 /// bookmarks and stills of videos; 9: an instrument; 10: of the views of branches more than the
-/// camera. Older formats can be opened; a case is written
+/// camera, and axes of a file that were corrected. Older formats can be opened; a case is written
 /// in the lowest format from 3 that holds it, which older programs open.
 constexpr int kManifestFormat = 10;
 

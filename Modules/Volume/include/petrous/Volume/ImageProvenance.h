@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "petrous/Core/AxesCorrection.h"
+
 namespace petrous::volume
 {
 
@@ -47,6 +49,8 @@ struct ImageProvenance
   /// Whether the file leaves open which side of the patient is left, and RAS (true) or LPS (false)
   /// axes were taken; nullopt: it states it.
   std::optional<bool> assumedRas;
+  /// Of the axes that the file states, as asked; the grid has it. Its inverse gives the file's.
+  core::AxesCorrection axes;
   PixelFaults pixels;
   bool isFaceMasked = false;
   bool areEarsMasked = false; ///< with the face, the auricles

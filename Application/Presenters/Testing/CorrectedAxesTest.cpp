@@ -1,0 +1,413 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include "petrous/Imaging/DicomWriter.h"
+#include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/MeshFile.h"
+#include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Library/Library.h"
+#include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/CorrectedCase.h"
+#include "petrous/Presenters/ProvenanceText.h"
+#include "petrous/Presenters/SlicePlanes.h"
+
+using namespace petrous;
+using core::AxesCorrection;
+using Eigen::Vector3d;
+
+namespace
+{
+
+// By its file; its centre is -0.5, 7.5, 7.5.
+const core::GridGeometry kFileGrid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+
+/// An element of explicit VR little endian; `tag` is group and element.
+std::string elementOf(std::uint32_t tag, const char* vr, std::string value)
+{
+  const bool isSequence = std::string(vr) == "SQ";
+  if (value.size() % 2 != 0)
+    value += std::string(vr) == "UI" ? '\0' : ' ';
+  const auto number = [](std::uint32_t of, int bytes)
+  {
+    std::string text;
+    for (int n = 0; n < bytes; ++n)
+      text += static_cast<char>(of >> 8 * n & 0xFF);
+    return text;
+  };
+  const auto size = static_cast<std::uint32_t>(value.size());
+  const std::string name = number(tag >> 16, 2) + number(tag & 0xFFFF, 2);
+  if (tag == 0xFFFEE000) // an item
+    return name + number(size, 4) + value;
+  return name + vr + (isSequence ? std::string(2, '\0') + number(size, 4) : number(size, 2)) +
+         value;
+}
+
+std::string itemOf(const std::string& elements)
+{
+  return elementOf(0xFFFEE000, "", elements);
+}
+
+class CorrectedAxes : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    m_folder =
+        std::filesystem::temp_directory_path() / ("petrous-axes-" + std::to_string(::getpid()));
+    std::filesystem::create_directories(m_folder);
+    auto ct = std::make_shared<volume::Volume<std::int16_t>>(kFileGrid, std::int16_t{-1000});
+    ct->at(7, 6, 5) = 1200; // by the file at -1, 8, 8
+    imaging::writeVolume(m_folder / "ct.nrrd", *ct);
+    m_sources.ct = m_folder / "ct.nrrd";
+    m_sources.axes = AxesCorrection::parse("RPS");
+  }
+  void TearDown() override { std::filesystem::remove_all(m_folder); }
+
+  /// One voxel of structure, at 4, 4, 4.
+  presenters::PartSource labelsOn(const core::GridGeometry& grid, const std::string& file,
+                                  const std::string& drawnOn = {}) const
+  {
+    auto voxels = volume::makeZeroVolume<std::uint16_t>(grid);
+    voxels->at(4, 4, 4) = 1;
+    imaging::writeLabelFile(m_folder / file, volume::makeLabelMap(voxels, {}));
+    return {"incus", m_folder / file, drawnOn};
+  }
+
+  static Vector3d placeOf(const scene::LabelPart& part)
+  {
+    return part.labels.get()->voxels->geometry().patientFromVoxel({4, 4, 4});
+  }
+
+  /// A DICOM CT of 8 x 8 x 8 mm from the origin, its frame of reference 1.2.3.
+  void writeDicomCt()
+  {
+    const core::GridGeometry grid({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero());
+    auto scan = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{40});
+    scan->at(2, 2, 1) = 1200;
+    imaging::SeriesDescription series;
+    series.modality = imaging::SeriesDescription::Modality::Ct;
+    series.studyUid = "1.2.4";
+    series.seriesUid = "1.2.5";
+    series.frameOfReferenceUid = "1.2.3";
+    imaging::writeDicomSeries(
+        m_folder / "ct",
+        volume::IntensityVolume(std::shared_ptr<const volume::Volume<std::int16_t>>(scan)), series);
+    m_sources.ct = m_folder / "ct";
+  }
+
+  /// One voxel at 1, 2, 1 of a part of that CT: of a grid of its own.
+  presenters::PartSource segmentationIn(const std::string& frame, const std::string& file,
+                                        const std::string& drawnOn = {}) const
+  {
+    auto voxels = volume::makeZeroVolume<std::uint16_t>(
+        core::GridGeometry({4, 4, 4}, Vector3d::Ones(), Vector3d(1, 1, 1)));
+    voxels->at(1, 2, 1) = 1;
+    imaging::SegmentationDescription description;
+    description.studyUid = "1.2.4";
+    description.seriesUid = "1.2.6";
+    description.frameOfReferenceUid = frame;
+    imaging::SegmentationDescription::Segment segment;
+    segment.index = 1;
+    segment.label = "incus";
+    description.segments = {segment};
+    imaging::writeDicomSegmentation(m_folder / file, {volume::makeLabelMap(voxels, {{"incus", 1}})},
+                                    description);
+    return {"", m_folder / file, drawnOn};
+  }
+
+  /// A square of 2 mm in the slice of z = 2, from 0.5 to 2.5 mm in x and y.
+  presenters::PartSource structureSetIn(const std::string& frame, const std::string& file,
+                                        const std::string& drawnOn = {}) const
+  {
+    std::string bytes(128, '\0');
+    bytes +=
+        "DICM" + elementOf(0x00020010, "UI", "1.2.840.10008.1.2.1") +
+        elementOf(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.481.3") +
+        elementOf(0x00080018, "UI", "1.2.7") + elementOf(0x00080060, "CS", "RTSTRUCT") +
+        elementOf(0x0020000D, "UI", "1.2.4") + elementOf(0x0020000E, "UI", "1.2.8") +
+        elementOf(0x30060020, "SQ",
+                  itemOf(elementOf(0x30060022, "IS", "1") + elementOf(0x30060024, "UI", frame) +
+                         elementOf(0x30060026, "LO", "incus"))) +
+        elementOf(0x30060039, "SQ",
+                  itemOf(elementOf(0x30060040, "SQ",
+                                   itemOf(elementOf(0x30060042, "CS", "CLOSED_PLANAR") +
+                                          elementOf(0x30060046, "IS", "4") +
+                                          elementOf(0x30060050, "DS",
+                                                    "0.5\\0.5\\2\\2.5\\0.5\\2\\2.5\\2.5\\2\\0.5\\2."
+                                                    "5\\2"))) +
+                         elementOf(0x30060084, "IS", "1")));
+    std::ofstream(m_folder / file, std::ios::binary) << bytes;
+    return {"", m_folder / file, drawnOn};
+  }
+
+  /// The centre of all voxels that are some structure.
+  static Vector3d middleOf(const scene::LabelPart& part)
+  {
+    const auto labels = part.labels.get();
+    const auto& voxels = *labels->voxels;
+    const core::Index3 dims = voxels.geometry().dims();
+    Vector3d sum = Vector3d::Zero();
+    int count = 0;
+    for (int k = 0; k < dims[2]; ++k)
+      for (int j = 0; j < dims[1]; ++j)
+        for (int i = 0; i < dims[0]; ++i)
+          if (voxels.at(i, j, k) != 0)
+          {
+            sum += voxels.geometry().patientFromVoxel(Vector3d(i, j, k));
+            ++count;
+          }
+    return count == 0 ? Vector3d(Vector3d::Constant(std::nan(""))) : Vector3d(sum / count);
+  }
+
+  static bool isNoted(const std::vector<std::string>& notes, const std::string& part)
+  {
+    return std::any_of(notes.begin(), notes.end(),
+                       [&part](const std::string& note)
+                       { return note.find(part) != std::string::npos; });
+  }
+
+  std::filesystem::path m_folder;
+  presenters::CaseSources m_sources;
+};
+
+} // namespace
+
+TEST_F(CorrectedAxes, OfACtMirrorItAboutItsCentre)
+{
+  const scene::Case value = presenters::buildCase("ear", m_sources, {});
+  const core::GridGeometry& grid = value.ct.geometry;
+  EXPECT_LT((grid.patientFromVoxel({7, 6, 5}) - Vector3d(0, 8, 8)).norm(), 1e-9);
+  EXPECT_LT((grid.center() - kFileGrid.center()).norm(), 1e-9);
+  EXPECT_LT(grid.direction().determinant(), 0.0);
+  EXPECT_EQ(value.ct.volume.get()->at(7, 6, 5), 1200.0);
+  EXPECT_TRUE(core::sameGrid(value.ct.volume.get()->geometry(), grid));
+  EXPECT_EQ(value.ct.provenance.axes.letters(), "RPS");
+  const std::string said = "what it calls left, back and head is the patient's right, back and "
+                           "head";
+  EXPECT_TRUE(isNoted(value.ct.notes, said));
+  EXPECT_TRUE(isNoted(presenters::provenanceTexts(value.ct), said));
+  EXPECT_TRUE(isNoted(presenters::assumedSideTexts(value), "CT: axes of the file corrected (RPS)"));
+  EXPECT_NE(presenters::derivationText(value.ct, false).find(said), std::string::npos);
+  EXPECT_FALSE(presenters::statesPlace(value.ct)) << "which half it is, is not known";
+  m_sources.axes = {};
+  EXPECT_TRUE(presenters::statesPlace(presenters::buildCase("ear", m_sources, {}).ct));
+  // A permutation: its left is superior, its posterior left, its superior anterior.
+  m_sources.axes = AxesCorrection::parse("SLA");
+  const scene::Case turned = presenters::buildCase("ear", m_sources, {});
+  EXPECT_LT((turned.ct.geometry.patientFromVoxel({7, 6, 5}) - Vector3d(0, 7, 7)).norm(), 1e-9);
+}
+
+TEST_F(CorrectedAxes, AreFollowedByLabelsOnTheGridOfTheFile)
+{
+  m_sources.parts.labels = {labelsOn(kFileGrid, "incus.nrrd")}; // by the file at -4, 6, 7
+  const scene::Case value = presenters::buildCase("ear", m_sources, {});
+  ASSERT_EQ(value.labels.size(), 1U);
+  EXPECT_LT((placeOf(value.labels[0]) - Vector3d(3, 6, 7)).norm(), 1e-9);
+  EXPECT_TRUE(core::sameGrid(value.labels[0].labels.get()->voxels->geometry(), value.ct.geometry));
+  EXPECT_EQ(value.labels[0].drawnOn, std::string());
+  EXPECT_EQ(value.labels[0].provenance.axes.letters(), "RPS");
+  EXPECT_NEAR(value.labels[0].structures.at(0).volume, 1.0, 1e-9);
+  EXPECT_TRUE(isNoted(value.labels[0].notes, "follows the correction of its axes (RPS)"));
+  // Those on the grid as it is, which other programs drew on an export of the case, do not.
+  scene::Case later = presenters::buildCase("ear", m_sources, {});
+  presenters::PartSources parts;
+  parts.labels = {labelsOn(later.ct.geometry, "malleus.nrrd")};
+  parts.labels[0].name = "malleus";
+  presenters::addParts(later, parts, {});
+  ASSERT_EQ(later.labels.size(), 2U);
+  EXPECT_LT((placeOf(later.labels[1]) - Vector3d(3, 6, 7)).norm(), 1e-9);
+  EXPECT_TRUE(later.labels[1].provenance.axes.isIdentity());
+}
+
+TEST_F(CorrectedAxes, AreAskedAboutForLabelsOfAnotherGrid)
+{
+  scene::Case value = presenters::buildCase("ear", m_sources, {});
+  const core::GridGeometry part({8, 8, 8}, Vector3d::Ones(), Vector3d(-6, 3, 3)); // at -2, 7, 7
+  presenters::PartSources parts;
+  parts.labels = {labelsOn(part, "incus.nrrd")};
+  const auto failures = presenters::addSoundParts(value, parts, {});
+  ASSERT_EQ(failures.size(), 1U);
+  EXPECT_TRUE(failures[0].isFrameUnclear) << failures[0].why;
+  EXPECT_NE(failures[0].why.find("--labels-axes LPS"), std::string::npos) << failures[0].why;
+  scene::Case followed = value;
+  parts.labels[0].drawnOn = "ct";
+  presenters::addParts(followed, parts, {});
+  EXPECT_LT((placeOf(followed.labels.at(0)) - Vector3d(1, 7, 7)).norm(), 1e-9);
+  EXPECT_EQ(followed.labels[0].provenance.axes.letters(), "RPS");
+  parts.labels[0].drawnOn = "";
+  parts.labels[0].axes = AxesCorrection();
+  presenters::addParts(value, parts, {});
+  EXPECT_LT((placeOf(value.labels.at(0)) - Vector3d(-2, 7, 7)).norm(), 1e-9);
+  EXPECT_TRUE(value.labels[0].provenance.axes.isIdentity());
+}
+
+// A label file with wrong axes, of a CT with right ones.
+TEST_F(CorrectedAxes, OfLabelsAloneAreTheirOwn)
+{
+  m_sources.axes = {};
+  m_sources.parts.labels = {labelsOn(AxesCorrection::parse("RPS").applied(kFileGrid), "i.nrrd")};
+  m_sources.parts.labels[0].axes = AxesCorrection::parse("RPS");
+  const scene::Case value = presenters::buildCase("ear", m_sources, {});
+  EXPECT_LT((placeOf(value.labels.at(0)) - Vector3d(-4, 6, 7)).norm(), 1e-9);
+  EXPECT_EQ(value.labels[0].drawnOn, std::string()) << "it has the CT's grid";
+  EXPECT_EQ(value.labels[0].provenance.axes.letters(), "RPS");
+}
+
+TEST_F(CorrectedAxes, OfAnMrAreFollowedByWhatWasDrawnOnIt)
+{
+  const core::GridGeometry grid({9, 9, 9}, Vector3d::Constant(1.5), Vector3d(-30, 20, 10));
+  imaging::writeVolume(m_folder / "mr.nrrd", volume::Volume<std::int16_t>(grid, std::int16_t{7}));
+  m_sources.axes = {};
+  m_sources.parts.mr = {{"t2", m_folder / "mr.nrrd"}};
+  m_sources.parts.mr[0].axes = AxesCorrection::parse("LPI");
+  auto voxels = volume::makeZeroVolume<std::uint16_t>(grid);
+  voxels->at(1, 2, 0) = 1; // by the file at -28.5, 23, 10; the centre's z is 16
+  imaging::writeLabelFile(m_folder / "tumour.nrrd", volume::makeLabelMap(voxels, {}));
+  m_sources.parts.labels = {{"tumour", m_folder / "tumour.nrrd"}};
+  const scene::Case value = presenters::buildCase("ear", m_sources, {});
+  EXPECT_EQ(value.mr.at(0).provenance.axes.letters(), "LPI");
+  EXPECT_TRUE(value.ct.provenance.axes.isIdentity());
+  EXPECT_EQ(value.labels.at(0).drawnOn, "t2");
+  EXPECT_LT((value.labels[0].labels.get()->voxels->geometry().patientFromVoxel({1, 2, 0}) -
+             Vector3d(-28.5, 23, 22))
+                .norm(),
+            1e-9);
+  // The labels were there first.
+  m_sources.parts.mr.clear();
+  scene::Case first = presenters::buildCase("ear", m_sources, {});
+  presenters::PartSources parts;
+  parts.mr = {{"t2", m_folder / "mr.nrrd"}};
+  parts.mr[0].axes = AxesCorrection::parse("LPI");
+  presenters::addParts(first, parts, {});
+  EXPECT_EQ(first.labels.at(0).drawnOn, "t2");
+  EXPECT_LT((middleOf(first.labels[0]) - Vector3d(-28.5, 23, 22)).norm(), 1e-9);
+}
+
+TEST_F(CorrectedAxes, AreFollowedInTheCtsFrameOfReference)
+{
+  writeDicomCt();                                                // its centre is 3.5, 3.5, 3.5
+  m_sources.parts.labels = {segmentationIn("1.2.3", "seg.dcm")}; // by the file at 2, 3, 2
+  scene::Case value = presenters::buildCase("ear", m_sources, {});
+  EXPECT_LT((middleOf(value.labels.at(0)) - Vector3d(5, 3, 2)).norm(), 1e-6);
+  EXPECT_EQ(value.labels[0].provenance.axes.letters(), "RPS");
+  m_sources.parts.labels.clear();
+  value = presenters::buildCase("ear", m_sources, {});
+  presenters::PartSources parts;
+  parts.labels = {segmentationIn("1.2.99", "other.dcm")};
+  auto failures = presenters::addSoundParts(value, parts, {});
+  ASSERT_EQ(failures.size(), 1U);
+  EXPECT_TRUE(failures[0].isFrameUnclear);
+  // Of an export of this case it lies where it belongs.
+  parts.labels = {segmentationIn(presenters::exportedFrame(value, ""), "exported.dcm")};
+  presenters::addParts(value, parts, {});
+  EXPECT_LT((middleOf(value.labels.at(0)) - Vector3d(2, 3, 2)).norm(), 1e-6);
+  EXPECT_TRUE(value.labels[0].provenance.axes.isIdentity());
+}
+
+TEST_F(CorrectedAxes, AreFollowedByStructureSets)
+{
+  writeDicomCt();
+  // By the file the voxels 1 and 2 along x and y, in slice 2.
+  m_sources.parts.labels = {structureSetIn("1.2.3", "set.dcm")};
+  const scene::Case value = presenters::buildCase("ear", m_sources, {});
+  ASSERT_EQ(value.labels.size(), 1U);
+  EXPECT_LT((middleOf(value.labels[0]) - Vector3d(5.5, 1.5, 2)).norm(), 1e-6);
+  EXPECT_NEAR(value.labels[0].structures.at(0).volume, 4.0, 1e-6);
+  EXPECT_EQ(value.labels[0].provenance.axes.letters(), "RPS");
+  EXPECT_TRUE(core::sameGrid(value.labels[0].labels.get()->voxels->geometry(), value.ct.geometry));
+  // Another one's frame.
+  m_sources.parts.labels = {structureSetIn("1.2.99", "other.dcm")};
+  EXPECT_THROW(presenters::buildCase("ear", m_sources, {}), presenters::FrameUnclear);
+  m_sources.parts.labels[0].drawnOn = "ct";
+  m_sources.parts.labels[0].axes = AxesCorrection();
+  EXPECT_LT(
+      (middleOf(presenters::buildCase("ear", m_sources, {}).labels.at(0)) - Vector3d(1.5, 1.5, 2))
+          .norm(),
+      1e-6);
+}
+
+TEST_F(CorrectedAxes, TurnMeshesInsideOutNever)
+{
+  core::TriangleMesh mesh;
+  mesh.vertices = {{0, 4, 5}, {1, 4, 5}, {0, 5, 5}, {0, 4, 6}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  imaging::writeMesh(m_folder / "incus.obj", mesh);
+  scene::Case value = presenters::buildCase("ear", m_sources, {});
+  presenters::PartSources parts;
+  parts.meshes = {{"incus", m_folder / "incus.obj"}};
+  const auto failures = presenters::addSoundParts(value, parts, {});
+  ASSERT_EQ(failures.size(), 1U);
+  EXPECT_TRUE(failures[0].isFrameUnclear) << failures[0].why;
+  parts.meshes[0].drawnOn = "ct";
+  presenters::addParts(value, parts, {});
+  const auto moved = value.meshes.at(0).mesh.get();
+  EXPECT_LT((moved->vertices.at(1) - Eigen::Vector3f(-2, 4, 5)).norm(), 1e-4F);
+  EXPECT_NEAR(mesh.signedVolume(), 1.0 / 6.0, 1e-6);
+  EXPECT_NEAR(moved->signedVolume(), 1.0 / 6.0, 1e-6);
+  EXPECT_TRUE(isNoted(value.meshes[0].notes, "follows the correction of its axes (RPS)"));
+  // One that lies where it belongs.
+  parts.meshes[0].name = "malleus";
+  parts.meshes[0].drawnOn = "";
+  parts.meshes[0].axes = AxesCorrection();
+  presenters::addParts(value, parts, {});
+  EXPECT_LT((value.meshes.at(1).mesh.get()->vertices.at(1) - Eigen::Vector3f(1, 4, 5)).norm(),
+            1e-4F);
+}
+
+TEST_F(CorrectedAxes, OfAnOpenCaseMakeAnotherOne)
+{
+  m_sources.axes = {};
+  m_sources.parts.labels = {labelsOn(kFileGrid, "incus.nrrd")};
+  imaging::writeVolume(
+      m_folder / "mr.nrrd",
+      volume::Volume<std::int16_t>(
+          core::GridGeometry({9, 9, 9}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{7}));
+  m_sources.parts.mr = {{"t2", m_folder / "mr.nrrd"}};
+  scene::Case value = presenters::buildCase("ear", m_sources, {});
+  value.description.side = scene::Side::Left;
+  value.description.note = "a note";
+  library::Library library(m_folder / "library");
+  library.save(value);
+  const auto left = presenters::leftBehind(value);
+  EXPECT_EQ(left.mr, std::vector<std::string>{"t2"});
+  EXPECT_TRUE(left.drawnOnMr.empty());
+  EXPECT_EQ(left.strokes, 0U);
+
+  scene::Case next =
+      presenters::correctedCase(value, AxesCorrection::parse("RPS"), "ear (axes corrected)");
+  EXPECT_EQ(value.ct.provenance.axes.letters(), "LPS") << "the given case stays";
+  EXPECT_TRUE(next.mr.empty());
+  EXPECT_EQ(next.description.side, scene::Side::Unknown) << "asked again";
+  EXPECT_EQ(next.description.note, "a note");
+  EXPECT_LT((placeOf(next.labels.at(0)) - Vector3d(3, 6, 7)).norm(), 1e-9);
+  library.save(next);
+  const scene::Case saved = library.open("ear (axes corrected)");
+  EXPECT_NE(saved.ct.object, value.ct.object) << "another CT";
+  EXPECT_NE(saved.id, value.id);
+  EXPECT_EQ(saved.ct.provenance.axes.letters(), "RPS");
+  EXPECT_LT(
+      (saved.ct.volume.get()->geometry().patientFromVoxel({7, 6, 5}) - Vector3d(0, 8, 8)).norm(),
+      1e-6)
+      << "its voxels' own file says so, too";
+  EXPECT_LT((placeOf(saved.labels.at(0)) - Vector3d(3, 6, 7)).norm(), 1e-4);
+  EXPECT_EQ(saved.labels[0].provenance.axes.letters(), "RPS");
+  EXPECT_EQ(library.open("ear").ct.object, value.ct.object);
+
+  // Twice is none.
+  const scene::Case back = presenters::correctedCase(saved, AxesCorrection::parse("RPS"), "back");
+  EXPECT_TRUE(back.ct.provenance.axes.isIdentity());
+  EXPECT_TRUE(core::sameGrid(back.ct.geometry, kFileGrid));
+  EXPECT_FALSE(isNoted(back.ct.notes, "axes of the file corrected"));
+  EXPECT_FALSE(isNoted(back.labels.at(0).notes, "follows the correction"));
+  EXPECT_THROW(presenters::correctedCase(value, {}, "same"), core::InvalidParameter);
+}

@@ -1,0 +1,233 @@
+#include "AxesDialog.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+
+#include "PanelLayout.h"
+#include "SliceView.h"
+#include "Theme.h"
+#include "WindowTexts.h"
+#include "petrous/Presenters/CorrectedCase.h"
+#include "petrous/Presenters/IntensityDisplay.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+using core::AxesCorrection;
+using presenters::SliceOrientation;
+
+constexpr char kLetters[] = {'L', 'R', 'P', 'A', 'S', 'I'};
+
+QString directionText(char letter)
+{
+  switch (letter)
+  {
+  case 'L':
+    return AxesDialog::tr("Left");
+  case 'R':
+    return AxesDialog::tr("Right");
+  case 'P':
+    return AxesDialog::tr("Back");
+  case 'A':
+    return AxesDialog::tr("Front");
+  case 'S':
+    return AxesDialog::tr("Head");
+  default:
+    return AxesDialog::tr("Feet");
+  }
+}
+
+char opposite(char letter)
+{
+  const auto* at = std::find(std::begin(kLetters), std::end(kLetters), letter);
+  return kLetters[(at - std::begin(kLetters)) ^ 1];
+}
+
+QString leftText(const presenters::LeftBehind& left)
+{
+  QStringList lines;
+  const auto add = [&lines](const QString& line)
+  { lines += QString::fromUtf8("\xe2\x80\xa2 ") + line; };
+  const auto listed = [](const std::vector<std::string>& names)
+  {
+    QStringList all;
+    for (const std::string& name : names)
+      all += words(name);
+    return all.join(", ");
+  };
+  if (!left.mr.empty())
+    add(AxesDialog::tr("MRs with their registrations: %1").arg(listed(left.mr)));
+  if (!left.drawnOnMr.empty())
+    add(AxesDialog::tr("Drawn on an MR: %1").arg(listed(left.drawnOnMr)));
+  if (left.strokes > 0)
+    add(AxesDialog::tr("Strokes: %1").arg(left.strokes));
+  if (left.measurements > 0)
+    add(AxesDialog::tr("Measurements: %1").arg(left.measurements));
+  if (left.attachments > 0)
+    add(AxesDialog::tr("Attachments: %1").arg(left.attachments));
+  if (left.savedViews > 0)
+    add(AxesDialog::tr("Saved views: %1").arg(left.savedViews));
+  return lines.isEmpty() ? AxesDialog::tr("All of this case comes along.")
+                         : AxesDialog::tr("Stays with this case alone:") + "\n" + lines.join('\n');
+}
+
+} // namespace
+
+AxesDialog::AxesDialog(const scene::Case& value, QWidget* parent)
+  : QDialog(parent)
+  , m_image(value)
+  , m_views{new SliceView(SliceOrientation::Axial), new SliceView(SliceOrientation::Coronal),
+            new SliceView(SliceOrientation::Sagittal)}
+  , m_kind(new QLabel)
+{
+  setObjectName("correctAxes");
+  setWindowTitle(tr("Correct the axes"));
+  resizeOnScreen(*this, {900, 620});
+  m_image.mr.clear();
+  m_image.labels.clear();
+  m_image.meshes.clear();
+
+  auto* title = new QLabel(
+      tr("For an image whose file states wrong axes: it is mirrored, or lies otherwise than the "
+         "letters say. What is right becomes a new case; “%1” stays as it is. Which ear it is "
+         "will be asked again.")
+          .arg(words(value.name)));
+  title->setTextFormat(Qt::PlainText);
+  wrapWords(*title);
+  auto* form = new QFormLayout;
+  const std::array<QString, 3> rows{tr("What is now &left is really:"),
+                                    tr("What is now &back is really:"),
+                                    tr("What is now &head is really:")};
+  const std::array<const char*, 3> names{"axesLeft", "axesBack", "axesHead"};
+  for (std::size_t axis = 0; axis < m_choices.size(); ++axis)
+  {
+    auto* choice = new QComboBox;
+    choice->setObjectName(names[axis]);
+    choice->setToolTip(tr("Where this side of the image really is. Another one that had this "
+                          "direction takes the one that was here"));
+    for (const char letter : kLetters)
+      choice->addItem(directionText(letter), QChar(letter));
+    connect(choice, qOverload<int>(&QComboBox::currentIndexChanged), this,
+            [this, axis, choice] { choose(axis, choice->currentData().toChar().toLatin1()); });
+    form->addRow(rows[axis], choice);
+    m_choices[axis] = choice;
+  }
+  auto* quick = new QVBoxLayout;
+  const auto addQuick = [&](const QString& text, const char* name, const QString& tip, auto act)
+  {
+    auto* button = new QPushButton(text);
+    button->setObjectName(name);
+    button->setToolTip(tip);
+    button->setAutoDefault(false);
+    connect(button, &QPushButton::clicked, this, act);
+    quick->addWidget(button);
+  };
+  addQuick(tr("Exchange left and &right"), "axesMirror",
+           tr("Of a mirrored image: the side of the operation is at stake"),
+           [this] { exchange('L', 'R'); });
+  addQuick(tr("Exchange head and &feet"), "axesHeadFeet",
+           tr("Of an image whose slices are in the wrong order, which mirrors it, too"),
+           [this] { exchange('S', 'I'); });
+  addQuick(tr("&Turn front to back"), "axesTurn",
+           tr("Half a turn about the long axis, as of a patient who lay face down: front and back "
+              "are exchanged, and left and right"),
+           [this]
+           {
+             exchange('P', 'A');
+             exchange('L', 'R');
+           });
+  auto* choices = new QHBoxLayout;
+  choices->addLayout(form, 1);
+  choices->addLayout(quick);
+
+  auto* views = new QHBoxLayout;
+  views->setSpacing(3);
+  const auto display = presenters::displayOf(m_image);
+  for (SliceView* view : m_views)
+  {
+    view->setAttribute(Qt::WA_TransparentForMouseEvents);
+    view->setFocusPolicy(Qt::NoFocus);
+    view->setMinimumHeight(180);
+    view->setIntensityDisplay(display);
+    view->setGreyWindow(display.bone);
+    views->addWidget(view, 1);
+  }
+  m_kind->setObjectName("axesKind");
+  wrapWords(*m_kind);
+  auto* left = new QLabel(leftText(presenters::leftBehind(value)));
+  left->setObjectName("axesLeftBehind");
+  left->setTextFormat(Qt::PlainText);
+  wrapWords(*left);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
+  m_apply = buttons->addButton(tr("&Make the corrected case"), QDialogButtonBox::AcceptRole);
+  m_apply->setObjectName("primary");
+  m_apply->setToolTip(tr("A new case in the library, which is opened"));
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(title);
+  layout->addLayout(choices);
+  layout->addLayout(views, 1);
+  layout->addWidget(m_kind);
+  layout->addWidget(left);
+  layout->addWidget(buttons);
+  setAxes({});
+}
+
+// Another one along the same axis takes the direction that was here.
+void AxesDialog::choose(std::size_t axis, char letter)
+{
+  std::string letters = m_axes.letters();
+  const char before = letters[axis];
+  for (char& other : letters)
+    if (&other != &letters[axis] && (other == letter || other == opposite(letter)))
+      other = before;
+  letters[axis] = letter;
+  setAxes(AxesCorrection::parse(letters));
+}
+
+void AxesDialog::exchange(char one, char other)
+{
+  std::string letters = m_axes.letters();
+  for (char& letter : letters)
+    letter = letter == one ? other : letter == other ? one : letter;
+  setAxes(AxesCorrection::parse(letters));
+}
+
+void AxesDialog::setAxes(const AxesCorrection& axes)
+{
+  m_axes = axes;
+  for (std::size_t axis = 0; axis < m_choices.size(); ++axis)
+  {
+    const QSignalBlocker blocked(m_choices[axis]);
+    m_choices[axis]->setCurrentIndex(m_choices[axis]->findData(QChar(axes.letter(axis))));
+  }
+  m_apply->setEnabled(!axes.isIdentity());
+  m_kind->setText(axes.isIdentity()    ? tr("As it is. Choose what is wrong.")
+                  : axes.isMirroring() ? tr("The anatomy is mirrored: a left ear becomes a right "
+                                            "one.")
+                                       : tr("The anatomy is turned, and not mirrored."));
+  const scene::Case shown =
+      axes.isIdentity() ? m_image : presenters::correctedCase(m_image, axes, m_image.name);
+  const auto presenter = std::make_shared<const presenters::SlicePresenter>(shown);
+  for (SliceView* view : m_views)
+  {
+    view->setPresenter(presenter, shown.ct.geometry);
+    view->setCrosshair(shown.ct.geometry.center());
+  }
+}
+
+} // namespace petrous::workstation

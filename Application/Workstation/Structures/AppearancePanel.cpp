@@ -37,7 +37,6 @@ namespace
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 20; // bytes, as of the command
 constexpr int kMargin = 10;                                      // px
-constexpr int kNarrowest = 340;                                  // px
 constexpr double kFarthest = 1e7;                                // value that can be entered
 constexpr int kSwatch = 14;                                      // px
 
@@ -79,7 +78,7 @@ AppearancePanel::AppearancePanel(presenters::WorkstationModel& model, QWidget* p
   m_note->setTextFormat(Qt::PlainText);
   wrapWords(*m_note);
   layout->addWidget(m_note);
-  layout->addStrut(kNarrowest - 2 * kMargin); // wider with large letters
+  setMinimumWidth(340);
 
   connect(m_plot, &TransferPlot::changed, this,
           [this]

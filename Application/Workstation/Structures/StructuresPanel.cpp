@@ -24,7 +24,6 @@
 #include <QVBoxLayout>
 
 #include "Commands.h"
-#include "HintedLine.h"
 #include "NearbyModel.h"
 #include "StructureEditor.h"
 #include "StructuresModel.h"
@@ -53,7 +52,7 @@ StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* p
   , m_list(new QTreeView)
   , m_slider(new QSlider(Qt::Horizontal))
   , m_box(numberBox("isoBox", {}, {0.0, 0.0, {}, 0, 1.0}))
-  , m_search(new HintedLine)
+  , m_search(new QLineEdit)
   , m_only(new QToolButton)
   , m_editor(new StructureEditor(model))
   , m_alone(model)

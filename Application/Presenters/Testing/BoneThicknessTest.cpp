@@ -75,6 +75,12 @@ TEST(BoneThickness, IsMadeOnceForThePicturesThatShowIt)
   const auto field = assembly.contents(value).thickness.distance;
   ASSERT_TRUE(field);
   EXPECT_EQ(assembly.contents(value).thickness.distance, field);
+  assembly.renamed("sinus", "nerve");
+  EXPECT_EQ(assembly.thicknessOver(), "nerve") << "of another structure";
+  scene::Case renamed = value;
+  scene::findStructure(renamed, "nerve")->name = "facial";
+  assembly.renamed("nerve", "facial");
+  EXPECT_EQ(assembly.contents(renamed).thickness.distance, field);
   assembly.showThickness("");
   EXPECT_FALSE(assembly.contents(value).thickness.distance);
   assembly.showThickness("sinus");

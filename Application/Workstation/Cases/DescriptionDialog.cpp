@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 
 #include "Application.h"
+#include "HintedLine.h"
 #include "PanelLayout.h"
 #include "Theme.h"
 
@@ -41,7 +42,7 @@ DescriptionDialog::DescriptionDialog(const QString& name, const scene::Descripti
   , m_diagnosis(new QLineEdit(words(description.diagnosis)))
   , m_procedure(new QLineEdit(words(description.procedure)))
   , m_side(new QComboBox)
-  , m_date(new QLineEdit(words(description.date)))
+  , m_date(new HintedLine(words(description.date)))
   , m_tags(new QLineEdit)
   , m_note(new QPlainTextEdit(words(description.note)))
   , m_problem(new QLabel)

@@ -9,6 +9,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScopedValueRollback>
+#include <QScrollBar>
 #include <QTableWidget>
 #include <QVBoxLayout>
 
@@ -61,6 +62,19 @@ QTableWidget* table(const char* name, const QString& accessible, const QStringLi
   result->horizontalHeader()->setStretchLastSection(true);
   keepKeysInEditors(*result);
   return result;
+}
+
+// With which the title of the last column, which stretches, is seen as well.
+int wholeWidth(const QTableWidget& table)
+{
+  const QAbstractItemView& cells = table; // where it is public
+  const QHeaderView& header = *table.horizontalHeader();
+  const int last = header.count() - 1;
+  int width = table.verticalScrollBar()->sizeHint().width() + 2 * table.frameWidth() +
+              header.sectionSizeHint(last);
+  for (int column = 0; column < last; ++column)
+    width += std::max(header.sectionSizeHint(column), cells.sizeHintForColumn(column));
+  return width;
 }
 
 void put(QTableWidget& table, int row, int column, const QString& text, bool isEditable = true)
@@ -199,7 +213,9 @@ CatalogueDialog::CatalogueDialog(presenters::CatalogueEditor editor,
   connect(buttons, &QDialogButtonBox::accepted, this, &CatalogueDialog::save);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   fill();
-  resizeOnScreen(*this, {1000, 560});
+  const QMargins beside = layout->contentsMargins();
+  const int whole = std::max(wholeWidth(*m_materials), wholeWidth(*m_burrs));
+  resizeOnScreen(*this, {std::max(1000, whole + beside.left() + beside.right()), 560});
 }
 
 void CatalogueDialog::fill()

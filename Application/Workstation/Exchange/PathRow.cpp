@@ -7,6 +7,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 
+#include "HintedLine.h"
 #include "WindowTexts.h"
 
 namespace petrous::workstation
@@ -16,7 +17,7 @@ PathRow::PathRow(const char* name, Kind kind, const QString& title, QWidget* par
   : QWidget(parent)
   , m_kind(kind)
   , m_title(title)
-  , m_line(new QLineEdit)
+  , m_line(new HintedLine)
 {
   m_line->setObjectName(name);
   m_line->setAccessibleName(title);

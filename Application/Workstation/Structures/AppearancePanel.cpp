@@ -579,15 +579,26 @@ void AppearancePanel::chooseColor()
   QColorDialog dialog(before, this);
   dialog.setObjectName("colorDialog");
   dialog.setOption(QColorDialog::DontUseNativeDialog);
-  connect(&dialog, &QColorDialog::currentColorChanged, this, &AppearancePanel::setColor);
   // What is tried is one step, and none if nothing is chosen.
   const presenters::EditHistory::Hold hold(m_model.edits());
   const auto last = m_model.edits().last();
   const auto of = m_model.shownAs();
+  const auto takeBack = [&]
+  {
+    if (const auto tried = m_model.edits().last(); tried != last && m_model.shownAs() == of)
+      attempt([&] { m_model.takeBack(tried); });
+  };
+  const auto paint = [&](const QColor& color)
+  {
+    if (!m_editor.point()) // a dark one in between would flatten the points' shades
+      takeBack();
+    setColor(color);
+  };
+  connect(&dialog, &QColorDialog::currentColorChanged, this, paint);
   if (dialog.exec() == QDialog::Accepted)
-    setColor(dialog.selectedColor());
-  else if (const auto tried = m_model.edits().last(); tried != last && m_model.shownAs() == of)
-    attempt([&] { m_model.takeBack(tried); });
+    paint(dialog.selectedColor());
+  else
+    takeBack();
 }
 
 void AppearancePanel::setColor(const QColor& color)

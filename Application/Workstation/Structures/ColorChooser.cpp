@@ -23,13 +23,14 @@ namespace
 {
 constexpr int kColumns = 8;
 constexpr int kCell = 20;  // px
-constexpr int kRest = 120; // ms before a colour under the pointer is previewed
+constexpr int kRest = 250; // ms before a colour under the pointer is previewed, or is no more
 } // namespace
 
 ColorChooser::ColorChooser(const QColor& present, QWidget* parent)
   : QFrame(parent, Qt::Popup)
   , m_present(present)
   , m_grid(new QGridLayout)
+  , m_rest(this)
 {
   setObjectName("colorChooser");
   setAttribute(Qt::WA_DeleteOnClose);
@@ -49,6 +50,7 @@ ColorChooser::ColorChooser(const QColor& present, QWidget* parent)
     for (int hue = 0; hue < kColumns; ++hue)
       add(QColor::fromHsv(360 * hue / kColumns, saturation, value), {});
   auto* more = button(tr("More colours…"), "moreColors", tr("Any colour, also by its numbers"));
+  more->installEventFilter(this);
   connect(more, &QPushButton::clicked, this, &ColorChooser::askMore);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(6, 6, 6, 6);
@@ -68,6 +70,7 @@ void ColorChooser::add(const QColor& color, const QString& name)
   cell->setToolTip(name.isEmpty() ? color.name() : name);
   cell->setAccessibleName(name.isEmpty() ? color.name() : name + ' ' + color.name());
   cell->setProperty("color", color);
+  cell->setMouseTracking(true);
   cell->installEventFilter(this);
   connect(cell, &QToolButton::clicked, this, [this, color] { finish(color); });
   const int n = static_cast<int>(m_buttons.size());
@@ -92,8 +95,8 @@ void ColorChooser::open(const QPoint& global)
 
 void ColorChooser::preview(const QColor& color)
 {
-  if (!m_isFinished && color.isValid())
-    emit previewed(color);
+  if (!m_isFinished && color != m_tried)
+    emit previewed(m_tried = color);
 }
 
 void ColorChooser::finish(const QColor& color)
@@ -112,17 +115,24 @@ void ColorChooser::finish(const QColor& color)
 bool ColorChooser::eventFilter(QObject* watched, QEvent* event)
 {
   const QColor color = watched->property("color").value<QColor>();
-  if (event->type() == QEvent::Enter)
+  // Not Enter: the pop-up opens beneath the pointer.
+  if (event->type() == QEvent::MouseMove)
   {
     m_wanted = color;
     m_rest.start();
   }
   else if (event->type() == QEvent::Leave)
-    m_rest.stop();
+  {
+    m_wanted = m_focused;
+    m_rest.start(); // it may go on to another colour
+  }
   else if (event->type() == QEvent::FocusIn &&
            static_cast<QFocusEvent*>(event)->reason() != Qt::PopupFocusReason)
-    preview(color);
-  else if (event->type() == QEvent::KeyPress)
+  {
+    m_rest.stop();
+    preview(m_focused = color);
+  }
+  else if (event->type() == QEvent::KeyPress && color.isValid())
     switch (static_cast<QKeyEvent*>(event)->key())
     {
     case Qt::Key_Left:
@@ -173,6 +183,8 @@ void ColorChooser::closeEvent(QCloseEvent* event)
 void ColorChooser::askMore()
 {
   m_asks = true;
+  m_rest.stop();
+  preview({}); // the dialog begins with the present one
   setAttribute(Qt::WA_DeleteOnClose, false);
   hide();
   auto* dialog = new QColorDialog(m_present, parentWidget());

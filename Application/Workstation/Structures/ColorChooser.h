@@ -13,8 +13,8 @@ namespace petrous::workstation
 {
 
 /// Colours to choose from, as a pop-up: one click, or arrows and Return. A colour that the pointer
-/// rests on, or that has the focus, is previewed. "More colours…" opens Qt's dialog, which previews
-/// likewise. Deletes itself.
+/// was moved to and rests on is previewed until it leaves, and so is one that arrows gave the focus
+/// until that goes. "More colours…" opens Qt's dialog, which previews likewise. Deletes itself.
 class ColorChooser : public QFrame
 {
   Q_OBJECT
@@ -24,7 +24,7 @@ public:
   void open(const QPoint& global); ///< near this point, on the screen
 
 signals:
-  void previewed(const QColor& color);
+  void previewed(const QColor& color); ///< invalid: none any more; on change
   void chosen(const QColor& color);
   void cancelled();
 
@@ -42,8 +42,10 @@ private:
 
   QColor m_present;
   QGridLayout* m_grid;
-  QTimer m_rest; // the pointer's
-  QColor m_wanted;
+  QTimer m_rest;    // the pointer's
+  QColor m_wanted;  // once it rests; invalid: none
+  QColor m_focused; // by arrows; invalid: none
+  QColor m_tried;   // previewed; invalid: none
   std::vector<QToolButton*> m_buttons;
   bool m_isFinished = false;
   bool m_asks = false;

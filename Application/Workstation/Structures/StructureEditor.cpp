@@ -451,10 +451,17 @@ void StructureEditor::chooseColor(const std::vector<std::string>& parts, const Q
   for (const std::string& part : parts)
     if (const auto* look = m_model.lookOf(part))
       looks.emplace(part, *look);
-  const auto paint = [this, parts, of, looks = std::move(looks)](const QColor& color)
+  const auto takeBack = [this, before, of]
+  {
+    if (const auto tried = m_model.edits().last(); tried != before && m_model.shownAs() == of)
+      m_model.takeBack(tried);
+  };
+  const auto paint = [this, parts, of, takeBack, looks = std::move(looks)](const QColor& color)
   {
     if (m_model.shownAs() != of)
       return;
+    if (!color.isValid())
+      return takeBack();
     const std::array<float, 3> rgb{static_cast<float>(color.redF()),
                                    static_cast<float>(color.greenF()),
                                    static_cast<float>(color.blueF())};
@@ -474,11 +481,9 @@ void StructureEditor::chooseColor(const std::vector<std::string>& parts, const Q
             hold->release();
           });
   connect(chooser, &ColorChooser::cancelled, this,
-          [this, before, of, hold]
+          [takeBack, hold]
           {
-            if (const auto tried = m_model.edits().last();
-                tried != before && m_model.shownAs() == of)
-              m_model.takeBack(tried);
+            takeBack();
             hold->release();
           });
   chooser->open(global);

@@ -1,5 +1,6 @@
 #include "ThicknessController.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <QAction>
@@ -135,6 +136,23 @@ void ThicknessController::caseChanged()
   m_work.abandon();
   m_measured.clear();
   bringUpToDate();
+}
+
+void ThicknessController::partRenamed(const std::string& from, const std::string& to)
+{
+  if (m_measured == from)
+    m_measured = to;
+}
+
+void ThicknessController::partsChanged()
+{
+  const std::string measured = m_measured;
+  caseChanged();
+  const scene::Case& value = m_model.value();
+  const bool isMesh = std::any_of(value.meshes.begin(), value.meshes.end(),
+                                  [&](const auto& mesh) { return mesh.name == measured; });
+  if (!measured.empty() && (isMesh || scene::findStructure(value, measured)))
+    measure(measured);
 }
 
 } // namespace petrous::workstation

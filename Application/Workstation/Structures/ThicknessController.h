@@ -28,6 +28,10 @@ public:
                       QAction& action);
 
   void caseChanged(); ///< another case has no colours yet
+  /// WorkstationEvents::partRenamed; what is being measured is, under its new name, once
+  /// `partsChanged` comes.
+  void partRenamed(const std::string& from, const std::string& to);
+  void partsChanged(); ///< measures anew what was being measured and is still there
 
 signals:
   void statusMessage(const QString& line);

@@ -40,6 +40,7 @@
 #include "MessageRoom.h"
 #include "Panels.h"
 #include "StructuresModel.h"
+#include "Theme.h"
 #include "WindowSettings.h"
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Network/NodeList.h"
@@ -827,12 +828,33 @@ TEST_F(Manners, NoTextOfADialogIsCutOffInEnglishAndGerman)
     openWindow("sixty");
     ASSERT_TRUE(opened("sixty"));
     const std::set<QString> seen = lookAtDialogs(language);
-    for (const char* name : {"settings", "keyList", "commandPalette", "exportCase", "archiveCase",
-                             "nodes", "sendCase", "receive", "deidentify", "pseudonyms"})
+    for (const char* name :
+         {"settings", "keyList", "commandPalette", "exportCase", "archiveCase", "nodes", "sendCase",
+          "receive", "deidentify", "pseudonyms", "catalogueDialog", "cropBoxDialog", "describeCase",
+          "film", "planReport", "printPicture", "askCollect", "askDelete"})
       EXPECT_TRUE(seen.count(name)) << name << ": " << language.toStdString();
     closeWindow();
     QApplication::removeTranslator(&texts);
   }
+}
+
+// As above, with the letters' size of the settings.
+TEST_F(Manners, NoTextOfADialogIsCutOffWithLargeLetters)
+{
+  struct UsualTheme
+  {
+    ~UsualTheme() { applyTheme(*qApp); }
+  } const after;
+  saveMany("sixty", 24, 3, true);
+  std::ofstream(folder() / "settings.conf") << "[look]\nfont_scale=1.25\n";
+  const int usual = QFontMetrics(QApplication::font()).height();
+  openWindow("sixty");
+  ASSERT_TRUE(opened("sixty"));
+  ASSERT_GT(QFontMetrics(QApplication::font()).height(), usual);
+  const std::set<QString> seen = lookAtDialogs("en-large");
+  for (const char* name : {"nodes", "describeCase", "catalogueDialog"})
+    EXPECT_TRUE(seen.count(name)) << name;
+  closeWindow();
 }
 
 TEST_F(Manners, TabGoesThroughAllOfAPanel)

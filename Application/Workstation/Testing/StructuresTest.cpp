@@ -15,9 +15,11 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
+#include <QPushButton>
 #include <QRegularExpression>
 #include <QSlider>
 #include <QSpinBox>
+#include <QTimer>
 #include <QToolButton>
 #include <QTranslator>
 #include <QTreeView>
@@ -201,6 +203,47 @@ TEST_F(Structures, AColourOfATransferFunctionIsOneStepHoweverManyAreTried)
   action("Undo")->trigger();
   EXPECT_TRUE(look("nerve") == tinted);
   EXPECT_EQ(action("Undo")->text(), "&Undo preparation");
+}
+
+TEST_F(Structures, AColourThatIsTriedIsTakenBackExactlyWhenPointerOrFocusLeaveIt)
+{
+  openWith({});
+  const auto before = look("nerve");
+  const QColor one = QColor::fromHsv(180, 200, 240);
+  const auto red = [&] { return look("nerve").color[0]; };
+  clickCell("nerve", 0, kSwatch);
+  auto* chooser = find<ColorChooser>("colorChooser");
+  ASSERT_TRUE(chooser);
+  QToolButton* cell = colorCell(one);
+  ASSERT_TRUE(cell);
+  const QPointF middle = cell->rect().center();
+  QEvent leave(QEvent::Leave);
+
+  QEnterEvent enter(middle, middle, middle);
+  QApplication::sendEvent(cell, &enter);
+  const auto* rest = chooser->findChild<QTimer*>();
+  ASSERT_TRUE(rest);
+  EXPECT_FALSE(rest->isActive()) << "the pop-up opened beneath the pointer";
+
+  QMouseEvent move(QEvent::MouseMove, middle, Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+  QApplication::sendEvent(cell, &move);
+  ASSERT_TRUE(waitFor([&] { return std::abs(red() - one.redF()) < 0.002; }));
+  QApplication::sendEvent(cell, &leave);
+  EXPECT_TRUE(waitFor([&] { return look("nerve") == before; }));
+  EXPECT_FALSE(action("Undo")->isEnabled()) << "no step of undo";
+
+  QTest::keyClick(chooser->focusWidget(), Qt::Key_Right);
+  EXPECT_FALSE(look("nerve") == before);
+  const auto byKey = look("nerve");
+  QApplication::sendEvent(cell, &move);
+  ASSERT_TRUE(waitFor([&] { return std::abs(red() - one.redF()) < 0.002; }));
+  QApplication::sendEvent(cell, &leave);
+  EXPECT_TRUE(waitFor([&] { return look("nerve") == byKey; })) << "which Return would choose";
+  chooser->findChild<QPushButton*>("moreColors")->setFocus(Qt::TabFocusReason);
+  EXPECT_TRUE(look("nerve") == before);
+  EXPECT_FALSE(action("Undo")->isEnabled());
+  QTest::keyClick(chooser, Qt::Key_Escape);
+  EXPECT_TRUE(look("nerve") == before);
 }
 
 TEST_F(Structures, OneOfSixtyIsShownAloneWithTwoClicksAndAllAgainWithOne)

@@ -167,3 +167,37 @@ TEST_F(Thickness, TheLatestOneAskedForIsShownAndAskingAgainStopsIt)
   EXPECT_EQ(legend().structure(), "cyst");
   model.events.appearanceChanged = before;
 }
+
+TEST_F(Thickness, StaysWhenItsStructureIsRenamed)
+{
+  saveThinBall();
+  openWindow();
+  choose("nerve");
+  QTest::keyClick(&window(), Qt::Key_F6);
+  ASSERT_TRUE(measured("nerve"));
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  const auto distances = model.sceneContents().thickness.distance;
+  model.renamePart("nerve", "facial nerve");
+  EXPECT_EQ(model.thicknessOver(), "facial nerve");
+  EXPECT_EQ(model.sceneContents().thickness.distance, distances) << "it is not measured again";
+  EXPECT_TRUE(legend().isVisible());
+  EXPECT_EQ(legend().structure(), "facial nerve");
+  EXPECT_TRUE(action("Bone thickness over the structure")->isChecked());
+  EXPECT_TRUE(waitFor([&] { return model.drawable() && !window().busy(); }));
+  EXPECT_EQ(model.sceneContents().thickness.distance, distances);
+  action("Undo")->trigger();
+  EXPECT_EQ(model.thicknessOver(), "nerve");
+  EXPECT_EQ(legend().structure(), "nerve");
+}
+
+TEST_F(Thickness, IsMeasuredUnderTheNewNameOfAStructureThatIsRenamedMeanwhile)
+{
+  saveThinBall();
+  openWindow();
+  emit window().findChild<StructuresPanel*>()->thicknessAsked("nerve");
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  ASSERT_TRUE(model.thicknessOver().empty()) << "it is being measured";
+  model.renamePart("nerve", "facial nerve");
+  EXPECT_EQ(legend().structure(), "facial nerve");
+  EXPECT_TRUE(measured("facial nerve"));
+}

@@ -649,6 +649,7 @@ void MainWindow::connectModel()
   m_model.events.partsChanged = [this] { partsChanged(); };
   m_model.events.partRenamed = [this](const std::string& from, const std::string& to)
   {
+    m_thickness->partRenamed(from, to);
     for (const auto& [entry, panel] : m_panels)
       panel->partRenamed(from, to);
   };
@@ -1236,7 +1237,7 @@ void MainWindow::partsChanged()
   m_segment->partsChanged();
   m_measure->partsChanged();
   m_registration->partsChanged();
-  m_thickness->caseChanged();
+  m_thickness->partsChanged();
   m_comparison->caseChanged();
   for (const auto& [entry, panel] : m_panels)
     panel->partsChanged();

@@ -180,6 +180,12 @@ void SceneAssembly::showThickness(const std::string& structure)
   m_thicknessOver = structure;
 }
 
+void SceneAssembly::renamed(const std::string& from, const std::string& to)
+{
+  if (m_thicknessOver == from)
+    m_thicknessOver = to;
+}
+
 void SceneAssembly::takeThickness(const SceneAssembly& other)
 {
   if (other.m_thicknessOver == m_thicknessOver)

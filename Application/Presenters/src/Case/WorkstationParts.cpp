@@ -516,10 +516,9 @@ void WorkstationModel::rename(const std::string& name, const std::string& to)
   for (RemovedPart& removed : m_removed)
     for (PartLook& reader : removed.readers)
       follow(reader.part);
-  if (m_assembly.thicknessOver() == name)
-    m_assembly.showThickness({});
+  m_assembly.renamed(name, to);
   notify(events.partRenamed, name, to);
-  partsMoved();
+  partsMoved(Drawn::Still);
 }
 
 // The map stays whole: its other structures, and its object in the library, are as they were.

@@ -35,6 +35,8 @@ public:
   /// on, which throws if there is none of this name; empty: off.
   void showThickness(const std::string& structure);
   const std::string& thicknessOver() const noexcept { return m_thicknessOver; }
+  /// The thickness over a structure that is renamed stays, without being measured again.
+  void renamed(const std::string& from, const std::string& to);
   /// Takes over the thickness display of `other`, or none.
   void takeThickness(const SceneAssembly& other);
 

@@ -123,7 +123,19 @@ TEST_F(SegmentCommand, SaysThatASeedLiesOnABorderAndKeepsThat)
   ASSERT_FALSE(made["warnings"].empty());
   EXPECT_NE(made["warnings"][0].get<std::string>().find("lies on a border of tissues"),
             std::string::npos);
+  EXPECT_NE(json("info ear").dump().find("\"The seed at "), std::string::npos)
+      << "it is kept in the case, without the name";
   EXPECT_TRUE(json("segment ear inside --threshold auto --seed 22,22,13.35")["warnings"].empty());
+}
+
+// The ball lies within the image, and grown by as much as the image is wide it does not.
+TEST_F(SegmentCommand, JudgesARegionAsItIsInTheEnd)
+{
+  const std::string ball = "segment ear ball --replace --threshold 200,650 --seed 22,22,13.35";
+  const std::string faces = "of the 6 faces of the image";
+  EXPECT_EQ(json(ball)["warnings"].dump().find(faces), std::string::npos);
+  EXPECT_NE(json(ball + " --margin 25")["warnings"].dump().find(faces), std::string::npos);
+  EXPECT_NE(json("info ear").dump().find("reaches 6 " + faces), std::string::npos);
 }
 
 TEST_F(SegmentCommand, ProposesTheBrightestRegionOfAnMr)
@@ -220,8 +232,7 @@ TEST_F(SegmentCommand, SaysWhereNoNerveIsSeenAndKeepsIt)
               1e-6);
   EXPECT_GT(unresolved, 0.8 * made["length_mm"].get<double>());
   EXPECT_NE(made["warnings"].dump().find("not resolved from "), std::string::npos);
-  EXPECT_NE(json("info ear").dump().find("'facial nerve elsewhere': Not resolved from "),
-            std::string::npos)
+  EXPECT_NE(json("info ear").dump().find("\"Not resolved from "), std::string::npos)
       << "it is kept in the case";
 }
 

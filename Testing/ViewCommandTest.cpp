@@ -46,6 +46,10 @@ TEST_F(ViewCommand, HoldsTheHandpieceForAnApproachAsTheCaseIsLookedAt)
   EXPECT_EQ(behind.code, 2);
   EXPECT_NE(behind.err.find("--view surgical-right"), std::string::npos) << behind.err;
   EXPECT_EQ(json("view ear")["tool"], left["tool"]);
+  const auto noHand = run("view ear --handpiece usual --left-hand");
+  EXPECT_EQ(noHand.code, 2);
+  EXPECT_NE(noHand.err.find("--left-hand"), std::string::npos) << noHand.err;
+  EXPECT_EQ(json("view ear")["tool"], left["tool"]);
   EXPECT_TRUE(json("view ear --handpiece usual")["tool"]["handpiece"].is_null());
 }
 

@@ -63,6 +63,7 @@ struct Made
   std::vector<std::string> lines, warnings;
   std::vector<std::string> notes = {}; ///< of the warnings those that are kept, as sentences
   scene::TracedTubes tubes = {};
+  bool isGrown = false; ///< from seeds
 };
 
 // What is kept of it is said as well, as warnings are: no capital and no full stop.
@@ -98,7 +99,14 @@ Made region(const SegmentOptions& options, const scene::Case& value, const scene
           ? own
           : presenters::mrOnCt(*own, value.ct.geometry, source.mrFromCt, progress.part(0.0, 0.2));
   const volume::IntensityVolume& image = *onCt;
+  const bool isHounsfield = options.source == "ct" && presenters::displayOf(value).hounsfield;
+  const std::string unit = isHounsfield ? " HU" : "";
   Made made;
+  const auto note = [&made](std::string text)
+  {
+    if (!text.empty())
+      made.notes.push_back(std::move(text));
+  };
   volume::ValueRange range;
   std::vector<Eigen::Vector3d> seeds;
   std::optional<segmentation::ProposedRegion> proposed;
@@ -124,13 +132,16 @@ Made region(const SegmentOptions& options, const scene::Case& value, const scene
   else if (proposed)
     range = proposed->range;
   else if (!seeds.empty())
-    range = segmentation::rangeAround(image, seeds.front(), 2.5, progress.part(0.0, 0.3));
+  {
+    const auto surroundings = segmentation::surroundingsOf(image, seeds.front());
+    range =
+        segmentation::rangeAround(image, seeds.front(), surroundings, 2.5, progress.part(0.0, 0.3));
+    note(presenters::seedText(surroundings, seeds.front(), unit));
+  }
   else
     range = segmentation::proposedRange(volume::IntensityHistogram(image),
                                         options.source == "ct" ? std::optional(value.iso)
                                                                : std::nullopt);
-  const std::string unit =
-      options.source == "ct" && presenters::displayOf(value).hounsfield ? " HU" : "";
   made.mask = seeds.empty() ? segmentation::threshold(image, range, progress.part(0.3, 0.6))
                             : segmentation::connectedThreshold(image, range, seeds,
                                                                progress.part(0.3, 0.6), unit);
@@ -141,22 +152,14 @@ Made region(const SegmentOptions& options, const scene::Case& value, const scene
                                  core::plainText(range.max) + unit + "; the image has " +
                                  fixed(all.min, 1) + " to " + fixed(all.max, 1) + unit);
   }
-  if (!seeds.empty())
-  {
-    const std::string seed = presenters::seedText(image, seeds.front(), unit);
-    if (options.threshold == kAutomatic && !proposed && !seed.empty())
-      made.notes.push_back(seed);
-    const bool isHounsfield = options.source == "ct" && presenters::displayOf(value).hounsfield;
-    for (std::string& text : presenters::regionTexts(
-             made.mask, range, unit, isHounsfield ? std::optional(value.iso) : std::nullopt))
-      made.notes.push_back(std::move(text));
-  }
-  appendNotes(made);
+  made.isGrown = !seeds.empty();
+  if (made.isGrown)
+    note(
+        presenters::rangeText(range, unit, isHounsfield ? std::optional(value.iso) : std::nullopt));
   made.facts["threshold"] = {range.min, range.max};
-  made.lines.push_back(
-      "  between " + core::plainText(range.min) + " and " + core::plainText(range.max) +
-      (options.source == "ct" && presenters::displayOf(value).hounsfield ? " HU" : "") +
-      (seeds.empty() ? "" : ", connected with the seed"));
+  made.lines.push_back("  between " + core::plainText(range.min) + " and " +
+                       core::plainText(range.max) + unit +
+                       (seeds.empty() ? "" : ", connected with the seed"));
   return made;
 }
 
@@ -221,10 +224,11 @@ Made tube(const SegmentOptions& options, const scene::Case& value, const scene::
   constexpr double kTenth = 0.1;
   if (tube.resolvedLength < tube.length * (1.0 - kTenth))
     made.warnings.push_back("the image resolves " + fixed(tube.resolvedLength, 1) + " of " +
-                            fixed(tube.length, 1) +
-                            " mm; elsewhere path and radius follow the points alone");
-  made.notes = presenters::unresolvedTexts(tube);
-  appendNotes(made);
+                            fixed(tube.length, 1) + " mm; elsewhere " +
+                            (segmentation::hasUsualRadius(tube, tracing)
+                                 ? "its path follows the points alone"
+                                 : "path and radius follow the points alone"));
+  made.notes = presenters::unresolvedTexts(tube, tracing);
   return made;
 }
 
@@ -291,8 +295,14 @@ void segment(Context& context, const SegmentOptions& options)
     throw core::InvalidParameter("nothing is left of structure '" + options.name +
                                  "'; use a smaller --min-volume or --margin");
 
+  if (made.isGrown)
+    for (std::string& text : presenters::regionTexts(mask))
+      made.notes.push_back(std::move(text));
+  appendNotes(made);
+
   presenters::addStructures(value, segmentation::labelMapOf(mask, {options.name, 1, {}, 0}));
-  presenters::addDoubts(value.labels.back(), options.name, made.notes);
+  auto& notes = value.labels.back().notes;
+  notes.insert(notes.end(), made.notes.begin(), made.notes.end());
   if (replaced)
     presenters::keepIdentity(*scene::findStructure(value, options.name), *replaced);
   scene::findStructure(value, options.name)->tubes = made.tubes;

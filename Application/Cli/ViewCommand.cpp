@@ -180,6 +180,8 @@ void change(scene::Case& value, const ViewCommandOptions& options,
     view.tool->burr.diameter = options.diameter.value_or(view.tool->burr.diameter);
     view.tool->burr.rpm = options.rpm.value_or(view.tool->burr.rpm);
     view.tool->thrust = options.thrust.value_or(view.tool->thrust);
+    if (options.handpiece == kUsual && options.leftHand)
+      throw UsageError("--left-hand: the usual handpiece is in no hand; give an approach");
     if (options.handpiece == kUsual)
       view.tool->handpiece.reset();
     else if (!options.handpiece.empty())

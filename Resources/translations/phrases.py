@@ -369,6 +369,10 @@ space origin
 domain domain domain
 data file
 line skip
+The seed at
+The range of
+The region has
+The region reaches
 byte skip
 unsigned short
 signed char

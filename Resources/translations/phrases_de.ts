@@ -2660,6 +2660,10 @@
         <translation>Nicht aufgelöst von %#1 bis %#2 mm: %~3.</translation>
     </message>
     <message>
+        <source>Its radius of %#1 mm is the usual one of its name, and nothing that the image shows.</source>
+        <translation>Ihr Radius von %#1 mm ist der zu ihrem Namen übliche; das Bild zeigt ihn nicht.</translation>
+    </message>
+    <message>
         <source>where it is thinner than the voxels it is drawn one voxel wide, so that it has no gap: %#1 of its %#2 voxels, which its volume counts whole</source>
         <translation>wo sie dünner als die Voxel ist, wird sie ein Voxel breit gezeichnet, damit sie keine Lücke hat: %#1 ihrer %#2 Voxel, die ihr Volumen ganz zählt</translation>
     </message>
@@ -2808,8 +2812,16 @@
         <translation>Die Punkte scheinen nicht in ihrer Reihenfolge entlang der Struktur zu liegen: %1 ergäbe eine viel kürzere Linie.</translation>
     </message>
     <message>
+        <source>%~1The scan does not resolve it along %#2 of %#3: there the path is a guess between your points.</source>
+        <translation>%~1Die Aufnahme löst sie auf %#2 von %#3 nicht auf: Dort ist der Verlauf eine Vermutung zwischen Ihren Punkten.</translation>
+    </message>
+    <message>
         <source>%~1The scan does not resolve it along %#2 of %#3: there the path and its radius are a guess between your points.</source>
         <translation>%~1Die Aufnahme löst sie auf %#2 von %#3 nicht auf: Dort sind Verlauf und Radius eine Vermutung zwischen Ihren Punkten.</translation>
+    </message>
+    <message>
+        <source>%~1 The scan does not resolve it along %#2 of %#3: there the path is a guess between your points.</source>
+        <translation>%~1 Die Aufnahme löst sie auf %#2 von %#3 nicht auf: Dort ist der Verlauf eine Vermutung zwischen Ihren Punkten.</translation>
     </message>
     <message>
         <source>%~1 The scan does not resolve it along %#2 of %#3: there the path and its radius are a guess between your points.</source>

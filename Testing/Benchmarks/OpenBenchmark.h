@@ -15,8 +15,8 @@ namespace petrous::cli
 ///
 /// Error: MB of the MR that are in the cache after a first picture with an empty one, that is, what
 /// was read and is not shown: at most what the system reads ahead after a header (read_ahead_kb of
-/// the disk). `mb_read` is what of all objects is there then, `mb_shown` the size
-/// of those that are shown; both are missing where the file system keeps its pages (tmpfs).
+/// the disk). `mb_read` is what of all objects is there then, `mb_shown` the size of those that are
+/// shown; both are missing where the file system keeps its pages (tmpfs).
 ///
 /// Peer: the CT of that case read as a whole, and drawn by VTK's GPU mapper.
 ///

@@ -289,6 +289,45 @@ TEST_F(CaseBuilder, AsksAboutLabelsOnAnotherGridThanARepairedCt)
       }
 }
 
+// A gapped stack that is taken for even lies on the repaired CT's lattice, with fewer slices.
+TEST_F(CaseBuilder, AsksAboutLabelsOnTheGappedStackOfARepairedCt)
+{
+  auto value = presenters::buildCase("ear", m_sources, {});
+  const core::GridGeometry ct = value.ct.geometry;
+  const core::Index3 dims = ct.dims();
+  ASSERT_GE(dims[2], 8);
+  const auto isAsked = [&](int first, int slices, int interpolated)
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(
+        core::GridGeometry({dims[0], dims[1], slices}, ct.spacing(),
+                           ct.patientFromVoxel(Vector3d(0, 0, first)), ct.direction()),
+        std::uint16_t{0});
+    voxels->at(3, 3, 2) = 1;
+    imaging::writeLabelFile(m_folder / "stack.nrrd", volume::makeLabelMap(voxels, {}));
+    presenters::PartSources parts;
+    parts.labels = {{"vein", m_folder / "stack.nrrd"}};
+    scene::Case with = value;
+    if (interpolated > 0)
+      with.ct.provenance.interpolated = {{3, 2 + interpolated}};
+    try
+    {
+      presenters::addParts(with, parts, {});
+    }
+    catch (const presenters::LabelsUnrepaired& unrepaired)
+    {
+      EXPECT_NEAR(unrepaired.apart, interpolated * ct.spacing()[2], 1e-9);
+      return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(isAsked(0, dims[2] - 2, 2));
+  EXPECT_TRUE(isAsked(0, dims[2] - 1, 2)); // one of them was guessed before it was written
+  EXPECT_FALSE(isAsked(0, dims[2], 2)) << "all slices of the repaired CT";
+  EXPECT_FALSE(isAsked(0, dims[2] - 3, 2)) << "fewer than there are files: a cut";
+  EXPECT_FALSE(isAsked(2, dims[2] - 2, 2)) << "a cut from another slice on";
+  EXPECT_FALSE(isAsked(0, dims[2] - 2, 0)) << "nothing is missing";
+}
+
 // What was cut out of the repaired CT, or reaches beyond it, is on its voxels.
 TEST_F(CaseBuilder, AsksNotAboutLabelsOnTheVoxelsOfARepairedCt)
 {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -269,7 +270,74 @@ TEST_F(SegmentEditorTest, AClickOnABorderIsDoubtedAndTheDoubtIsKept)
   ASSERT_EQ(value.labels.size(), 1U);
   const auto& notes = value.labels.back().notes;
   ASSERT_FALSE(notes.empty());
-  EXPECT_NE(notes.front().find("'ramp': The seed at"), std::string::npos) << notes.front();
+  EXPECT_EQ(notes.front().find("The seed at"), 0U) << notes.front();
+}
+
+TEST_F(SegmentEditorTest, AnEditedStructureKeepsItsDoubts)
+{
+  open();
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  editor.setName("vein");
+  editor.create();
+  scene::Case noted = model.value();
+  noted.labels.front().notes = {"has another grid than the CT, which was repaired",
+                                "'vein': The seed at (1.0, 2.0, 3.0) mm lies on a border",
+                                "The region has 64 cm³, and hardly a structure"};
+  model.adopt(std::move(noted));
+  editor.caseChanged();
+  model.prepareNow();
+  editor.edit("vein")({})();
+  editor.setTool(Tool::Paint);
+  stroke(kBall + Vector3d(4, 0, 0), kBall + Vector3d(4, 0, 0));
+  editor.create();
+  const std::vector<std::string> kept{"has another grid than the CT, which was repaired",
+                                      "The seed at (1.0, 2.0, 3.0) mm lies on a border"};
+  ASSERT_EQ(model.value().labels.size(), 1U);
+  EXPECT_EQ(model.value().labels.front().notes, kept) << "small by now";
+}
+
+// Grown through the whole image, then cut down to the ball, which reaches none of its faces.
+TEST_F(SegmentEditorTest, ARegionIsJudgedAsItIsInTheEnd)
+{
+  open();
+  const auto grow = [this](double lower, SegmentValues::Combine combine)
+  {
+    set(
+        [&](SegmentValues& values)
+        {
+          values.lower = lower;
+          values.upper = 2100.0;
+          values.connected = true;
+          values.combine = combine;
+        });
+    editor.press(kBall, SliceOrientation::Coronal);
+    editor.release();
+    work();
+  };
+  const auto facesNoted = [this]
+  {
+    const auto& notes = model.value().labels.back().notes;
+    return std::any_of(notes.begin(), notes.end(),
+                       [](const std::string& note)
+                       { return note.find("6 of the 6 faces") != note.npos; });
+  };
+  editor.setTool(Tool::Threshold);
+  work();
+  grow(0.0, SegmentValues::Combine::Replace);
+  EXPECT_NE(editor.warning().find("6 of the 6 faces"), std::string::npos) << editor.warning();
+  step();
+  editor.setName("block");
+  editor.create();
+  EXPECT_TRUE(facesNoted());
+  EXPECT_TRUE(editor.undo());
+  editor.setTool(Tool::Threshold);
+  work();
+  grow(1960.0, SegmentValues::Combine::Intersect);
+  EXPECT_EQ(editor.warning().find("6 faces"), std::string::npos) << editor.warning();
+  step();
+  editor.create();
+  EXPECT_FALSE(facesNoted());
 }
 
 TEST_F(SegmentEditorTest, AClickOutsideProposedLimitsSetsThemAroundIt)

@@ -73,6 +73,7 @@ void ActiveDeviceController::notifyAdvice()
   for (const InputDevice& input : m_watcher.found().devices)
     advice.insert(input.advice);
   advice.insert(m_watcher.found().pedalAdvice);
+  advice.insert(m_watcher.found().hidProblem);
   advice.erase("");
   for (const std::string& line : advice)
     if (m_told.count(line) == 0)

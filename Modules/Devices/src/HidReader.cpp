@@ -61,6 +61,10 @@ void HidReader::run()
         read(*connection);
       }
     }
+    catch (const HidError& error)
+    {
+      setProblem(error.what());
+    }
     catch (const std::exception&) // out of memory: escaping the thread would terminate the program
     {
       setProblem("cannot be read");

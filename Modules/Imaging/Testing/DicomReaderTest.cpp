@@ -110,6 +110,21 @@ TEST(DicomReader, AppliesEachSlicesOwnSlope)
     EXPECT_EQ(volume.at(5, 2, k), 5 * 0.25 * (k + 1));
 }
 
+// Some writers end each value with a backslash; two values are none.
+TEST(DicomReader, ANumberMayEndWithABackslash)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 3,
+              [](int, TestSlice& s)
+              {
+                s.slope.reset();
+                s.element(s.extraPixel, 0x00281052, "DS", "7\\");
+                s.element(s.extraPixel, 0x00281053, "DS", "2\\");
+                s.cell = [](int i, int) { return static_cast<std::uint32_t>(i); };
+              });
+  EXPECT_EQ(readFolder(folder.path()).at(5, 2, 1), 17.0);
+}
+
 TEST(DicomReader, ChoosesTheSmallestTypeThatHoldsTheRealValues)
 {
   const auto typeIndex = [](const std::function<void(int, TestSlice&)>& change)

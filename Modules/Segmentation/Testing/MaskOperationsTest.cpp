@@ -147,7 +147,7 @@ TEST(RangeAround, FindsTheTissueOfTheSeedInNoise)
   const auto noisy =
       image<std::int16_t>(grid, [&](const Vector3d& p)
                           { return ((p - center).norm() <= 5.0 ? 400.0 : 0.0) + noise(random); });
-  const volume::ValueRange range = rangeAround(noisy, center, 2.5);
+  const volume::ValueRange range = rangeAround(noisy, center, std::nullopt, 2.5);
   EXPECT_GT(range.min, 200.0);
   EXPECT_LT(range.min, 370.0);
   EXPECT_GT(range.max, 430.0);

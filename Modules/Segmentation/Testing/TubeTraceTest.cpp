@@ -426,8 +426,18 @@ TEST(TubeTrace, WhereNothingIsSeenTheRadiusIsTheUsualOne)
   const Tube tube = traceTube(scan.image(), points, options);
   EXPECT_EQ(tube.smallestRadius, 0.6);
   EXPECT_EQ(tube.largestRadius, 0.6);
+  EXPECT_TRUE(hasUsualRadius(tube, options));
+  TubeOptions given = options;
+  given.radius = 0.6;
+  EXPECT_FALSE(hasUsualRadius(tube, given)) << "it is the user's";
   EXPECT_EQ(usualFor("Chorda tympani"), 0.2);
   EXPECT_FALSE(usualFor("sigmoid sinus"));
+  for (const char* other : {"facial recess", "Facial_Ridge", "facial vein", "Arteria facialis"})
+  {
+    EXPECT_FALSE(usualFor(other)) << other;
+    EXPECT_FALSE(lumenFor(other)) << other;
+    EXPECT_EQ(widestFor(other), TubeOptions{}.widest) << other;
+  }
   options.usual = 0.0;
   EXPECT_THROW(traceTube(scan.image(), points, options), core::InvalidParameter);
 }

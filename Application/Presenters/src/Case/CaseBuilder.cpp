@@ -925,6 +925,19 @@ bool isOnLatticeOf(const core::GridGeometry& grid, const core::GridGeometry& who
   return true;
 }
 
+// Whether what was drawn may be on the slices as they lie in the files: where some are missing, a
+// stack that is taken for even has the repaired image's first slice and pitch, and fewer slices.
+bool mayBeUnrepaired(const core::GridGeometry& grid, const scene::ImagePart& ct)
+{
+  if (!isOnLatticeOf(grid, ct.geometry))
+    return true;
+  const double first =
+      ct.geometry.voxelFromPatient(grid.patientFromVoxel(Eigen::Vector3d::Zero()))[2];
+  const int absent = ct.geometry.dims()[2] - grid.dims()[2];
+  return std::lround(first) == 0 && absent > 0 &&
+         absent <= volume::sliceCount(ct.provenance.interpolated);
+}
+
 // How far apart a stack that other programs take for straight and even, and the repaired image may
 // lie, mm.
 double repairedBy(const scene::ImagePart& ct)
@@ -1537,7 +1550,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     part.provenance = provenance;
     part.drawnOn = drawnOn(value, source, map.voxels->geometry());
     if (part.drawnOn.value_or("").empty() &&
-        !isOnLatticeOf(map.voxels->geometry(), value.ct.geometry))
+        mayBeUnrepaired(map.voxels->geometry(), value.ct))
       if (const double apart = repairedBy(value.ct); apart > 0.0)
       {
         if (!source.asTheyLie && !imaging::isDicomSegmentation(source.path) &&

@@ -7,7 +7,6 @@
 #include "Notify.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseNaming.h"
-#include "petrous/Presenters/RegionText.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
@@ -617,8 +616,9 @@ WorkstationModel::addStructure(volume::LabelMap labels, const std::string& repla
   {
     structure.readings = readings;
     structure.tubes = tubes;
-    addDoubts(m_case->labels.back(), structure.name, doubts);
   }
+  auto& notes = m_case->labels.back().notes;
+  notes.insert(notes.end(), doubts.begin(), doubts.end());
   if (taken)
   {
     scene::LabelPart& added = m_case->labels.back();

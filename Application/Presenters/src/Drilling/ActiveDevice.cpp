@@ -61,8 +61,9 @@ DeviceList findDevices(const DeviceSources& sources)
     if (sources.hid)
       plugged = devices::findDevices(*sources.hid);
   }
-  catch (const devices::HidError&) // servers and mouse remain; 'petrous doctor' reports why
+  catch (const devices::HidError& error) // servers and mouse remain
   {
+    found.hidProblem = error.what();
   }
   std::optional<InputDevice> cap; // the first that can be opened, as in SpaceMouseDevice
   for (const devices::FoundDevice& device : plugged)

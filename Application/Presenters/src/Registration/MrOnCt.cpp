@@ -150,7 +150,8 @@ const char* nameOf(segmentation::TubeDoubt doubt)
   return "none";
 }
 
-std::vector<std::string> unresolvedTexts(const segmentation::Tube& tube)
+std::vector<std::string> unresolvedTexts(const segmentation::Tube& tube,
+                                         const segmentation::TubeOptions& options)
 {
   constexpr double kShort = 0.5; // mm; about as far as its cross-sections are averaged along it
   std::vector<std::string> texts;
@@ -158,6 +159,9 @@ std::vector<std::string> unresolvedTexts(const segmentation::Tube& tube)
     if (stretch.to - stretch.from >= kShort)
       texts.push_back("Not resolved from " + core::fixedText(stretch.from, 1) + " to " +
                       core::fixedText(stretch.to, 1) + " mm: " + reasonOf(stretch.doubt) + ".");
+  if (segmentation::hasUsualRadius(tube, options))
+    texts.push_back("Its radius of " + core::fixedText(tube.radius, 1) +
+                    " mm is the usual one of its name, and nothing that the image shows.");
   return texts;
 }
 

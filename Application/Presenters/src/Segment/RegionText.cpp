@@ -1,7 +1,11 @@
 #include "petrous/Presenters/RegionText.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/PositionText.h"
+#include "petrous/Scene/GoneNames.h"
 
 namespace petrous::presenters
 {
@@ -11,13 +15,20 @@ namespace
 
 constexpr double kAir = -400.0; // HU; air is below, as the contours of a border to air have it
 constexpr double kPerCubicCentimetre = 1e3;
+constexpr const char* kSeed = "The seed at ";
+constexpr const char* kRange = "The range of ";
+constexpr const char* kRegions[] = {"The region has ", "The region reaches "};
+
+bool startsWith(const std::string& text, const std::string& words)
+{
+  return text.compare(0, words.size(), words) == 0;
+}
 
 } // namespace
 
-std::string seedText(const volume::IntensityVolume& image, const Eigen::Vector3d& seed,
-                     const std::string& unit)
+std::string seedText(const std::optional<segmentation::SeedSurroundings>& surroundings,
+                     const Eigen::Vector3d& seed, const std::string& unit)
 {
-  const auto surroundings = segmentation::surroundingsOf(image, seed);
   if (!surroundings || !surroundings->isBorder)
     return {};
   const std::string place = core::positionText(seed);
@@ -32,17 +43,19 @@ std::string seedText(const volume::IntensityVolume& image, const Eigen::Vector3d
          core::positionText(*surroundings->inside) + " lies inside.";
 }
 
-std::vector<std::string> regionTexts(const segmentation::Mask& region,
-                                     const volume::ValueRange& range, const std::string& unit,
-                                     const std::optional<double>& iso)
+std::string rangeText(const volume::ValueRange& range, const std::string& unit,
+                      const std::optional<double>& iso)
 {
-  const segmentation::RegionDoubts doubts = segmentation::doubtsOf(
-      region, range, iso ? std::optional(volume::ValueRange{kAir, *iso}) : std::nullopt);
+  if (!iso || range.min >= kAir || range.max <= *iso)
+    return {};
+  return "The range of " + core::fixedText(range.min, 0) + " to " + core::fixedText(range.max, 0) +
+         unit + " reaches from air to bone: it is that of no tissue.";
+}
+
+std::vector<std::string> regionTexts(const segmentation::Mask& region)
+{
+  const segmentation::RegionDoubts doubts = segmentation::doubtsOf(region);
   std::vector<std::string> texts;
-  if (doubts.spans)
-    texts.push_back("The range of " + core::fixedText(doubts.spans->min, 0) + " to " +
-                    core::fixedText(doubts.spans->max, 0) + unit +
-                    " reaches from air to bone: it is that of no tissue.");
   if (doubts.volume)
     texts.push_back(
         "The region has " + core::fixedText(*doubts.volume / kPerCubicCentimetre, 0) +
@@ -55,11 +68,31 @@ std::vector<std::string> regionTexts(const segmentation::Mask& region,
   return texts;
 }
 
-void addDoubts(scene::LabelPart& part, const std::string& name,
-               const std::vector<std::string>& doubts)
+StructureNotes notesOf(const scene::LabelPart& part, const std::string& structure)
 {
-  for (const std::string& text : doubts)
-    part.notes.push_back("'" + name + "': " + text);
+  scene::Case alone; // of the file's other structures, and of what was left out, it has none
+  alone.labels.push_back(part);
+  auto& structures = alone.labels.front().structures;
+  structures.erase(std::remove_if(structures.begin(), structures.end(),
+                                  [&structure](const auto& one) { return one.name != structure; }),
+                   structures.end());
+  StructureNotes notes;
+  for (const std::string& note : part.notes)
+  {
+    if (part.structures.size() > 1 && !scene::quotesOnlyParts(alone, note))
+      continue;
+    // Earlier versions named the structure before such a sentence.
+    const std::string named = "'" + structure + "': ";
+    const std::string text = startsWith(note, named) ? note.substr(named.size()) : note;
+    const bool isOfRegion =
+        std::any_of(std::begin(kRegions), std::end(kRegions),
+                    [&text](const char* words) { return startsWith(text, words); });
+    notes.isGrown =
+        notes.isGrown || isOfRegion || startsWith(text, kSeed) || startsWith(text, kRange);
+    if (!isOfRegion)
+      notes.texts.push_back(text);
+  }
+  return notes;
 }
 
 } // namespace petrous::presenters

@@ -238,7 +238,8 @@ std::optional<volume::ValueRange> lumenOf(const std::string& name, const Intensi
   return display.hounsfield && !isMr ? segmentation::lumenFor(name) : std::nullopt;
 }
 
-std::string warningOf(const Tube& tube, const segmentation::TubeLabel& label)
+std::string warningOf(const Tube& tube, const segmentation::TubeOptions& options,
+                      const segmentation::TubeLabel& label)
 {
   std::string text;
   if (const std::string order = likelyOrderText(tube.points); !order.empty())
@@ -251,8 +252,9 @@ std::string warningOf(const Tube& tube, const segmentation::TubeLabel& label)
     return text;
   return text + (text.empty() ? "" : " ") + "The scan does not resolve it along " +
          millimetres(left, 1) + " of " + millimetres(tube.length, 1) +
-         ": there the path and its radius are a guess between your "
-         "points.";
+         (segmentation::hasUsualRadius(tube, options)
+              ? ": there the path is a guess between your points."
+              : ": there the path and its radius are a guess between your points.");
 }
 
 } // namespace
@@ -260,8 +262,9 @@ std::string warningOf(const Tube& tube, const segmentation::TubeLabel& label)
 /// The image that the tools read, as it is and on the CT's grid.
 struct SegmentEditor::SourceImage
 {
-  Image own;  ///< on its own grid
-  Image onCt; ///< nullptr: to be made
+  Image own;                               ///< on its own grid
+  Image onCt;                              ///< nullptr: to be made
+  std::optional<volume::ValueRange> usual; ///< segmentation::usualRange of onCt; none: not known
   core::RigidTransform ownFromCt;
   core::GridGeometry ct;
   std::string mr; ///< empty: the primary image
@@ -277,20 +280,41 @@ struct SegmentEditor::SourceImage
       onCt = mrOnCt(*own, ct, ownFromCt, progress);
     return onCt;
   }
+
+  /// Of `onCt`, which is there.
+  const std::optional<volume::ValueRange>& usualRange()
+  {
+    if (!usual)
+      usual = segmentation::usualRange(*onCt);
+    return usual;
+  }
 };
 
 /// What the draft would be with the tool's result.
 struct SegmentEditor::Preview
 {
+  struct Made // by the step, of what comes with its voxels
+  {
+    scene::TracedTubes tubes;
+    Sentences doubts;
+    bool isGrown = false; ///< from seeds
+  };
+
   std::optional<Mask> result; ///< none: computed only in slices, `range`
   std::shared_ptr<const Tube> tube;
-  scene::TracedTubes traced;               ///< that tube
+  Made made;
   std::optional<volume::ValueRange> range; ///< that was used
   std::optional<Eigen::Vector3d> seed;     ///< of the region that is proposed
   Image image;                             ///< the source on the CT's grid, if it was made
+  std::optional<volume::ValueRange> usual; ///< of that image, if it was computed
   std::string note, warning;
-  std::vector<std::string> doubts; ///< what makes a grown region doubtful, sentences
-  std::optional<Pieces> pieces;    ///< of the result; one: none
+  std::optional<Pieces> pieces; ///< of the result; one: none
+
+  void warn(const Sentences& texts)
+  {
+    for (const std::string& text : texts)
+      warning += (warning.empty() ? "" : " ") + text;
+  }
 };
 
 /// Everything that a draft consists of.
@@ -312,36 +336,45 @@ struct SegmentEditor::Draft
     std::optional<std::pair<scene::MrReadings, scene::MrReadings>> readings; ///< before and after
     std::optional<std::pair<scene::TracedTubes, scene::TracedTubes>> tubes;  ///< before and after
     std::optional<std::pair<Sentences, Sentences>> doubts;                   ///< before and after
+    std::optional<std::pair<bool, bool>> grown;                              ///< before and after
   };
 
   // `afresh`: the step makes all voxels anew.
-  void read(Step& step, const scene::MrReadings& read, bool afresh,
-            const scene::TracedTubes& traced = {}, const Sentences& doubted = {})
+  void read(Step& step, const scene::MrReadings& read, bool afresh, const Preview::Made& made = {})
   {
     if (!step.mask)
       return;
+    const bool isEmpty = mask.count() == 0; // nothing is left of what all this is of
+    afresh = afresh || isEmpty;
     scene::MrReadings after = afresh ? scene::MrReadings() : readings;
-    scene::addReadings(after, read);
+    if (!isEmpty)
+      scene::addReadings(after, read);
     if (after != readings)
     {
       step.readings = {readings, after};
       readings = std::move(after);
     }
     scene::TracedTubes all = afresh ? scene::TracedTubes() : tubes;
-    all += traced;
+    all += made.tubes;
     if (!(all == tubes))
     {
       step.tubes = {tubes, all};
       tubes = all;
     }
     Sentences doubtful = afresh ? Sentences() : doubts;
-    for (const std::string& text : doubted)
+    for (const std::string& text : made.doubts)
       if (std::find(doubtful.begin(), doubtful.end(), text) == doubtful.end())
         doubtful.push_back(text);
     if (doubtful != doubts)
     {
       step.doubts = {doubts, doubtful};
       doubts = std::move(doubtful);
+    }
+    const bool isAnyGrown = made.isGrown || (isGrown && !afresh);
+    if (isAnyGrown != isGrown)
+    {
+      step.grown = {isGrown, isAnyGrown};
+      isGrown = isAnyGrown;
     }
   }
 
@@ -367,7 +400,8 @@ struct SegmentEditor::Draft
   Points points;                                                 ///< of the nerve
   scene::MrReadings readings;                                    ///< of the voxels
   scene::TracedTubes tubes;                                      ///< among the voxels
-  Sentences doubts;                                              ///< of regions among them
+  Sentences doubts;                                              ///< of what was done
+  bool isGrown = false; ///< from seeds, so that the finished structure is judged (regionTexts)
   std::vector<Step> undo, redo;
   std::uint64_t changes = 0;                              ///< steps ever made
   std::optional<std::pair<Pieces, std::uint64_t>> pieces; ///< and `changes` by then
@@ -721,6 +755,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
   return [this, draft = m_draft, labels = scene::labelsOnCt(m_model.value(), *part),
           map = part->labels.get(), index = found->index, look = found->look, structure,
           readings = readingsOf(m_model.value(), *part, *found), tubes = found->tubes,
+          notes = notesOf(*part, structure),
           volume = static_cast<double>(found->voxels) *
                    part->labels.get()->voxels->geometry().voxelVolume(),
           ct = m_model.value().ct.geometry, primary = std::string(primaryName(m_model.value()))](
@@ -733,7 +768,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
                   core::fixedText(static_cast<double>(mask->count()) * ct.voxelVolume(), 1) +
                   " mm³ for " + core::fixedText(volume, 1) +
                   " mm³. Saving replaces what was drawn.";
-    return [this, draft, mask, map, index, structure, look, resampled, readings, tubes]
+    return [this, draft, mask, map, index, structure, look, resampled, readings, tubes, notes]
     {
       if (draft != m_draft)
         return;
@@ -746,6 +781,8 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
       draft->editedLook = look;
       draft->readings = readings;
       draft->tubes = tubes;
+      draft->doubts = notes.texts;
+      draft->isGrown = notes.isGrown;
       chooseColor();
       touched();
     };
@@ -1269,7 +1306,8 @@ SegmentEditor::Computed SegmentEditor::computed() const
   case Tool::Threshold:
     return [base, values, image = *m_image, seeds = m_draft->seeds, propose = m_proposeDue,
             isOwn = m_isOwnRange, iso = surfaceIntensity(), isMr = isSourceMr(),
-            unit = display().suffix()](const core::Progress& progress) mutable
+            unit = display().suffix(),
+            isHounsfield = display().hounsfield](const core::Progress& progress) mutable
     {
       Preview preview;
       preview.image = image.made(progress.part(0.0, 0.4));
@@ -1294,9 +1332,16 @@ SegmentEditor::Computed SegmentEditor::computed() const
       }
       // The clicked point says what is looked for, unless the limits were entered.
       const bool isClicked = values.connected && !seeds.empty();
+      std::optional<segmentation::SeedSurroundings> surroundings;
+      if (isClicked && !isOwn)
+      {
+        preview.usual = image.usualRange();
+        surroundings = segmentation::surroundingsOf(*preview.image, seeds.back(), preview.usual);
+      }
       if (isClicked && (propose || (!isOwn && !isWithin(*preview.image, seeds.back(), range))))
       {
-        range = segmentation::rangeAround(*preview.image, seeds.back(), kDeviations, rest);
+        range = segmentation::rangeAround(*preview.image, seeds.back(), surroundings, kDeviations,
+                                          rest);
         preview.note = "The limits were set around the clicked point.";
       }
       else if (propose)
@@ -1310,17 +1355,18 @@ SegmentEditor::Computed SegmentEditor::computed() const
       const Mask grown =
           isClicked ? segmentation::connectedThreshold(*preview.image, range, seeds, rest, unit)
                     : segmentation::threshold(*preview.image, range, rest);
+      preview.result = united(base, grown, values.combine);
       if (isClicked)
       {
-        const std::string seed = isOwn ? "" : seedText(*preview.image, seeds.back(), unit);
-        if (!seed.empty())
-          preview.doubts.push_back(seed);
-        for (std::string& text : regionTexts(grown, range, unit, unit.empty() ? std::nullopt : iso))
-          preview.doubts.push_back(std::move(text));
-        for (const std::string& text : preview.doubts)
-          preview.warning += (preview.warning.empty() ? "" : " ") + text;
+        preview.made.isGrown = true;
+        for (std::string text :
+             {seedText(surroundings, seeds.back(), unit),
+              rangeText(range, unit, isHounsfield && !isMr ? iso : std::nullopt)})
+          if (!text.empty())
+            preview.made.doubts.push_back(std::move(text));
+        preview.warn(preview.made.doubts);
+        preview.warn(regionTexts(*preview.result));
       }
-      preview.result = united(base, grown, values.combine);
       return preview;
     };
   case Tool::Nerve:
@@ -1345,11 +1391,10 @@ SegmentEditor::Computed SegmentEditor::computed() const
           noteOf(tube, options.radius || options.widest == segmentation::TubeOptions().widest
                            ? std::nullopt
                            : std::optional(options.widest));
-      preview.warning = warningOf(tube, label);
-      preview.doubts = unresolvedTexts(tube);
-      for (const std::string& text : preview.doubts)
-        preview.warning += (preview.warning.empty() ? "" : " ") + text;
-      preview.traced = tracedTubes(tube, label);
+      preview.warning = warningOf(tube, options, label);
+      preview.made.doubts = unresolvedTexts(tube, options);
+      preview.warn(preview.made.doubts);
+      preview.made.tubes = tracedTubes(tube, label);
       preview.tube = std::make_shared<const Tube>(std::move(tube));
       preview.result = united(base, segmentation::maskOf(label.map, 1), Combine::Add);
       return preview;
@@ -1400,7 +1445,11 @@ SegmentEditor::Computed SegmentEditor::computed() const
 void SegmentEditor::show(const Preview& preview)
 {
   if (preview.image && m_image)
+  {
     m_image->onCt = preview.image;
+    if (preview.usual)
+      m_image->usual = preview.usual;
+  }
   if (preview.range && (m_proposeDue || !m_isOwnRange))
   {
     m_values.lower = preview.range->min;
@@ -1559,13 +1608,12 @@ SegmentEditor::Work SegmentEditor::replacing(const char* what,
       box = draft->mask.replace(*preview->result);
       changed = draft->mask.endStep();
       draft->pending = [draft = draft.get(), changed, endsTool, what, reads,
-                        pieces = preview->pieces, traced = preview->traced,
-                        doubts = preview->doubts]
+                        pieces = preview->pieces, made = preview->made]
       {
         Draft::Step step;
         step.what = what;
         step.mask = changed;
-        draft->read(step, reads.readings, reads.afresh, traced, doubts);
+        draft->read(step, reads.readings, reads.afresh, made);
         if (endsTool)
         {
           if (!draft->seeds.empty())
@@ -1853,6 +1901,8 @@ std::function<void()> SegmentEditor::step(Draft& draft, bool back)
       draft->tubes = back ? step.tubes->first : step.tubes->second;
     if (step.doubts)
       draft->doubts = back ? step.doubts->first : step.doubts->second;
+    if (step.grown)
+      draft->isGrown = back ? step.grown->first : step.grown->second;
     if (step.points)
       draft->points = back ? step.points->first : step.points->second;
     if (step.seeds)
@@ -1916,15 +1966,14 @@ SegmentEditor::Work SegmentEditor::createWork()
   if (const std::string why = whyNotCreate(); !why.empty())
     throw core::InvalidParameter(why);
   const std::optional<Mask> preview = m_preview ? m_preview->result : std::nullopt;
-  const scene::TracedTubes traced = m_preview ? m_preview->traced : scene::TracedTubes();
-  const Sentences doubts = m_preview ? m_preview->doubts : Sentences();
+  const Preview::Made made = m_preview ? m_preview->made : Preview::Made();
   beginStep();
   volume::Segment segment;
   segment.name = m_draft->name;
   segment.index = 1;
   touched();
   return [this, draft = m_draft, mask = *m_frozen->result, preview = preview.has_value(), segment,
-          what = nameOf(m_tool), traced, doubts,
+          what = nameOf(m_tool), made,
           reads = preview ? readsOfTool() : Reads()](const core::Progress& progress) -> Apply
   {
     progress.report(0.0, "making the structure");
@@ -1935,26 +1984,29 @@ SegmentEditor::Work SegmentEditor::createWork()
       draft->mask.beginStep();
       draft->mask.replace(mask);
       const bool changed = draft->mask.endStep();
-      draft->pending = [draft = draft.get(), changed, what, reads, traced, doubts]
+      draft->pending = [draft = draft.get(), changed, what, reads, made]
       {
         Draft::Step step;
         step.what = what;
         step.mask = changed;
-        draft->read(step, reads.readings, reads.afresh, traced, doubts);
+        draft->read(step, reads.readings, reads.afresh, made);
         draft->did(std::move(step));
       };
     }
-    return [this, draft, labels, name = segment.name]
+    return [this, draft, labels, name = segment.name, region = regionTexts(mask)]
     {
       if (draft != m_draft)
         return;
       endStep();
       dropPreview();
+      Sentences notes = draft->doubts;
+      if (draft->isGrown)
+        notes.insert(notes.end(), region.begin(), region.end());
       std::optional<scene::LabelPart> replaced;
       try
       {
         replaced = m_model.addStructure(std::move(*labels), draft->edited, readingsOfDraft(),
-                                        draft->tubes, draft->doubts);
+                                        draft->tubes, notes);
       }
       catch (const core::InvalidParameter& error) // its name has been taken meanwhile
       {

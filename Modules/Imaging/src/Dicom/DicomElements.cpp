@@ -502,7 +502,8 @@ std::vector<double> DicomElements::numbers(Tag tag, std::size_t count) const
 
 std::optional<double> DicomElements::number(Tag tag) const
 {
-  return parseDouble(text(tag)); // several are none
+  const std::vector<double> values = numbers(tag, 1); // several are none
+  return values.empty() ? std::nullopt : std::optional<double>(values.front());
 }
 
 std::optional<double> DicomElements::real(Tag tag) const

@@ -302,9 +302,14 @@ void readPixelFormat(const DicomElements& elements, SliceHeader& slice)
 /// Whether the table moved while the source turned, which it does in no cone-beam scanner.
 bool isHelical(const DicomElements& elements)
 {
-  const std::string options = elements.text(0x00180022); // "HELICAL MODE", "HELICAL_CT"
+  const auto says = [](const std::string& option) // "HELICAL MODE", "HELICAL_CT"; "NON-HELICAL"
+  {
+    const std::size_t at = std::min(option.find("HELI"), option.find("SPIRAL"));
+    return at != std::string::npos && option.rfind("NON", at) == std::string::npos;
+  };
+  const std::vector<std::string> options = elements.words(0x00180022);
   return elements.text(0x00189302) == "SPIRAL" || elements.real(0x00189311).value_or(0.0) > 0.0 ||
-         options.find("HELI") != std::string::npos || options.find("SPIRAL") != std::string::npos;
+         std::any_of(options.begin(), options.end(), says);
 }
 
 /// What is wrong with the rescale, or an empty string.

@@ -20,7 +20,7 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr const char* kMethod = "dicom headers 11"; // increment with the fields below
+constexpr const char* kMethod = "dicom headers 12"; // increment with the fields below
 constexpr std::int64_t kCoarsest = 2'000'000'000;   // ns; FAT
 constexpr std::size_t kSampled = 8;                 // files
 constexpr std::size_t kSample = 4096;               // bytes

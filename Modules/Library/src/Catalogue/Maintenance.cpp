@@ -340,7 +340,7 @@ std::vector<DeletedCase> Library::deleted() const
 std::string Library::deletedName(const std::string& id, const std::string& name) const
 {
   const fs::path folder = m_folder / "cases";
-  const bool isThere = !name.empty() && idIn(folder / (name + ".json"), name) == id;
+  const bool isThere = !name.empty() && idIn(manifestPath(name), name) == id;
   if (id.empty() || isThere || !namesOf(folder, id).empty())
     return {};
   for (const DeletedFile& file : deletedIn(folder))

@@ -1,11 +1,11 @@
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "MaskBuilding.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/PositionText.h"
 #include "petrous/Segmentation/MaskOperations.h"
-#include "petrous/Segmentation/RegionDoubts.h"
 
 // Regions that grow from points and strokes.
 namespace petrous::segmentation
@@ -113,6 +113,7 @@ Mask connectedThreshold(const volume::IntensityVolume& image, const volume::Valu
 }
 
 volume::ValueRange rangeAround(const volume::IntensityVolume& image, const Eigen::Vector3d& seed,
+                               const std::optional<SeedSurroundings>& surroundings,
                                double deviations, const core::Progress& progress)
 {
   if (!(deviations > 0.0) || !std::isfinite(deviations))
@@ -138,14 +139,15 @@ volume::ValueRange rangeAround(const volume::IntensityVolume& image, const Eigen
     }
   };
   Moments near;
-  const auto surroundings = surroundingsOf(image, seed); // of two tissues only the seed's counts
   core::IndexBox box{at, {at[0] + 1, at[1] + 1, at[2] + 1}};
   box = padded(box, {2, 2, 2}, image.geometry());
+  const std::vector<std::uint8_t> isOwn = surroundings ? ownVoxels(image, at, box, *surroundings)
+                                                       : std::vector<std::uint8_t>(box.count(), 1);
+  std::size_t place = 0;
   for (int k = box.lower[2]; k < box.upper[2]; ++k)
     for (int j = box.lower[1]; j < box.upper[1]; ++j)
       for (int i = box.lower[0]; i < box.upper[0]; ++i)
-        if (const double value = image.at(i, j, k);
-            within(value) && (!surroundings || surroundings->isOwn(value)))
+        if (const double value = image.at(i, j, k); isOwn[place++] != 0 && within(value))
           near.add(value);
   if (near.count == 0.0 || !within(image.at(at[0], at[1], at[2])))
     throw core::InvalidParameter("region: the image has no value at the seed; choose a point "

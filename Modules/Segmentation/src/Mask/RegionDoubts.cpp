@@ -35,6 +35,16 @@ core::IndexBox around(const core::Index3& at, const core::Index3& reach,
   return padded({at, {at[0] + 1, at[1] + 1, at[2] + 1}}, reach, grid);
 }
 
+std::size_t placeIn(const core::IndexBox& box, const core::Index3& at)
+{
+  const core::Index3 size = box.size();
+  std::size_t place = 0;
+  for (std::size_t a = 3; a-- > 0;)
+    place =
+        place * static_cast<std::size_t>(size[a]) + static_cast<std::size_t>(at[a] - box.lower[a]);
+  return place;
+}
+
 std::optional<Eigen::Vector3d> insideOf(const volume::IntensityVolume& image,
                                         const core::Index3& seed,
                                         const SeedSurroundings& surroundings)
@@ -44,18 +54,21 @@ std::optional<Eigen::Vector3d> insideOf(const volume::IntensityVolume& image,
   core::Index3 reach;
   for (std::size_t a = 0; a < 3; ++a)
     reach[a] = static_cast<int>(kReach / grid.spacing()[static_cast<Eigen::Index>(a)]);
+  const core::IndexBox box = around(seed, reach, grid);
+  const std::vector<std::uint8_t> own = ownVoxels(image, seed, box, surroundings);
   double nearest = kReach;
   std::optional<Eigen::Vector3d> inside;
-  forEachIn(image, around(seed, reach, grid),
+  forEachIn(image, box,
             [&](const core::Index3& at, double)
             {
               const double distance =
                   Eigen::Vector3d(at[0] - seed[0], at[1] - seed[1], at[2] - seed[2])
                       .cwiseProduct(grid.spacing())
                       .norm();
-              if (distance <= nearest && forEachIn(image, around(at, {2, 2, 2}, grid),
-                                                   [&](const core::Index3&, double value)
-                                                   { return surroundings.isOwn(value); }))
+              if (distance <= nearest && own[placeIn(box, at)] != 0 &&
+                  forEachIn(image, around(at, {2, 2, 2}, grid),
+                            [&](const core::Index3&, double value)
+                            { return surroundings.isNearOwn(value); }))
               {
                 nearest = distance;
                 inside = grid.patientFromVoxel(Eigen::Vector3d(at[0], at[1], at[2]));
@@ -67,8 +80,51 @@ std::optional<Eigen::Vector3d> insideOf(const volume::IntensityVolume& image,
 
 } // namespace
 
+volume::ValueRange usualRange(const volume::IntensityVolume& image)
+{
+  constexpr double kOutlying = 0.01;
+  const volume::IntensityHistogram whole(image);
+  return {whole.percentile(kOutlying), whole.percentile(1.0 - kOutlying)};
+}
+
+std::vector<std::uint8_t> ownVoxels(const volume::IntensityVolume& image, const core::Index3& seed,
+                                    const core::IndexBox& box, const SeedSurroundings& surroundings)
+{
+  std::vector<std::uint8_t> isCandidate(box.count(), 0);
+  forEachIn(image, box,
+            [&](const core::Index3& at, double value)
+            {
+              isCandidate[placeIn(box, at)] = surroundings.isNearOwn(value);
+              return true;
+            });
+  std::vector<std::uint8_t> own(box.count(), 0);
+  std::vector<core::Index3> open{seed};
+  own[placeIn(box, seed)] = 1;
+  while (!open.empty())
+  {
+    const core::Index3 at = open.back();
+    open.pop_back();
+    for (std::size_t a = 0; a < 3; ++a)
+      for (const int step : {-1, 1})
+      {
+        core::Index3 next = at;
+        next[a] += step;
+        if (!box.contains(next))
+          continue;
+        const std::size_t place = placeIn(box, next);
+        if (isCandidate[place] != 0 && own[place] == 0)
+        {
+          own[place] = 1;
+          open.push_back(next);
+        }
+      }
+  }
+  return own;
+}
+
 std::optional<SeedSurroundings> surroundingsOf(const volume::IntensityVolume& image,
-                                               const Eigen::Vector3d& seed)
+                                               const Eigen::Vector3d& seed,
+                                               const std::optional<volume::ValueRange>& usual)
 {
   constexpr double kLeastShare = 0.05; // of the voxels, in either class
   constexpr double kLeastStep = 0.1;   // of the image's range
@@ -116,12 +172,13 @@ std::optional<SeedSurroundings> surroundingsOf(const volume::IntensityVolume& im
   for (const Class& of : classes)
     within += of.squares - of.count * of.mean() * of.mean();
   const double step = found.brighter - found.darker;
-  if (step <= kLeastRatio * std::sqrt(std::max(within / all, 0.0)))
+  const double deviation = std::sqrt(std::max(within / all, 0.0));
+  if (step <= kLeastRatio * deviation)
     return std::nullopt;
-  const volume::IntensityHistogram whole(image);
-  constexpr double kOutlying = 0.01;
-  if (step < kLeastStep * (whole.percentile(1.0 - kOutlying) - whole.percentile(kOutlying)))
+  const volume::ValueRange whole = usual ? *usual : usualRange(image);
+  if (step < kLeastStep * (whole.max - whole.min))
     return std::nullopt;
+  found.width = std::max(0.5 * step, kLeastRatio * deviation);
 
   found.isBrighter = image.at(at[0], at[1], at[2]) >= found.limit;
   found.isBorder =
@@ -132,8 +189,7 @@ std::optional<SeedSurroundings> surroundingsOf(const volume::IntensityVolume& im
   return found;
 }
 
-RegionDoubts doubtsOf(const Mask& region, const volume::ValueRange& range,
-                      const std::optional<volume::ValueRange>& airToBone)
+RegionDoubts doubtsOf(const Mask& region)
 {
   RegionDoubts doubts;
   if (region.volume() > RegionDoubts::kMostVolume)
@@ -148,8 +204,6 @@ RegionDoubts doubtsOf(const Mask& region, const volume::ValueRange& range,
     if (faces > RegionDoubts::kMostFaces)
       doubts.faces = faces;
   }
-  if (airToBone && range.min < airToBone->min && range.max > airToBone->max)
-    doubts.spans = range;
   return doubts;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <utility>
@@ -246,6 +247,18 @@ std::vector<std::uint8_t> straysOf(const Tube& tube, const std::vector<double>& 
   return strays;
 }
 
+/// Whether a nerve is called by one of these words, in lower case, and not what is named after it,
+/// such as the facial recess, an air space, and the facial artery.
+bool isNamed(std::string_view name, std::initializer_list<const char*> words)
+{
+  const std::string lower = lowerCase(name);
+  const auto has = [&lower](const char* word) { return lower.find(word) != lower.npos; };
+  constexpr std::array<const char*, 8> kNamedAfter{"recess", "ridge", "sinus",  "vein",
+                                                   "vena",   "arter", "muscle", "collicul"};
+  return std::any_of(words.begin(), words.end(), has) &&
+         std::none_of(kNamedAfter.begin(), kNamedAfter.end(), has);
+}
+
 /// Half of the segments on either side of a vertex, mm.
 double shareOf(const std::vector<double>& lengths, std::size_t vertex)
 {
@@ -417,7 +430,7 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
   const std::vector<double> lengths = arcLengths(tube.line);
   tube.length = lengths.back();
   placePoints(tube);
-  const std::vector<std::uint8_t> strays = straysOf(tube, lengths, TubeOptions{}.reach);
+  const std::vector<std::uint8_t> strays = straysOf(tube, lengths, options.reach);
   const double lumen = medianOf(line.lumen);
   const double contrast = medianOf(line.contrast);
   for (std::size_t i = 0; i < n; ++i)
@@ -490,6 +503,11 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
   return tube;
 }
 
+bool hasUsualRadius(const Tube& tube, const TubeOptions& options)
+{
+  return !options.radius && options.usual && tube.resolvedLength == 0.0;
+}
+
 std::vector<TubeStretch> unresolvedStretches(const Tube& tube)
 {
   std::vector<TubeStretch> stretches;
@@ -516,27 +534,23 @@ std::vector<TubeStretch> unresolvedStretches(const Tube& tube)
 
 std::optional<volume::ValueRange> lumenFor(std::string_view name)
 {
-  const std::string lower = lowerCase(name);
-  for (const char* word : {"nerv", "chorda", "facial"})
-    if (lower.find(word) != lower.npos)
-      return volume::ValueRange{-500.0, 700.0}; // soft tissue 40, air -1000, cortical bone 1400 HU
+  if (isNamed(name, {"nerv", "chorda", "facial"}))
+    return volume::ValueRange{-500.0, 700.0}; // soft tissue 40, air -1000, cortical bone 1400 HU
   return std::nullopt;
 }
 
 double widestFor(std::string_view name)
 {
-  const std::string lower = lowerCase(name);
-  if (lower.find("chorda") != lower.npos)
+  if (isNamed(name, {"chorda"}))
     return 0.5;
-  return lower.find("facial") != lower.npos ? 1.3 : TubeOptions{}.widest;
+  return isNamed(name, {"facial"}) ? 1.3 : TubeOptions{}.widest;
 }
 
 std::optional<double> usualFor(std::string_view name)
 {
-  const std::string lower = lowerCase(name);
-  if (lower.find("chorda") != lower.npos)
+  if (isNamed(name, {"chorda"}))
     return 0.2;
-  return lower.find("facial") != lower.npos ? std::optional(0.6) : std::nullopt;
+  return isNamed(name, {"facial"}) ? std::optional(0.6) : std::nullopt;
 }
 
 std::size_t insertionIndex(const Tube& tube, const Vector3d& point)

@@ -40,11 +40,13 @@ struct DeviceList
   std::vector<InputDevice> devices{InputDevice()}; ///< the mouse first
   bool pedal = false;                              ///< one is connected and can be opened
   std::string pedalAdvice; ///< what to do about an unusable one; usually empty
+  std::string hidProblem;  ///< why neither SpaceMouse nor pedal can be looked for; usually empty
 };
 
 inline bool operator==(const DeviceList& a, const DeviceList& b)
 {
-  return a.devices == b.devices && a.pedal == b.pedal && a.pedalAdvice == b.pedalAdvice;
+  return a.devices == b.devices && a.pedal == b.pedal && a.pedalAdvice == b.pedalAdvice &&
+         a.hidProblem == b.hidProblem;
 }
 
 /// Where input devices are searched for.

@@ -39,8 +39,10 @@ scene::TracedTubes tracedTubes(const segmentation::Tube& tube,
                                const segmentation::TubeLabel& label);
 
 /// Where the image does not resolve a tube, and why, a sentence for each stretch of half a
-/// millimetre and more; millimetres along the line from the first point.
-std::vector<std::string> unresolvedTexts(const segmentation::Tube& tube);
+/// millimetre and more; millimetres along the line from the first point. And that its radius is
+/// the usual one, if so. `options`: with which it was traced.
+std::vector<std::string> unresolvedTexts(const segmentation::Tube& tube,
+                                         const segmentation::TubeOptions& options);
 
 /// Why, as JSON says it: "faint", "thin".
 const char* nameOf(segmentation::TubeDoubt doubt);

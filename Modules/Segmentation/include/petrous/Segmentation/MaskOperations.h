@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "petrous/Segmentation/Mask.h"
+#include "petrous/Segmentation/RegionDoubts.h"
 #include "petrous/Volume/IntensityHistogram.h"
 #include "petrous/Volume/IntensityVolume.h"
 
@@ -28,9 +29,10 @@ Mask connectedThreshold(const volume::IntensityVolume& image, const volume::Valu
                         const core::Progress& progress = {}, const std::string& unit = {});
 
 /// The range of intensities around a seed: mean +- `deviations` standard deviations of its 5^3
-/// neighbourhood, of which only the seed's class counts where it has two (surroundingsOf), refined
-/// in the region that they connect (three rounds).
+/// neighbourhood, of which only the seed's class counts where it has two (ownVoxels), refined in
+/// the region that they connect (three rounds). `surroundings`: surroundingsOf this seed.
 volume::ValueRange rangeAround(const volume::IntensityVolume& image, const Eigen::Vector3d& seed,
+                               const std::optional<SeedSurroundings>& surroundings,
                                double deviations = 2.5, const core::Progress& progress = {});
 
 /// Thresholds that separate the histogram in `classes` (2 to 4) classes with the largest variance

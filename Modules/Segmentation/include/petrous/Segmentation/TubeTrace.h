@@ -146,6 +146,9 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Eigen::Ve
                const TubeOptions& options = {}, const core::Progress& progress = {},
                const Tube* before = nullptr);
 
+/// Whether the image resolves nothing of the tube, so that it has TubeOptions::usual throughout.
+bool hasUsualRadius(const Tube& tube, const TubeOptions& options);
+
 /// A part of a tube that the image does not resolve.
 struct TubeStretch
 {
@@ -157,18 +160,19 @@ struct TubeStretch
 /// The parts of a tube that the image does not resolve, in their order.
 std::vector<TubeStretch> unresolvedStretches(const Tube& tube);
 
-/// TubeOptions::lumen for a structure of this name on a CT in Hounsfield units: of a nerve (by its
-/// name, or a chorda tympani) half of the way from soft tissue to air and to cortical bone, as
-/// partial volume and blur take a resolved lumen no farther. Of any other unset.
+/// TubeOptions::lumen for a structure of this name on a CT in Hounsfield units: of a nerve ("nerv",
+/// "chorda" or "facial" in its name) half of the way from soft tissue to air and to cortical bone,
+/// as partial volume and blur take a resolved lumen no farther. Of any other unset, as of what is
+/// named after a nerve: recess, ridge, sinus, vein, artery, muscle, colliculus.
 std::optional<volume::ValueRange> lumenFor(std::string_view name);
 
 /// TubeOptions::widest for a structure of this name, mm: a chorda tympani or its canal is below 0.5
-/// [normal canals are up to about 0.9 mm wide], a facial nerve in its canal below 1.3; else the
-/// option's default.
+/// [normal canals are up to about 0.9 mm wide], a facial nerve in its canal below 1.3; else, and
+/// of what is named after them (lumenFor), the option's default.
 double widestFor(std::string_view name);
 
 /// TubeOptions::usual for a structure of this name, mm; our choice: 0.6 of a facial nerve, 0.2 of a
-/// chorda tympani. Of any other unset.
+/// chorda tympani. Of any other unset, also of what is named after them (lumenFor).
 std::optional<double> usualFor(std::string_view name);
 
 /// The order in which 3 to 12 points make the shortest line, first and last as near to theirs as

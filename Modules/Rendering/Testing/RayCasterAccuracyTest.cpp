@@ -217,6 +217,7 @@ std::vector<Case> cases()
                      from({0.0, -1.0, 0.5}, {4.0, -6.0, 3.0}, 70.0)};
        }},
       {"Edges", [] { return edged(View{translucentBall()}, 1.0); }},
+      {"EdgesOfNoise", [] { return edged(View{noisy(0.12F)}, 1.0); }},
       {"EdgesOfEverything", [] { return edged(View{fullScene()}, 0.5); }},
       {"FalloffAndWetness", [] { return lit(View{fullScene()}, 50.0, 0.5); }},
       {"FalloffInTheInside",

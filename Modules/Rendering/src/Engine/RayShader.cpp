@@ -65,6 +65,7 @@ std::string constants()
       {"kOccupancyThreshold", optics::kOccupancyThreshold},
       {"kSmoothOpacity", optics::kSmoothOpacity},
       {"kLeastFacing", optics::kLeastFacing},
+      {"kEdgeSlope", optics::kEdgeSlope},
       {"kSoftInSection", optics::kSoftInSection},
       {"kMarginPerDepth", volume::kMarginPerDepth},
       {"kOcclusionReach", optics::kOcclusionReach},

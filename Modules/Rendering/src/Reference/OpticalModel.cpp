@@ -55,6 +55,13 @@ double edgeOpacity(double opacity, double cosine, double edges)
   return 1.0 - std::pow(1.0 - opacity, path);
 }
 
+double edgeFacing(double cosine, double slope)
+{
+  const double square = slope * slope;
+  const double weight = square / (square + kEdgeSlope * kEdgeSlope);
+  return 1.0 + weight * (std::min(std::abs(cosine), 1.0) - 1.0);
+}
+
 double sectionGrey(const SectionWindow& window, double value)
 {
   return std::clamp((value - window.level) / window.width + 0.5, 0.0, 1.0);

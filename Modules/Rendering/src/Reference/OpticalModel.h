@@ -43,7 +43,8 @@ namespace petrous::rendering
 ///   v       intensity at x - n * kColorDepth * (smallest spacing of the CT), clamped to the hull
 ///           of the sampled image
 ///   c_s     surfaceColor(transfer(v), |n . ray|, distance along the ray)
-///   opacity edgeOpacity(material.surfaceOpacity, |n . ray|)
+///   opacity edgeOpacity(material.surfaceOpacity, c), c = |n . ray|, of c_CT's surfaces
+///           edgeFacing(|n . ray|, the size of the gradient that gave n)
 /// The material is i's from structure to structure i; otherwise structureAt(x)'s where occupancy >
 /// 0.5 - 1e-3 at x; otherwise a lumen's where the index at x is that of a lumen; otherwise bone.
 /// Where tissue is cut off by the hull, the crop box or a clipping plane, n is that face's normal
@@ -91,8 +92,12 @@ constexpr double kOccupancyThreshold = 0.5 - 1e-3;
 /// visible on more transparent surfaces, and a ray meets many of those.
 constexpr double kSmoothOpacity = 0.5;
 
-/// Smallest cosine of edgeOpacity.
-constexpr double kLeastFacing = 1.0 / 64.0;
+/// Smallest cosine of edgeOpacity: 83 degrees.
+constexpr double kLeastFacing = 1.0 / 8.0;
+
+/// Slope of the CT, intensity per mm, at which edgeFacing is half of what the normal says. Borders
+/// of cortical bone rise by 300 and more, noise about the iso value (diploe) by less than 150.
+constexpr double kEdgeSlope = 150.0;
 
 /// Distance, mm, up to which tissue keeps the light of the sky from a surface, and that of the
 /// lamp.
@@ -162,6 +167,12 @@ Eigen::Vector3d displayed(const Eigen::Vector3d& color, double share, const Ligh
 /// What it adds and what it lets through remain 1 together. Faces, and what a surface stops of the
 /// light of others (shadows), have `opacity`.
 double edgeOpacity(double opacity, double cosine, double edges);
+
+/// Cosine for edgeOpacity of a surface of the CT with a gradient of size `slope`, intensity per mm:
+/// 1 + w (|cosine| - 1) with w = slope^2 / (slope^2 + kEdgeSlope^2). Where the CT hardly changes,
+/// its normal is that of the noise, and one surface in a few hundred is seen from the side
+/// anywhere.
+double edgeFacing(double cosine, double slope);
 
 /// Grey of a CT's value in a section, 0 to 1.
 double sectionGrey(const SectionWindow& window, double value);

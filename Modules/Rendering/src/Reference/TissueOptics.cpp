@@ -52,6 +52,7 @@ TissueOptics::TissueOptics(const SceneContents& contents)
                      : std::nullopt)
   , m_mask(contents.mask)
   , m_iso(contents.iso)
+  , m_boneShown(contents.boneShown)
   , m_light(contents.light)
   , m_thickness(contents.thickness)
   , m_section(contents.section)
@@ -239,8 +240,28 @@ Eigen::Vector3d TissueOptics::normalAt(const Eigen::Vector3d& patient, State fro
     return borderNormal(patient, static_cast<std::size_t>(to - kBone - 1));
   if (from == kBone && to > kBone)
     return occupancyNormal(patient);
-  const bool smooth = double{surfaceMaterial(patient).surfaceOpacity} >= optics::kSmoothOpacity;
-  return smooth ? m_field.smoothNormal(patient) : m_field.normal(patient);
+  return isSmooth(patient) ? m_field.smoothNormal(patient) : m_field.normal(patient);
+}
+
+// Whether the CT's surface is shaded without the steps of its slices.
+bool TissueOptics::isSmooth(const Eigen::Vector3d& patient) const
+{
+  return double{surfaceMaterial(patient).surfaceOpacity} >= optics::kSmoothOpacity;
+}
+
+// Size of the CT's gradient that gave the normal, intensity per mm; only where the CT decides.
+std::optional<double> TissueOptics::ctSlopeAt(const Eigen::Vector3d& patient, State from) const
+{
+  const core::GridGeometry& grid = m_ct->geometry();
+  const Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
+  const auto ctAt = [this](const Eigen::Vector3d& v) { return m_ct->sample(v); };
+  const double bone = (ctAt(voxel) - m_iso) / kScale;
+  const bool isCut = m_mask && m_mask->sample(voxel) - 0.5 < bone;
+  if (isSolid(from) || isCut || !m_boneShown || occupancyAt(patient) - 0.5 > bone)
+    return std::nullopt;
+  return (isSmooth(patient) ? volume::edgeGradientInPatient(grid, voxel, ctAt)
+                            : volume::gradientInPatient(grid, voxel, 1.0, ctAt))
+      .norm();
 }
 
 // Only with a section.
@@ -279,10 +300,16 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
   look.color = overlay.value_or(look.color);
   if (face && m_section)
     return {{look.color[0], look.color[1], look.color[2]}, material.surfaceOpacity, false};
-  const double opacity = material.surfaceOpacity;
+  double opacity = material.surfaceOpacity;
+  if (!face && m_light.edges > 0.0 && opacity < 1.0)
+  {
+    const std::optional<double> slope = ctSlopeAt(point, from);
+    opacity = optics::edgeOpacity(opacity, slope ? optics::edgeFacing(cosine, *slope) : cosine,
+                                  m_light.edges);
+  }
   return {optics::surfaceColor(look, material.shininess, cosine, m_light, t, seen, focus,
                                overlay.has_value()),
-          face ? opacity : optics::edgeOpacity(opacity, cosine, m_light.edges), !overlay};
+          opacity, !overlay};
 }
 
 } // namespace petrous::rendering

@@ -84,6 +84,8 @@ private:
                                               State to) const;
   std::optional<std::array<double, 3>> overlayAt(const Eigen::Vector3d& patient) const;
   Surface sectionAt(const Eigen::Vector3d& patient, double opacity) const;
+  bool isSmooth(const Eigen::Vector3d& patient) const;
+  std::optional<double> ctSlopeAt(const Eigen::Vector3d& patient, State from) const;
   Eigen::Vector3d occupancyNormal(const Eigen::Vector3d& patient) const;
   Eigen::Vector3d borderNormal(const Eigen::Vector3d& patient, std::size_t index) const;
 
@@ -96,6 +98,7 @@ private:
   std::optional<appearance::Material> m_softTissue; ///< if it has any opacity
   std::shared_ptr<const volume::CutMask> m_mask;
   double m_iso;
+  bool m_boneShown;
   LightSettings m_light;
   ThicknessOverlay m_thickness;
   std::optional<SectionWindow> m_section;

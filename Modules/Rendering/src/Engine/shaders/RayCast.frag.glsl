@@ -208,7 +208,7 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
       facing = min(abs(along) / size, 1.0);
       below += voxelFromMm * (slopeMm * (colorDepth / size));
     }
-    opacity = opacityFrom(opacity, facing);
+    opacity = opacityFrom(opacity, facing, ofCt, size);
   }
   Seen seen = Seen(1.0, 1.0);
 #ifdef PETROUS_SHADOWS

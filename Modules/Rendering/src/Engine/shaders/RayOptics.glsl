@@ -67,11 +67,14 @@ vec4 overlayAt(vec3 v)
 #endif
 }
 
-// Opacity of a surface that is not a face; see edgeOpacity in OpticalModel.h.
-float opacityFrom(float opacity, float facing)
+// Opacity of a surface that is not a face; see edgeOpacity and edgeFacing in OpticalModel.h.
+// `slope`: of the CT, per mm, where it decides.
+float opacityFrom(float opacity, float facing, bool ofCt, float slope)
 {
 #ifdef PETROUS_EDGES
-  float path = 1.0 + edges * (1.0 / max(facing, kLeastFacing) - 1.0);
+  float square = slope * slope;
+  float weight = ofCt ? square / (square + kEdgeSlope * kEdgeSlope) : 1.0;
+  float path = 1.0 + edges * (1.0 / max(1.0 + weight * (facing - 1.0), kLeastFacing) - 1.0);
   return opacity < 1.0 ? 1.0 - pow(1.0 - opacity, path) : opacity;
 #else
   return opacity;

@@ -18,7 +18,7 @@
 //   ROUNDED    the card's filter is made to round its weights, for tests on one that does not
 // Preceded by the constants that the C++ code defines (RayShader.cpp): kMaxPlanes,
 // kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity, kLeastFacing,
-// kSoftInSection (OpticalModel.h),
+// kEdgeSlope, kSoftInSection (OpticalModel.h),
 // kOcclusionReach, kShadowReach, kLampTangent, kSliceGrowth (OpticalModel.h, RayShader.h),
 // kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h), kMeeting,
 // kDeepest, kMarginPerDepth (LabelBorders.h).

@@ -149,7 +149,7 @@ SceneContents meshScene(float opacity = 1.0F)
 {
   // A small block of bone far below: the picture is of the mesh.
   SceneContents contents =
-      boneScene(ct(cube(64, 0.5), [](const Vector& p) { return -13.0 - p.z(); }));
+      boneScene(ct<std::int16_t>(cube(64, 0.5), [](const Vector& p) { return -13.0 - p.z(); }));
   MeshContents mesh;
   mesh.name = "sinus";
   mesh.mesh = ballMesh(kMiddle, kRadius, 96);
@@ -308,7 +308,7 @@ TEST(ClippedMesh, ShowsItsInsideWhereItIsOpen)
 TEST(ClippedMesh, HidesTheSectionOfTheBoneAroundIt)
 {
   SceneContents contents = meshScene();
-  contents.ct = ct(cube(64, 0.5), [](const Vector& p) { return 14.0 - p.norm(); });
+  contents.ct = ct<std::int16_t>(cube(64, 0.5), [](const Vector& p) { return 14.0 - p.norm(); });
   contents.clipping = {planeAt(0.0, {0.3, -0.2, -1.0})};
   const Vector eye = kMiddle - 400.0 * contents.clipping[0].normal;
   core::CameraPose pose = from(eye, kMiddle, 2.0);

@@ -264,7 +264,7 @@ TEST(ClippedMesh, IsCutByTheCropBox)
   contents.crop = grid.fullBox();
   contents.meshes[0].mesh = ballMesh(kMiddle + Vector(0.0, 0.0, 18.0), kRadius, 96);
   const double disc = 100.0 * kPi * kRadius * kRadius;
-  EXPECT_NEAR(countBlue(draw(contents, above())), disc, 0.02 * disc);
+  EXPECT_NEAR(countBlue(draw(contents, above())), disc, 0.05 * disc) << "but for its dark rim";
 }
 
 TEST(ClippedMesh, KeepsTheShareOfATranslucentOne)
@@ -299,7 +299,7 @@ TEST(ClippedMesh, ShowsItsInsideWhereItIsOpen)
   contents.clipping = {planeAt(0.0, {0.0, 0.0, -1.0})};
   const Picture picture = draw(contents, above());
   const double disc = 100.0 * kPi * kRadius * kRadius;
-  EXPECT_NEAR(countBlue(picture), disc, 0.02 * disc) << "the inside of its wall";
+  EXPECT_NEAR(countBlue(picture), disc, 0.05 * disc) << "the inside of its wall";
   EXPECT_LT(countOf(picture, kPlain), 0.1 * disc) << "lit";
   expectTheReference(contents, above());
 }

@@ -157,7 +157,7 @@ TEST(CasePicture, ACameraInOpaqueTissueIsBuried)
 {
   const scene::Case value = earAt(Vector3d(20, -30, 0), true); // bone up to x = 44.5
   rendering::SceneContents contents;
-  contents.ct = value.ct.volume;
+  contents.ct = value.ct.volume.get();
   contents.materials.resize(1);
   core::CameraPose camera;
   camera.position = Vector3d(30, -20, 10);

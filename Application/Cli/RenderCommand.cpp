@@ -431,9 +431,19 @@ Result drawReference(const rendering::SceneContents& contents, const Shot& shot,
   return result;
 }
 
+void warnIfBuried(const Context& context, const Shot& shot,
+                  const rendering::SceneContents& contents)
+{
+  if (presenters::isBuried(shot.camera, contents))
+    context.warn(
+        "the camera is inside tissue, so only the colour of that is seen: move it back, or "
+        "cut the tissue away");
+}
+
 Result draw(const Context& context, const RenderOptions& options, const Shot& shot,
             const rendering::SceneContents& contents)
 {
+  warnIfBuried(context, shot, contents);
   const bool wantDepth = !options.depth.empty();
   if (options.engine == "reference")
     return drawReference(contents, shot, wantDepth, context.progress());
@@ -457,7 +467,9 @@ Result drawForPrint(const Context& context, const RenderOptions& options, const 
 {
   Result result;
   rendering::ScenePicture picture;
-  picture.setContents(renderContents(options, value));
+  const rendering::SceneContents contents = renderContents(options, value);
+  warnIfBuried(context, shot, contents);
+  picture.setContents(contents);
   const auto start = std::chrono::steady_clock::now();
   result.picture = rendering::renderTiled(picture, shot.camera, shot.width, shot.height,
                                           context.progress(), kTile, shot.samples);

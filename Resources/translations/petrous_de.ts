@@ -5307,6 +5307,10 @@ Verletzt: %1, %2</translation>
         <source>Soft tissue is not drawn: %1</source>
         <translation>Weichgewebe wird nicht gezeichnet: %1</translation>
     </message>
+    <message>
+        <source>The camera is inside tissue: zoom out</source>
+        <translation>Die Kamera steht im Gewebe: herauszoomen</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::PicturePanel</name>

@@ -153,6 +153,38 @@ TEST(CasePicture, APictureSaysWhatIsNotShownAndWhatWasInterpolated)
   }
 }
 
+TEST(CasePicture, ACameraInOpaqueTissueIsBuried)
+{
+  const scene::Case value = earAt(Vector3d(20, -30, 0), true); // bone up to x = 44.5
+  rendering::SceneContents contents;
+  contents.ct = value.ct.volume.get();
+  contents.materials.resize(1);
+  core::CameraPose camera;
+  camera.position = Vector3d(30, -20, 10);
+  EXPECT_TRUE(presenters::isBuried(camera, contents));
+  contents.clipping = {{Vector3d(31, 0, 0), Vector3d::UnitX()}};
+  EXPECT_FALSE(presenters::isBuried(camera, contents)) << "cut away";
+  contents.clipping = {{Vector3d(29, 0, 0), Vector3d::UnitX()}};
+  EXPECT_TRUE(presenters::isBuried(camera, contents));
+  contents.clipping.clear();
+  contents.crop = core::IndexBox{{15, 0, 0}, {40, 20, 20}};
+  EXPECT_FALSE(presenters::isBuried(camera, contents)) << "outside of the box";
+  contents.crop.reset();
+  contents.materials[0].surfaceOpacity = 0.3F;
+  EXPECT_FALSE(presenters::isBuried(camera, contents)) << "seen through";
+  contents.materials[0].surfaceOpacity = 1.0F;
+  contents.boneShown = false;
+  EXPECT_FALSE(presenters::isBuried(camera, contents));
+  contents.boneShown = true;
+  for (const double x : {50.0, 200.0})
+  {
+    camera.position.x() = x;
+    EXPECT_FALSE(presenters::isBuried(camera, contents)) << "air at " << x;
+  }
+  contents.ct = nullptr;
+  EXPECT_FALSE(presenters::isBuried(camera, contents));
+}
+
 TEST(CasePicture, TheSideOfTheCaseComesFirst)
 {
   scene::Case value = earAt(Vector3d::Zero(), true);

@@ -73,6 +73,7 @@ PictureController::PictureController(presenters::WorkstationModel& model, ThreeD
   connect(m_actions.surgeonWindow, &QAction::triggered, this,
           [this](bool open) { open ? openSurgeonWindow() : closeSurgeonWindow(); });
   connect(&m_view.display(), &SceneDisplay::drawn, this, &PictureController::showSpeed);
+  connect(&m_view, &ThreeDView::cameraMoved, this, &PictureController::showNotes);
   connect(&m_view, &ThreeDView::toolModeSet, this,
           [this]
           {
@@ -200,14 +201,25 @@ void PictureController::showScene()
             value.softTissue.shown ? presenters::softTissueMissing(value) : std::string();
         !why.empty())
       lines += tr("Soft tissue is not drawn: %1").arg(phrase(why));
-    m_view.setNotes(lines);
+    m_notes = lines;
+    showNotes();
   }
   catch (const core::Error& error) // too much to draw; the slices still show it
   {
     m_view.display().setContents({});
-    m_view.setNotes({});
+    m_notes.clear();
+    showNotes();
     emit statusMessage(toString(error));
   }
+}
+
+void PictureController::showNotes()
+{
+  const SceneDisplay& display = m_view.display();
+  QStringList lines = m_notes;
+  if (presenters::isBuried(display.picture().camera(), display.contents()))
+    lines += tr("The camera is inside tissue: zoom out");
+  m_view.setNotes(lines);
 }
 
 void PictureController::openSurgeonWindow()

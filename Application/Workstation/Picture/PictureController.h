@@ -5,6 +5,7 @@
 
 #include <QObject>
 #include <QPointer>
+#include <QStringList>
 
 #include "petrous/Presenters/ViewSettings.h"
 #include "petrous/Presenters/WorkstationModel.h"
@@ -62,6 +63,7 @@ protected:
 
 private:
   void showScene();
+  void showNotes();
   void lightChanged();
   void backgroundChanged();
   void noteStep(const std::string& what, const std::string& merged,
@@ -77,6 +79,7 @@ private:
   QWidget& m_window;
   WindowSettings& m_kept;
   const bool m_quadBuffer;
+  QStringList m_notes;        ///< of the scene, wherever the camera is
   bool m_isShowing = false;   ///< a case's settings, which are not the user's
   bool m_isAnnounced = false; ///< a picture whose scene is not there yet
   bool m_isFirst = false;     ///< the picture that is drawn next, after it was announced

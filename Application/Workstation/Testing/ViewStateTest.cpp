@@ -387,6 +387,26 @@ TEST_F(ViewStates, ANoteCoversNeitherLettersNorTheCaseAndItsSide)
   view().setNotes({});
 }
 
+TEST_F(ViewStates, SaysThatTheCameraIsInsideTissue)
+{
+  saveBall("ball");
+  openWindow("ball");
+  const auto note = [this] { return view().findChild<QLabel*>("guessed"); };
+  EXPECT_FALSE(note()->text().contains("inside tissue"));
+  const core::CameraPose before = view().picture().camera();
+  core::CameraPose buried = before;
+  buried.position = value().ct.geometry.patientFromVoxel(
+      0.5 * (Eigen::Vector3d(value().ct.geometry.dims()[0], value().ct.geometry.dims()[1],
+                             value().ct.geometry.dims()[2]) -
+             Eigen::Vector3d::Ones()));
+  buried.focalPoint = buried.position + Eigen::Vector3d(5.0, 1.0, 2.0);
+  view().setCamera(buried);
+  EXPECT_EQ(note()->text(), "The camera is inside tissue: zoom out");
+  EXPECT_TRUE(note()->isVisible());
+  view().setCamera(before);
+  EXPECT_FALSE(note()->isVisible());
+}
+
 TEST_F(ViewStates, CutsAwayBeforeTheCrosshairUntilAToolIsTakenUp)
 {
   saveBall("ball");

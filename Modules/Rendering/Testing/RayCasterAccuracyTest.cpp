@@ -1,7 +1,10 @@
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <ostream>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "PictureComparison.h"
 #include "PictureScenes.h"
@@ -70,6 +73,33 @@ SceneContents noisy(float surfaceOpacity)
       image(grid, [&](const Vector& p)
             { return std::clamp(kIso + 240.0 * bittenBall(p), -1000.0, 1900.0) + noise(random); }),
       surfaceOpacity);
+  return contents;
+}
+
+// Cells of an atlas in a ball within translucent bone, each nearest to a place of its own.
+SceneContents atlas(int count)
+{
+  SceneContents contents = translucentBall();
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> any(-5.0, 5.0);
+  std::uniform_real_distribution<float> tint(0.05F, 0.95F);
+  std::vector<Vector> seeds;
+  for (int n = 0; n < count; ++n)
+  {
+    seeds.emplace_back(any(random), any(random), any(random));
+    const std::array<float, 3> color{tint(random), tint(random), tint(random)};
+    contents.materials.push_back({appearance::TransferFunction::constant(color, 0.4F),
+                                  appearance::IntensitySource::Ct, n % 3 == 0 ? 0.5F : 1.0F});
+  }
+  contents.labels = labelField(
+      cube(64, 0.35, obliqueMirrored()), [](const Vector& p) { return 6.0 - p.norm(); },
+      [&](const Vector& p)
+      {
+        const auto nearest = std::min_element(seeds.begin(), seeds.end(),
+                                              [&](const Vector& a, const Vector& b)
+                                              { return (a - p).norm() < (b - p).norm(); });
+        return 1 + static_cast<int>(nearest - seeds.begin());
+      });
   return contents;
 }
 
@@ -167,6 +197,25 @@ std::vector<Case> cases()
          View view{fullScene()};
          view.contents.clipping = {{{0.0, -2.0, 0.0}, Vector(0.2, 1.0, 0.1).normalized()},
                                    {{-4.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}};
+         return view;
+       }},
+      // A pixel is a fiftieth of a voxel, and a border of tissue in a face as wide as many.
+      {"FacesOfTwoPlanesNear",
+       []
+       {
+         View view{labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(60.0)};
+         view.contents.clipping = {{{0.0, -2.0, 0.0}, Vector(0.2, 1.0, 0.1).normalized()},
+                                   {{-1.0, 0.0, 0.0}, Vector(-1.0, 0.1, 0.2).normalized()}};
+         view.contents.section = SectionWindow{};
+         view.pose.focalPoint = {0.5, -1.0, 0.2};
+         view.pose.viewAngle = 1.4;
+         return view;
+       }},
+      {"ManyLabelsNear",
+       []
+       {
+         View view{atlas(57)};
+         view.pose.parallelScale = 0.8;
          return view;
        }},
       {"CropBox",

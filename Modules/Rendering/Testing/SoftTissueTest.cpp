@@ -257,6 +257,26 @@ TEST(SoftTissueSection, IsTheCtInGreyWhereCropBoxAndPlanesCut)
   }
 }
 
+// What the MR shows cannot be seen in the CT's grey.
+TEST(SoftTissueSection, HasTheColourOfTheMrThatItReads)
+{
+  SceneContents contents = block(40.0, 0.08F, cube(33, 0.5));
+  contents.section = SectionWindow{4000.0, 700.0};
+  contents.light.exposure = 1.0;
+  contents.second.volume = image(cube(33, 0.5), [](const Vector&) { return 300.0; });
+  contents.softTissue->source = appearance::IntensitySource::Second;
+  contents.softTissue->transfer = appearance::TransferFunction(
+      {{100.0, {0.2F, 0.2F, 0.2F}, 0.05F}, {500.0, {0.8F, 0.8F, 0.8F}, 0.05F}});
+  contents.clipping = {{{0.0, -6.0, 0.0}, {0.0, 1.0, 0.0}}};
+  const ReferencePicture truth = truthOf(contents, ahead(), kFewColumns, kFewRows);
+  const Picture picture = draw(contents, ahead());
+  for (std::size_t c = 0; c < 3; ++c)
+  {
+    EXPECT_NEAR(static_cast<double>(truth.rgb[kMiddle + c]), 0.5, 1e-6);
+    EXPECT_NEAR(picture.pixel(kWidth / 2, kHeight / 2)[c], 127.5, 1.0);
+  }
+}
+
 TEST(SoftTissueSection, IsNoneWhereNothingIsCutOrSeen)
 {
   SceneContents contents = block(40.0, 0.08F, cube(33, 0.5));
@@ -284,7 +304,7 @@ TEST(SoftTissueSection, IsNoneWhereNothingIsCutOrSeen)
   expectNoFace(contents, ahead());
 }
 
-// The CT's grey, too, where soft tissue is coloured by another image; air stays open.
+// In the colours of another image where soft tissue reads one; air stays open.
 TEST(SoftTissueSection, KeepsToTheReference)
 {
   const auto cutOpen = [](SceneContents contents)

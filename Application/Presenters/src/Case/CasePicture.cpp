@@ -16,7 +16,10 @@
 #include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Volume/IntensityHistogram.h"
+#include "petrous/Volume/LabelBorders.h"
+#include "petrous/Volume/Sampling.h"
 #include "petrous/Volume/TissueExtent.h"
+#include "petrous/Volume/TissueField.h"
 
 namespace petrous::presenters
 {
@@ -129,6 +132,42 @@ std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clippin
   if (cropOf(clipping, grid))
     lines.push_back("Only a part of the image is shown");
   return lines;
+}
+
+bool isBuried(const core::CameraPose& camera, const rendering::SceneContents& contents)
+{
+  if (!contents.ct)
+    return false;
+  const Eigen::Vector3d& eye = camera.position;
+  const core::GridGeometry& grid = contents.ct->geometry();
+  const core::GridGeometry box = grid.cropped(contents.crop.value_or(grid.fullBox()));
+  const bool isShown = box.hullContains(box.voxelFromPatient(eye)) &&
+                       std::all_of(contents.clipping.begin(), contents.clipping.end(),
+                                   [&eye](const rendering::ClippingPlane& plane)
+                                   { return plane.normal.dot(eye - plane.point) >= 0.0; });
+  if (!isShown)
+    return false;
+  constexpr double kNoBone = 1e9; // HU, above all of it
+  constexpr double kScale = 1000.0;
+  std::vector<volume::TissueField::SolidUnion> solids;
+  if (contents.labels)
+    solids.push_back(contents.labels->occupancy);
+  const volume::TissueField field(contents.ct, std::move(solids), contents.mask,
+                                  {contents.boneShown ? contents.iso : kNoBone, kScale});
+  if (!(field.value(eye) > 0.0))
+    return false;
+  std::size_t row = 0; // of bone
+  if (contents.labels && contents.labels->index)
+  {
+    const volume::LabelField& labels = *contents.labels;
+    const Eigen::Vector3d voxel = labels.occupancy->geometry().voxelFromPatient(eye);
+    if (labels.occupancy->geometry().hullContains(voxel) &&
+        volume::sampleTrilinear(*labels.occupancy, voxel) > 0.5)
+      row = volume::structureAt(*labels.index, labels.borders.get(),
+                                labels.index->geometry().voxelFromPatient(eye))
+                .index;
+  }
+  return row < contents.materials.size() && contents.materials[row].surfaceOpacity >= 1.0F;
 }
 
 std::vector<std::string> pictureNotes(const scene::Case& value)

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <tuple>
 
 #include "OverlayPainter.h"
+#include "petrous/Volume/MeshCut.h"
 
 namespace petrous::presenters
 {
@@ -15,11 +15,6 @@ namespace
 {
 
 constexpr float kLineWidth = 1.4F; // pixels
-
-bool comesBefore(const Eigen::Vector3f& a, const Eigen::Vector3f& b)
-{
-  return std::tie(a[0], a[1], a[2]) < std::tie(b[0], b[1], b[2]);
-}
 
 // Whether the plane passes the mesh's box. Conservative by the rounding of the vertices.
 bool meets(const core::TriangleMesh& mesh, const SliceGeometry& slice)
@@ -150,38 +145,9 @@ MeshSection sectionOf(const core::TriangleMesh& mesh, const SliceGeometry& slice
   if (!meets(mesh, slice))
     return section;
   const Eigen::Vector3d& normal = slice.axes().next;
-  const double offset = normal.dot(slice.center());
-  std::vector<double> heights(mesh.vertices.size()); // mm beyond the plane
-  std::vector<std::uint8_t> beyond(mesh.vertices.size());
-  for (std::size_t n = 0; n < heights.size(); ++n)
-  {
-    heights[n] = normal.dot(mesh.vertices[n].cast<double>()) - offset;
-    beyond[n] = heights[n] >= 0.0 ? 1 : 0;
-  }
-  const auto crossing = [&](std::uint32_t a, std::uint32_t b) -> Eigen::Vector2f
-  {
-    if (comesBefore(mesh.vertices[b], mesh.vertices[a]))
-      std::swap(a, b);
-    const Eigen::Vector3d from = mesh.vertices[a].cast<double>();
-    const Eigen::Vector3d way = mesh.vertices[b].cast<double>() - from;
-    return slice.pixelFromPatient(from + heights[a] / (heights[a] - heights[b]) * way)
-        .cast<float>();
-  };
-  for (const auto& triangle : mesh.triangles)
-  {
-    const int count = beyond[triangle[0]] + beyond[triangle[1]] + beyond[triangle[2]];
-    if (count == 0 || count == 3)
-      continue;
-    ContourSegment segment;
-    for (std::size_t n = 0; n < 3; ++n)
-    {
-      const std::uint32_t a = triangle[n];
-      const std::uint32_t b = triangle[(n + 1) % 3];
-      if (beyond[a] != beyond[b])
-        (beyond[a] != 0 ? segment.a : segment.b) = crossing(a, b);
-    }
-    section.segments.push_back(segment);
-  }
+  for (const volume::CutSegment& cut : volume::cutByPlane(mesh, normal, normal.dot(slice.center())))
+    section.segments.push_back({slice.pixelFromPatient(cut.from).cast<float>(),
+                                slice.pixelFromPatient(cut.to).cast<float>()});
   judgeEnds(section);
   return section;
 }

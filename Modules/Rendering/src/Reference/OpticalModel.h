@@ -51,9 +51,10 @@ namespace petrous::rendering
 /// and v is taken at x itself; with SceneContents::section its colour is sectionGrey of the CT's
 /// value if the material is bone's, otherwise transfer(v), and neither is lit. With a
 /// section soft tissue, too, has a surface where the crop box or a clipping plane, but not the
-/// hull, cuts it off and its extinction is above kSoftInSection: opaque, of sectionGrey of
-/// the CT's value, not lit. A zero gradient (n = 0) faces the camera, as does tissue that contains
-/// the camera. Depth is that of the first surface, whatever its opacity.
+/// hull, cuts it off and its extinction is above kSoftInSection: opaque, not lit, of sectionGrey of
+/// the CT's value, or of transfer(v) if it reads another image. A zero gradient (n = 0) faces the
+/// camera, as does tissue that contains the camera. Depth is that of the first surface, whatever
+/// its opacity.
 ///
 /// Thickness over a structure: if a surface that is not such a face has the material of bone or of
 /// a lumen, and the distance d to the structure there (trilinear, ThicknessOverlay) is below

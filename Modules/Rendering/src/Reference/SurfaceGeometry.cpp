@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -183,8 +184,13 @@ std::optional<double> toolAlong(const ToolPose& tool, const PixelRay& ray)
 }
 
 SurfaceGeometry::SurfaceGeometry(const SceneContents& contents)
-  : m_light(contents.light)
+  : m_hasSection(contents.section.has_value())
+  , m_mask(contents.mask)
+  , m_light(contents.light)
 {
+  const std::vector<ClippingPlane> cuts = cutsOf(contents);
+  if (!cuts.empty())
+    m_kept.emplace(cuts);
   m_light.wetness = 0.0; // VTK draws them dry
   for (const MeshContents& mesh : contents.meshes)
   {
@@ -198,8 +204,14 @@ SurfaceGeometry::SurfaceGeometry(const SceneContents& contents)
       drilled = DrilledMesh(mesh.mesh).surface(*contents.mask);
     const auto shape =
         drilled ? std::make_shared<const core::TriangleMesh>(std::move(drilled->mesh)) : mesh.mesh;
+    std::optional<volume::MeshInside> inside;
+    if (m_kept)
+      inside.emplace(*mesh.mesh);
+    if (inside && inside->openEdges() > 0)
+      inside.reset();
     m_meshes.push_back({volume::MeshTree(*shape), shape,
-                        drilled ? std::move(drilled->normals) : vertexNormals(*shape), mesh.look});
+                        drilled ? std::move(drilled->normals) : vertexNormals(*shape), mesh.look,
+                        std::move(inside), drilled.has_value()});
   }
   if (contents.tool && tool::isShown(*contents.tool))
     m_tool = contents.tool;
@@ -207,23 +219,42 @@ SurfaceGeometry::SurfaceGeometry(const SceneContents& contents)
     m_instrument.emplace(*m_tool->instrument);
 }
 
+std::optional<SurfaceGeometry::Hit> SurfaceGeometry::meet(const Mesh& mesh, const PixelRay& ray,
+                                                          double focus, const Seeing& seeing) const
+{
+  RaySpan span;
+  span.last = std::numeric_limits<double>::infinity();
+  if (m_kept)
+    span = m_kept->clip(ray);
+  if (!(span.first < span.last))
+    return std::nullopt;
+  const Eigen::Vector3d color(mesh.look.color[0], mesh.look.color[1], mesh.look.color[2]);
+  const double opacity = std::min(static_cast<double>(mesh.look.opacity), 1.0);
+  const auto shaded = [&](const ShapeHit& hit) {
+    return lit(color, hit, {ray, focus, seeing}, m_light, false);
+  };
+  const auto isLeft = [&](const Eigen::Vector3d& point)
+  { return m_mask->sample(m_mask->geometry().voxelFromPatient(point)) > 0.5; };
+  const Eigen::Vector3d entry = ray.origin + span.first * ray.direction;
+  if (span.face && mesh.inside && mesh.inside->contains(entry) &&
+      (!mesh.isDrilled || isLeft(entry)))
+    return Hit{span.first, m_hasSection ? color : shaded({span.first, *span.face}), opacity};
+  const auto hit = mesh.tree.firstAlong(ray.origin, ray.direction, span.first);
+  if (!hit || hit->distance > span.last)
+    return std::nullopt;
+  return Hit{hit->distance, shaded({hit->distance, normalAt(*mesh.mesh, mesh.normals, *hit)}),
+             opacity};
+}
+
 std::vector<SurfaceGeometry::Hit> SurfaceGeometry::along(const PixelRay& ray, double focus,
                                                          const Seeing& seeing) const
 {
-  const Sight sight{ray, focus, seeing};
   std::vector<Hit> hits;
   for (const Mesh& mesh : m_meshes)
-    if (const auto hit = mesh.tree.firstAlong(ray.origin, ray.direction, 0.0))
-    {
-      const auto& color = mesh.look.color;
-      hits.push_back(
-          {hit->distance,
-           lit({color[0], color[1], color[2]},
-               {hit->distance, normalAt(*mesh.mesh, mesh.normals, *hit)}, sight, m_light, false),
-           std::min(static_cast<double>(mesh.look.opacity), 1.0)});
-    }
+    if (const auto hit = meet(mesh, ray, focus, seeing))
+      hits.push_back(*hit);
   if (m_tool)
-    addTool(*m_tool, m_instrument, m_light, sight, hits);
+    addTool(*m_tool, m_instrument, m_light, {ray, focus, seeing}, hits);
   std::sort(hits.begin(), hits.end(),
             [](const Hit& a, const Hit& b) { return a.distance < b.distance; });
   const auto solid =

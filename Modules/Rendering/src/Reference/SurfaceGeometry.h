@@ -5,9 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "ClippedRegion.h"
 #include "OpticalModel.h"
 #include "petrous/Rendering/PixelRays.h"
 #include "petrous/Rendering/SceneContents.h"
+#include "petrous/Volume/CutMask.h"
+#include "petrous/Volume/MeshInside.h"
 #include "petrous/Volume/MeshTree.h"
 
 namespace petrous::rendering
@@ -18,7 +21,8 @@ namespace petrous::rendering
 std::optional<double> toolAlong(const ToolPose& tool, const PixelRay& ray);
 
 /// Ray intersection with the meshes and the tool of a scene, shaded as tissue surfaces; the tool
-/// has its own highlight.
+/// has its own highlight. Crop box and clipping planes cut meshes, not the tool; a closed mesh has
+/// a face there.
 class SurfaceGeometry
 {
 public:
@@ -49,9 +53,16 @@ private:
     std::shared_ptr<const core::TriangleMesh> mesh;
     std::vector<Eigen::Vector3f> normals; ///< per vertex
     appearance::StructureAppearance look;
+    std::optional<volume::MeshInside> inside; ///< of a closed one that box or planes may cut
+    bool isDrilled = false;
   };
+  std::optional<Hit> meet(const Mesh& mesh, const PixelRay& ray, double focus,
+                          const Seeing& seeing) const;
 
   std::vector<Mesh> m_meshes;
+  std::optional<ClippedRegion> m_kept; // of meshes; none: all
+  bool m_hasSection;
+  std::shared_ptr<const volume::CutMask> m_mask;
   std::optional<ToolPose> m_tool;
   std::optional<volume::MeshTree> m_instrument; // of the tool, in its frame
   LightSettings m_light;

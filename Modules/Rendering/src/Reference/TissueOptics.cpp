@@ -276,8 +276,11 @@ std::optional<TissueOptics::Surface> TissueOptics::softSection(const Eigen::Vect
   if (!m_section || !m_softTissue)
     return std::nullopt;
   const auto look = m_softTissue->transfer.at(intensity(*m_softTissue, patient));
-  return look.extinction > optics::kSoftInSection ? std::optional(sectionAt(patient, 1.0))
-                                                  : std::nullopt;
+  if (!(look.extinction > optics::kSoftInSection))
+    return std::nullopt;
+  if (m_softTissue->source == appearance::IntensitySource::Ct)
+    return sectionAt(patient, 1.0);
+  return Surface{{look.color[0], look.color[1], look.color[2]}, 1.0, false};
 }
 
 TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, State from, State to,

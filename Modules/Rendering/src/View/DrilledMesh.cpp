@@ -139,6 +139,12 @@ core::TriangleMesh levelIn(const volume::CutMask& mask, const core::IndexBox& bo
 
 } // namespace
 
+ShadedMesh leftOf(const core::TriangleMesh& triangles, const volume::CutMask& mask)
+{
+  const Refinement refined(triangles, mask);
+  return clip(refined.mesh(), refined.values());
+}
+
 DrilledMesh::DrilledMesh(std::shared_ptr<const core::TriangleMesh> mesh)
   : m_mesh(std::move(mesh))
   , m_tree(*m_mesh)

@@ -11,6 +11,9 @@
 namespace petrous::rendering
 {
 
+/// The part of triangles where the mask exceeds one half, as DrilledMesh cuts its own.
+ShadedMesh leftOf(const core::TriangleMesh& triangles, const volume::CutMask& mask);
+
 /// What the drill leaves of a closed mesh, patient LPS mm: its surface where the mask exceeds one
 /// half, and the wall of the cut, the mask's level one half, inside it. So it is drawn as it is
 /// felt (Volume/TissueField.h).

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
@@ -23,7 +24,9 @@
 #include <vtk_glew.h>
 
 #include "CameraPlacement.h"
+#include "ClippedRegion.h"
 #include "DrilledMesh.h"
+#include "MeshCaps.h"
 #include "OpticalModel.h"
 #include "SceneCheck.h"
 #include "SurfaceActor.h"
@@ -34,6 +37,7 @@
 #include "petrous/Rendering/ToolProps.h"
 #include "petrous/Rendering/ToolShape.h"
 #include "petrous/Rendering/VolumeMapper.h"
+#include "petrous/Volume/MeshInside.h"
 
 namespace petrous::rendering
 {
@@ -188,19 +192,53 @@ double millimetresPerPixelAt(const Eigen::Vector3d& point, const core::CameraPos
                      : std::numeric_limits<double>::quiet_NaN();
 }
 
-struct MeshActor
+// The planes at which meshes are cut: in front of those of the volume by what the depth buffer may
+// round, so that a mesh's cap hides the tissue around it and not the other way round.
+std::vector<ClippingPlane> meshCuts(const SceneContents& contents)
 {
-  std::string name;
-  std::shared_ptr<const core::TriangleMesh> mesh;
-  std::size_t bytes = 0;
-  SurfaceActor actor;
+  constexpr double kAhead = 0.01; // mm
+  std::vector<ClippingPlane> cuts = cutsOf(contents);
+  for (ClippingPlane& cut : cuts)
+    cut.point -= kAhead * cut.normal;
+  return cuts;
+}
 
-  MeshActor(const MeshContents& contents, int pattern, ProgramSetter shadows)
-    : name(contents.name)
-    , mesh(contents.mesh)
-    , actor(pattern, std::move(shadows))
+bool areTheSame(const std::vector<ClippingPlane>& some, const std::vector<ClippingPlane>& others)
+{
+  return std::equal(some.begin(), some.end(), others.begin(), others.end(),
+                    [](const ClippingPlane& a, const ClippingPlane& b)
+                    { return a.point == b.point && a.normal == b.normal; });
+}
+
+// A mesh as drill, crop box and clipping planes leave it.
+class MeshActor
+{
+public:
+  MeshActor(const MeshContents& contents, int pattern, const ProgramSetter& shadows)
+    : m_name(contents.name)
+    , m_mesh(contents.mesh)
+    , m_surface(pattern, shadows)
+    , m_caps(pattern, shadows)
   {
-    show(*mesh, vertexNormals(*mesh));
+    show({*m_mesh, vertexNormals(*m_mesh)}, {});
+  }
+
+  bool shows(const MeshContents& wanted) const
+  {
+    return m_mesh == wanted.mesh && m_name == wanted.name;
+  }
+
+  const std::string& name() const noexcept { return m_name; }
+  std::size_t bytes() const noexcept { return m_bytes; }
+  std::array<vtkActor*, 2> props() const { return {m_surface.prop(), m_caps.prop()}; }
+
+  void setLook(const appearance::StructureAppearance& look, const SceneContents& contents)
+  {
+    m_surface.setLook(look, contents.light);
+    if (contents.section)
+      m_caps.setPlainLook(look);
+    else
+      m_caps.setLook(look, contents.light);
   }
 
   void setMask(std::shared_ptr<const volume::CutMask> next)
@@ -224,6 +262,12 @@ struct MeshActor
     m_isDrilled = isDrilled;
   }
 
+  void setCuts(const std::vector<ClippingPlane>& cuts)
+  {
+    m_isOld = m_isOld || !areTheSame(cuts, m_cuts);
+    m_cuts = cuts;
+  }
+
   /// Before a frame. `sparing`: not if it took a large part of the time since it was last done.
   void update(bool sparing)
   {
@@ -232,20 +276,26 @@ struct MeshActor
     if (!m_isOld || (sparing && Clock::now() - m_done < kShare * m_took))
       return;
     m_isOld = false;
-    const bool mayBeCut = m_isDrilled && m_mask && !m_mask->untouched(reach(*m_mask));
-    if (!mayBeCut && !m_isCut)
+    const bool mayBeDrilled = m_isDrilled && m_mask && !m_mask->untouched(reach(*m_mask));
+    std::vector<ClippingPlane> planes;
+    std::copy_if(m_cuts.begin(), m_cuts.end(), std::back_inserter(planes),
+                 [this](const ClippingPlane& plane) { return meets(*m_mesh, plane); });
+    if (!mayBeDrilled && planes.empty() && !m_isChanged)
       return;
     const auto start = Clock::now();
     std::optional<ShadedMesh> left;
-    if (mayBeCut && !m_shape)
-      m_shape.emplace(mesh);
-    if (mayBeCut)
+    if (mayBeDrilled && !m_shape)
+      m_shape.emplace(m_mesh);
+    if (mayBeDrilled)
       left = m_shape->surface(*m_mask);
-    if (left)
-      show(left->mesh, left->normals);
-    else if (m_isCut)
-      show(*mesh, vertexNormals(*mesh));
-    m_isCut = left.has_value();
+    m_isChanged = left.has_value() || !planes.empty();
+    const bool isDrilled = left.has_value();
+    if (!left)
+      left = ShadedMesh{*m_mesh, vertexNormals(*m_mesh)};
+    if (planes.empty())
+      show(*left, {});
+    else
+      show(keptBy(std::move(*left), planes), caps(planes, isDrilled));
     m_done = Clock::now();
     m_took = m_done - start;
   }
@@ -257,19 +307,42 @@ private:
     return mask.geometry().boxCovering(m_bounds[0].cast<double>(), m_bounds[1].cast<double>());
   }
 
-  void show(const core::TriangleMesh& shape, const std::vector<Eigen::Vector3f>& normals)
+  ShadedMesh caps(const std::vector<ClippingPlane>& planes, bool isDrilled)
   {
-    const auto surface = toPolyData(shape, normals);
-    bytes = static_cast<std::size_t>(surface->GetActualMemorySize()) * 1024;
-    actor.setSurface(surface);
+    if (!m_inside)
+      m_inside.emplace(*m_mesh);
+    if (m_inside->openEdges() > 0)
+      return {};
+    ShadedMesh whole = capsOf(*m_mesh, planes, m_inside->facesAlike());
+    return isDrilled ? leftOf(whole.mesh, *m_mask) : whole;
   }
 
-  std::array<Eigen::Vector3f, 2> m_bounds = mesh->bounds(); // patient LPS mm
-  std::shared_ptr<const volume::CutMask> m_mask;            // null: nothing cuts it
+  void show(const ShadedMesh& surface, const ShadedMesh& caps)
+  {
+    m_bytes = 0;
+    const auto set = [this](const ShadedMesh& shape, SurfaceActor& actor)
+    {
+      const auto polygons = toPolyData(shape.mesh, shape.normals);
+      m_bytes += static_cast<std::size_t>(polygons->GetActualMemorySize()) * 1024;
+      actor.setSurface(polygons);
+    };
+    set(surface, m_surface);
+    set(caps, m_caps);
+  }
+
+  std::string m_name;
+  std::shared_ptr<const core::TriangleMesh> m_mesh;
+  std::size_t m_bytes = 0;
+  SurfaceActor m_surface;
+  SurfaceActor m_caps;                                        // of a closed mesh, in the cuts
+  std::array<Eigen::Vector3f, 2> m_bounds = m_mesh->bounds(); // patient LPS mm
+  std::shared_ptr<const volume::CutMask> m_mask;              // null: nothing drilled
+  std::vector<ClippingPlane> m_cuts;
   std::optional<DrilledMesh> m_shape;
+  std::optional<volume::MeshInside> m_inside;
   bool m_isDrilled = false;
-  bool m_isOld = false; // what is shown
-  bool m_isCut = false; // likewise
+  bool m_isOld = false;     // what is shown
+  bool m_isChanged = false; // likewise: it is not the whole mesh
   std::chrono::steady_clock::time_point m_done;
   std::chrono::steady_clock::duration m_took{};
 };
@@ -449,7 +522,8 @@ void ScenePicture::Implementation::forEachProp(const Visit& visit)
 {
   visit(volume);
   for (const auto& mesh : meshes)
-    visit(mesh->actor.prop());
+    for (vtkActor* prop : mesh->props())
+      visit(prop);
 }
 
 void ScenePicture::Implementation::attach(vtkRenderer* next)
@@ -514,13 +588,13 @@ void ScenePicture::Implementation::applyCamera()
 void ScenePicture::Implementation::setMeshes(const SceneContents& contents)
 {
   std::vector<std::unique_ptr<MeshActor>> next;
+  const std::vector<ClippingPlane> cuts = meshCuts(contents);
   int pattern = 0;
   for (const MeshContents& wanted : contents.meshes)
   {
-    const auto found =
-        std::find_if(meshes.begin(), meshes.end(),
-                     [&wanted](const std::unique_ptr<MeshActor>& old)
-                     { return old && old->mesh == wanted.mesh && old->name == wanted.name; });
+    const auto found = std::find_if(meshes.begin(), meshes.end(),
+                                    [&wanted](const std::unique_ptr<MeshActor>& old)
+                                    { return old && old->shows(wanted); });
     std::unique_ptr<MeshActor> actor;
     if (found != meshes.end())
       actor = std::move(*found);
@@ -528,19 +602,21 @@ void ScenePicture::Implementation::setMeshes(const SceneContents& contents)
     {
       actor = std::make_unique<MeshActor>(wanted, pattern, shadowsOn(false));
       if (renderer)
-        renderer->AddViewProp(actor->actor.prop());
+        for (vtkActor* prop : actor->props())
+          renderer->AddViewProp(prop);
     }
     ++pattern;
-    appearance::StructureAppearance look = wanted.look;
-    actor->actor.setLook(look, contents.light);
+    actor->setLook(wanted.look, contents);
     actor->setDrilled(wanted.drilled);
+    actor->setCuts(cuts);
     actor->setMask(contents.mask);
     next.push_back(std::move(actor));
   }
   if (renderer)
     for (const auto& old : meshes)
       if (old)
-        renderer->RemoveViewProp(old->actor.prop());
+        for (vtkActor* prop : old->props())
+          renderer->RemoveViewProp(prop);
   meshes = std::move(next);
 }
 
@@ -705,7 +781,7 @@ std::map<std::string, std::size_t> ScenePicture::resources() const
 {
   std::map<std::string, std::size_t> resources = statistics().resources;
   for (const auto& mesh : m_implementation->meshes)
-    resources["meshes." + mesh->name] = mesh->bytes;
+    resources["meshes." + mesh->name()] = mesh->bytes();
   return resources;
 }
 

@@ -226,4 +226,12 @@ void SurfaceActor::setLook(const appearance::StructureAppearance& look, const Li
   m_shading.apply(m_actor, light, look.opacity, m_pattern);
 }
 
+void SurfaceActor::setPlainLook(const appearance::StructureAppearance& look)
+{
+  LightSettings ambient;
+  ambient.ambient = 1.0;
+  ambient.specular = 0.0;
+  setLook(look, ambient);
+}
+
 } // namespace petrous::rendering

@@ -64,6 +64,8 @@ public:
   vtkActor* prop() const;
   void setSurface(vtkPolyData* surface);
   void setLook(const appearance::StructureAppearance& look, const LightSettings& light);
+  /// Not lit: in the very colour of the look.
+  void setPlainLook(const appearance::StructureAppearance& look);
 
 private:
   int m_pattern;

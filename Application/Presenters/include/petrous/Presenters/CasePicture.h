@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "petrous/Core/CameraPose.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Interaction/PickRay.h"
 #include "petrous/Rendering/SceneContents.h"
@@ -47,6 +48,9 @@ void illuminate(rendering::SceneContents& contents,
 /// What a picture that is clipped so must say, or what is not shown is taken for drilled.
 std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clipping,
                                        const core::GridGeometry& grid);
+
+/// Whether a camera stands in opaque tissue that the scene draws: its picture is of one colour.
+bool isBuried(const core::CameraPose& camera, const rendering::SceneContents& contents);
 
 /// What must be known of a picture of the case: interpolated slices, and clippingTexts of its view.
 std::vector<std::string> pictureNotes(const scene::Case& value);

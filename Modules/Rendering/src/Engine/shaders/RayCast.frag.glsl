@@ -266,7 +266,8 @@ int pass(inout Ray ray, float hit, float facing, inout float depth)
     if (extinctionAt(inside, ray.row, ray.gathering, ray.value) > kSoftInSection)
     {
       float grey = clamp((ray.at.value - section.x) * section.y, 0.0, 1.0);
-      ray.plain += ray.transmittance * vec4(vec3(grey), 1.0);
+      vec3 face = ray.more.y > 0.5 ? lookAt(inside, ray.row, ray.value).rgb : vec3(grey);
+      ray.plain += ray.transmittance * vec4(face, 1.0);
       ray.transmittance = 0.0;
       depth = mmOf(ray, hit);
       return kEnd;

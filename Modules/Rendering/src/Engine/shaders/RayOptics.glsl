@@ -81,15 +81,21 @@ float opacityFrom(float opacity, float facing, bool ofCt, float slope)
 #endif
 }
 
+// Colour, and specular, of a material where it reads a value.
+vec4 lookAt(int material, vec4 row, float value)
+{
+  COUNT(1);
+  float width = float(textureSize(lookTexture, 0).x);
+  float u = clamp((value - row.x) * row.y, 0.0, 1.0) * (1.0 - 1.0 / width) + 0.5 / width;
+  return texture(lookTexture, vec2(u, rowCoordinate(material)));
+}
+
 // Lit, without an upper bound. `overlay`: see overlayAt; `seen`: of the surface; `isSection`: a
 // face, which is not lit.
 vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, vec4 overlay,
                   Seen seen, bool isSection)
 {
-  COUNT(1);
-  float width = float(textureSize(lookTexture, 0).x);
-  float u = clamp((value - row.x) * row.y, 0.0, 1.0) * (1.0 - 1.0 / width) + 0.5 / width;
-  vec4 look = texture(lookTexture, vec2(u, rowCoordinate(material)));
+  vec4 look = lookAt(material, row, value);
   look.rgb = mix(look.rgb, overlay.rgb, overlay.a);
   bool isScale = overlay.a > 0.0; // compared with a legend: no brighter than that, and its hue
   float gloss = look.a * light.z;

@@ -328,6 +328,43 @@ TEST_F(CaseBuilder, AsksAboutLabelsOnTheGappedStackOfARepairedCt)
   EXPECT_FALSE(isAsked(0, dims[2] - 2, 0)) << "nothing is missing";
 }
 
+// Slices that repair moved sideways, at their pitch along the normal: the repaired CT is wider.
+TEST_F(CaseBuilder, AsksAboutLabelsOnTheStraightStackOfARepairedCt)
+{
+  auto value = presenters::buildCase("ear", m_sources, {});
+  const core::GridGeometry ct = value.ct.geometry;
+  const core::Index3 dims = ct.dims();
+  value.ct.provenance.shift = 2.4 * ct.spacing()[1];
+  const auto isAsked = [&](const core::Index3& first, const core::Index3& size)
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(
+        core::GridGeometry(size, ct.spacing(),
+                           ct.patientFromVoxel(Vector3d(first[0], first[1], first[2])),
+                           ct.direction()),
+        std::uint16_t{0});
+    voxels->at(3, 3, 2) = 1;
+    imaging::writeLabelFile(m_folder / "stack.nrrd", volume::makeLabelMap(voxels, {}));
+    presenters::PartSources parts;
+    parts.labels = {{"vein", m_folder / "stack.nrrd"}};
+    scene::Case with = value;
+    try
+    {
+      presenters::addParts(with, parts, {});
+    }
+    catch (const presenters::LabelsUnrepaired&)
+    {
+      return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(isAsked({0, 0, 0}, {dims[0], dims[1] - 3, dims[2]}));
+  EXPECT_TRUE(isAsked({0, 3, 0}, {dims[0], dims[1] - 3, dims[2]})) << "it leans the other way";
+  EXPECT_FALSE(isAsked({0, 0, 0}, dims)) << "the repaired CT's own";
+  EXPECT_FALSE(isAsked({0, 0, 0}, {dims[0], dims[1] - 4, dims[2]})) << "more than it was widened";
+  EXPECT_FALSE(isAsked({0, 0, 0}, {dims[0], dims[1] - 3, dims[2] - 1})) << "no slice was missing";
+  EXPECT_FALSE(isAsked({0, 0, 1}, {dims[0], dims[1] - 3, dims[2]})) << "it begins further up";
+}
+
 // What was cut out of the repaired CT, or reaches beyond it, is on its voxels.
 TEST_F(CaseBuilder, AsksNotAboutLabelsOnTheVoxelsOfARepairedCt)
 {

@@ -925,17 +925,30 @@ bool isOnLatticeOf(const core::GridGeometry& grid, const core::GridGeometry& who
   return true;
 }
 
-// Whether what was drawn may be on the slices as they lie in the files: where some are missing, a
-// stack that is taken for even has the repaired image's first slice and pitch, and fewer slices.
+// Whether what was drawn may be on the slices as they lie in the files. A program that takes them
+// for straight and even, at their usual pitch, has the lattice of the repaired image, which is
+// wider by as much as slices were shifted and longer by those that were missing: a grid that is
+// smaller by no more than that may be the whole stack, and one that is smaller by more is a part.
 bool mayBeUnrepaired(const core::GridGeometry& grid, const scene::ImagePart& ct)
 {
+  if (core::sameGrid(grid, ct.geometry))
+    return false;
   if (!isOnLatticeOf(grid, ct.geometry))
     return true;
   const double first =
       ct.geometry.voxelFromPatient(grid.patientFromVoxel(Eigen::Vector3d::Zero()))[2];
-  const int absent = ct.geometry.dims()[2] - grid.dims()[2];
-  return std::lround(first) == 0 && absent > 0 &&
-         absent <= volume::sliceCount(ct.provenance.interpolated);
+  if (std::lround(first) > 0) // not with the first slice
+    return false;
+  const double aside = std::abs(ct.provenance.shift);
+  const Eigen::Vector3d added(std::ceil(aside / ct.geometry.spacing()[0]),
+                              std::ceil(aside / ct.geometry.spacing()[1]),
+                              volume::sliceCount(ct.provenance.interpolated));
+  for (int axis = 0; axis < 3; ++axis)
+    if (const int absent = ct.geometry.dims()[static_cast<std::size_t>(axis)] -
+                           grid.dims()[static_cast<std::size_t>(axis)];
+        absent > added[axis])
+      return false;
+  return true;
 }
 
 // How far apart a stack that other programs take for straight and even, and the repaired image may
@@ -1549,8 +1562,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
       continue;
     part.provenance = provenance;
     part.drawnOn = drawnOn(value, source, map.voxels->geometry());
-    if (part.drawnOn.value_or("").empty() &&
-        mayBeUnrepaired(map.voxels->geometry(), value.ct))
+    if (part.drawnOn.value_or("").empty() && mayBeUnrepaired(map.voxels->geometry(), value.ct))
       if (const double apart = repairedBy(value.ct); apart > 0.0)
       {
         if (!source.asTheyLie && !imaging::isDicomSegmentation(source.path) &&

@@ -534,15 +534,28 @@ void warnInterpolated(const Context& context, const scene::Case& value)
     context.warn(line + "; small structures may be absent there");
 }
 
+nlohmann::json flightJson(const RenderOptions& options, const presenters::Flight& flight)
+{
+  if (options.along.empty())
+    return nullptr;
+  return {{"along", options.along},
+          {"length_mm", flight.length},
+          {"flown_mm", flight.flown},
+          {"hidden", flight.hidden},
+          {"soft_tissue_hidden", flight.softTissueHidden}};
+}
+
 void writeFilm(const Context& context, const RenderOptions& options, const Shot& shot,
                scene::Case value, const presenters::LeftOut& leftOut)
 {
   constexpr double kLine = 0.05; // of the work, to find the centre line
   const core::Progress progress = context.progress();
   const int frames = static_cast<int>(framesOf(options));
-  const auto cameras = options.along.empty() ? presenters::turntable(shot.camera, frames)
-                                             : presenters::flightAlong(value, options.along, frames,
-                                                                       progress.part(0.0, kLine));
+  presenters::Flight flight;
+  if (options.along.empty())
+    flight.cameras = presenters::turntable(shot.camera, frames);
+  else
+    flight = presenters::flightAlong(value, options.along, frames, progress.part(0.0, kLine));
   presenters::FilmOptions film;
   film.width = shot.width;
   film.height = shot.height;
@@ -552,8 +565,12 @@ void writeFilm(const Context& context, const RenderOptions& options, const Shot&
   const rendering::SceneContents contents = renderContents(options, value);
   context.refuseDamaged(); // the images are read
   const std::size_t removed =
-      presenters::writeFilm(options.out, contents, cameras, film, progress.part(kLine, 1.0));
+      presenters::writeFilm(options.out, contents, flight.cameras, film, progress.part(kLine, 1.0));
   warnInterpolated(context, value);
+  for (const std::string& name : flight.hidden)
+    context.warn("'" + core::printable(name) + "' is not drawn: it lies in the way");
+  if (flight.softTissueHidden)
+    context.warn("soft tissue is not drawn: it lies in the way");
   if (removed > 0)
     context.warn(std::to_string(removed) +
                  " frames of an earlier, longer film of this name were removed");
@@ -565,7 +582,7 @@ void writeFilm(const Context& context, const RenderOptions& options, const Shot&
         ": not known to be of an earlier film, so it stays; a player may take it for a "
         "frame of this one");
   nlohmann::json path = nlohmann::json::array();
-  for (const core::CameraPose& camera : cameras)
+  for (const core::CameraPose& camera : flight.cameras)
     path.push_back(cameraJson(camera));
   context.print(options.out + ": " + std::to_string(frames) + " frames, " +
                 std::to_string(shot.width) + "x" + std::to_string(shot.height));
@@ -573,6 +590,7 @@ void writeFilm(const Context& context, const RenderOptions& options, const Shot&
                      {"size", {shot.width, shot.height}},
                      {"frames", frames},
                      {"cameras", std::move(path)},
+                     {"flight", flightJson(options, flight)},
                      {"files", outputsOf(options)},
                      {"removed_frames", removed},
                      {"frames_beyond", beyond.size()},

@@ -7693,6 +7693,14 @@ Verletzt: %1, %2</translation>
         <source>Read what stands in it as it was typed, for names: %1</source>
         <translation>Lesen Sie auf Namen, was darin steht, wie es eingegeben wurde: %1</translation>
     </message>
+    <message>
+        <source>soft tissue</source>
+        <translation>Weichgewebe</translation>
+    </message>
+    <message>
+        <source>Not drawn, as the flight goes through it: %1</source>
+        <translation>Nicht gezeichnet, da der Flug hindurchgeht: %1</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ShareDialog</name>

@@ -3036,6 +3036,22 @@
         <translation>die Ansicht hat kein Oben, um das sie sich drehen könnte</translation>
     </message>
     <message>
+        <source>flight: along the centre line of '%1' no stretch of %#2 mm is free: %3</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>bone, or the edge of the image, is nearer than 0.3 mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>structures that are shown close it at its ends; hide them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>flight: along the centre line of '%1' nothing is drawn</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>ffmpeg cannot be started: %1</source>
         <translation>ffmpeg lässt sich nicht starten: %1</translation>
     </message>

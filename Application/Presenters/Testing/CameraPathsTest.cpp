@@ -1,6 +1,10 @@
 #include "petrous/Presenters/CameraPaths.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -58,19 +62,125 @@ TEST(Flight, GoesEvenlyAlongALineAndLooksAhead)
   EXPECT_THROW(flight({{1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}}, 10), core::InvalidParameter);
 }
 
-TEST(Flight, FollowsACanalWhichItHides)
+namespace
 {
-  namespace shapes = presenters::testing;
-  const core::GridGeometry grid({60, 24, 24}, Vector3d::Constant(0.5), {0.0, 0.0, 0.0});
-  const Vector3d from(3.0, 6.0, 6.0);
-  const Vector3d to(27.0, 6.0, 6.0);
-  scene::Case value = shapes::shapeCase(grid, {{"canal", shapes::cylinder(from, to, 2.0)}});
-  value.labels.front().structures.front().look.shown = true;
-  const auto cameras = flightAlong(value, "canal", 20);
-  ASSERT_EQ(cameras.size(), 20U);
+
+namespace shapes = presenters::testing;
+
+const core::GridGeometry kGrid({80, 24, 24}, Vector3d::Constant(0.5), {0.0, 0.0, 0.0});
+const Vector3d kFrom(3.0, 6.0, 6.0);
+const Vector3d kTo(33.0, 6.0, 6.0);
+constexpr double kAhead = 3.0; // mm, of CameraPaths.h
+
+// Bone with a canal of air of 30 mm, closed at both ends, and structures of another label map.
+scene::Case canalCase(const std::vector<shapes::Shape>& others = {})
+{
+  const shapes::Inside canal = shapes::cylinder(kFrom, kTo, 2.0);
+  scene::Case value = shapes::shapeCase(kGrid, {{"canal", canal}},
+                                        [canal](const Vector3d& at) { return !canal(at); });
+  if (!others.empty())
+    value.labels.push_back(shapes::shapeCase(kGrid, others).labels.front());
+  return value;
+}
+
+double lowest(const Flight& flight)
+{
+  double least = 1e9;
+  for (const core::CameraPose& camera : flight.cameras)
+    least = std::min(least, camera.position.x());
+  return least;
+}
+
+double highest(const Flight& flight)
+{
+  double most = -1e9;
+  for (const core::CameraPose& camera : flight.cameras)
+    most = std::max(most, camera.position.x());
+  return most;
+}
+
+} // namespace
+
+TEST(Flight, FollowsACanalWhichItHidesAndStopsBeforeItsEnd)
+{
+  scene::Case value = canalCase();
+  const Flight flight = flightAlong(value, "canal", 20);
+  ASSERT_EQ(flight.cameras.size(), 20U);
   EXPECT_FALSE(scene::findStructure(value, "canal")->look.shown);
-  for (const core::CameraPose& camera : cameras) // within a voxel of the axis
-    EXPECT_LT((camera.position - Vector3d(camera.position.x(), 6.0, 6.0)).norm(), 0.5);
-  EXPECT_NEAR(std::abs(cameras.back().position.x() - cameras.front().position.x()), 24.0, 1.0);
+  EXPECT_TRUE(flight.hidden.empty());
+  for (const core::CameraPose& camera : flight.cameras)
+    for (const Vector3d& at : {camera.position, camera.focalPoint})
+    {
+      // Within a voxel of the axis, and as far from the walls at the ends as it must be.
+      EXPECT_LT((at - Vector3d(at.x(), 6.0, 6.0)).norm(), 0.5);
+      EXPECT_GT(at.x(), kFrom.x() + kFlightClearance - 0.25);
+      EXPECT_LT(at.x(), kTo.x() - kFlightClearance + 0.25);
+    }
+  // All of it but what is kept ahead.
+  EXPECT_NEAR(highest(flight) - lowest(flight), 30.0 - kAhead - 2.0 * kFlightClearance, 1.0);
+  EXPECT_NEAR(flight.flown, highest(flight) - lowest(flight), 0.05);
   EXPECT_THROW(flightAlong(value, "nothing", 20), core::InvalidParameter);
+}
+
+TEST(Flight, HidesWhatItWouldCrossAndStopsBeforeWhatClosesAnEnd)
+{
+  scene::Case value =
+      canalCase({{"plug", shapes::ball({18.0, 6.0, 6.0}, 1.5)},
+                 {"drum", shapes::cylinder({31.5, 6.0, 6.0}, {32.5, 6.0, 6.0}, 2.0)},
+                 {"aside", shapes::ball({13.0, 4.5, 6.0}, 0.6)}});
+  const Flight flight = flightAlong(value, "canal", 20);
+  EXPECT_EQ(flight.hidden, std::vector<std::string>{"plug"});
+  EXPECT_FALSE(scene::findStructure(value, "plug")->look.shown);
+  EXPECT_TRUE(scene::findStructure(value, "drum")->look.shown);
+  EXPECT_TRUE(scene::findStructure(value, "aside")->look.shown);
+  for (const core::CameraPose& camera : flight.cameras)
+  {
+    EXPECT_LT(camera.position.x(), 31.5 - kFlightClearance + 0.25);
+    EXPECT_LT(camera.focalPoint.x(), 31.5 - kFlightClearance + 0.25);
+  }
+}
+
+TEST(Flight, TakesTheLongerSideOfAWallOfBone)
+{
+  scene::Case value = canalCase();
+  const auto ct = std::make_shared<volume::Volume<std::int16_t>>(kGrid);
+  const shapes::Inside canal = shapes::cylinder(kFrom, kTo, 2.0);
+  for (int k = 0; k < kGrid.dims()[2]; ++k)
+    for (int j = 0; j < kGrid.dims()[1]; ++j)
+      for (int i = 0; i < kGrid.dims()[0]; ++i)
+      {
+        const Vector3d at = kGrid.patientFromVoxel({1.0 * i, 1.0 * j, 1.0 * k});
+        const bool isWall = std::abs(at.x() - 13.0) < 1.1;
+        ct->at(i, j, k) = static_cast<std::int16_t>(canal(at) && !isWall ? -1000 : 1000);
+      }
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+  const Flight flight = flightAlong(value, "canal", 20);
+  EXPECT_GT(lowest(flight), 14.0);
+  EXPECT_NEAR(flight.flown, 33.0 - 14.0 - kAhead - 2.0 * kFlightClearance, 1.5);
+}
+
+TEST(Flight, IsRefusedWhereThereIsNoWay)
+{
+  // A structure in solid bone.
+  scene::Case value = shapes::shapeCase(kGrid, {{"canal", shapes::cylinder(kFrom, kTo, 2.0)}});
+  EXPECT_THROW(flightAlong(value, "canal", 20), core::InvalidParameter);
+}
+
+TEST(Flight, LeavesOutWhatShowsNothing)
+{
+  // A nerve, half of it in a canal of bone that ends at x = 18, the rest in the open.
+  const shapes::Inside nerve = shapes::cylinder(kFrom, kTo, 1.5);
+  scene::Case value =
+      shapes::shapeCase(kGrid, {{"nerve", nerve}},
+                        [nerve](const Vector3d& at) { return at.x() < 18.0 && !nerve(at); });
+  const Flight flight = flightAlong(value, "nerve", 20);
+  ASSERT_EQ(flight.cameras.size(), 20U);
+  // From either end, the way in the open behind the canal's mouth is left out where the camera
+  // looks away from it, and flown where it looks into it.
+  const bool looksAway = flight.cameras.back().position.x() > flight.cameras.front().position.x();
+  if (looksAway)
+    EXPECT_LT(highest(flight), 18.5);
+  else
+    EXPECT_LT(lowest(flight), 8.0);
 }

@@ -127,6 +127,9 @@ void PictureController::showView(const scene::ViewState& view)
   const QScopedValueRollback<bool> showing(m_isShowing, true);
   presenters::ViewSettings next;
   m_kept.restore(next, m_quadBuffer);
+  // A saved case looks as the command draws it; the user's light is for new ones.
+  if (!view.light && m_model.value().revision > 0)
+    next.setLight({});
   next.take(view, m_quadBuffer);
   m_settings.take(next);
 }

@@ -216,17 +216,30 @@ void ShareController::film()
        library = m_model.library()](const core::Progress& progress) mutable -> BackgroundWork::Reply
       {
         library::refuseOverwriting(file, library.folder());
-        const auto cameras =
-            along.empty() ? presenters::turntable(*value.camera, frames)
-                          : presenters::flightAlong(value, along, frames, progress.part(0.0, 0.05));
+        presenters::Flight flight;
+        if (along.empty())
+          flight.cameras = presenters::turntable(*value.camera, frames);
+        else
+          flight = presenters::flightAlong(value, along, frames, progress.part(0.0, 0.05));
         presenters::FilmOptions film;
         film.removesAnyBeyond = true; // FilmDialog::files, which the user was asked about
         film.lines = linesOf(value);
         const rendering::SceneContents contents =
             contentsOf(value, background, progress.part(0.05, 0.1));
         library.checkVoxels(value, progress); // before the first frame is there
-        presenters::writeFilm(file, contents, cameras, film, progress.part(0.1, 1.0));
-        return [this, file] { done(file, tr("The film is written"), false); };
+        presenters::writeFilm(file, contents, flight.cameras, film, progress.part(0.1, 1.0));
+        return [this, file, hidden = std::move(flight.hidden), soft = flight.softTissueHidden]
+        {
+          QStringList names;
+          for (const std::string& name : hidden)
+            names += words(name);
+          if (soft)
+            names += tr("soft tissue");
+          done(file, tr("The film is written"), false,
+               names.isEmpty()
+                   ? QString()
+                   : tr("Not drawn, as the flight goes through it: %1").arg(names.join(", ")));
+        };
       });
 }
 

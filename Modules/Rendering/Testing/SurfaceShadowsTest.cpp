@@ -119,6 +119,43 @@ TEST(SurfaceShadows, AnEdgeHidesHalfOfALampBehindIt)
   EXPECT_EQ(lampAt(3.0, contents), 1.0); // the wall is not drawn
 }
 
+TEST(SurfaceShadows, NothingBehindTheLampKeepsItsLight)
+{
+  // A canal of 3 mm radius along z, closed at its lower end: the camera is in it.
+  const Seer seer(boneScene(
+      ct<std::int16_t>(cube(80, 0.3), [](const Vector& p)
+                       { return std::max(std::hypot(p.x(), p.y()) - 3.0, -8.0 - p.z()); })));
+  core::CameraPose camera = from({0.0, 0.0, 0.0}, {0.0, 0.0, -3.0}, 80.0);
+  camera.viewUp = {0.0, 1.0, 0.0};
+  const optics::Lamp lamp = optics::lampOf(camera);
+  EXPECT_LT((lamp.at - camera.position).norm(), 1e-12);
+  const Vector up(0.0, 0.0, 1.0);
+  EXPECT_GT(seer.shadows.at(surfaceNear(seer, {0.0, 0.0, -8.0}, up), up, lamp).lamp, 0.999);
+  for (const double z : {-3.0, -6.0})
+  {
+    const Vector wall(3.0, 0.0, z);
+    const Vector inward(-1.0, 0.0, 0.0);
+    EXPECT_GT(seer.shadows.at(surfaceNear(seer, wall, inward), inward, lamp).lamp, 0.95) << z;
+  }
+  // The bottom sees a lamp that far in the wall only through bone.
+  optics::Lamp behind = lamp;
+  behind.at = {0.0, 6.0, 0.0};
+  EXPECT_LT(seer.shadows.at(surfaceNear(seer, {0.0, 0.0, -8.0}, up), up, behind).lamp, 0.05);
+}
+
+TEST(SurfaceShadows, TheLampComesOffTheAxisAsTheCameraBecomesAMicroscope)
+{
+  const auto offset = [](double focus)
+  {
+    const core::CameraPose camera = from({0.0, -focus, 0.0}, {0.0, 0.0, 0.0});
+    return (optics::lampOf(camera).at - camera.position).norm() / focus;
+  };
+  EXPECT_EQ(offset(3.0), 0.0);
+  EXPECT_NEAR(offset(17.5), 0.5 * optics::kLampTilt, 1e-12);
+  EXPECT_NEAR(offset(30.0), optics::kLampTilt, 1e-12);
+  EXPECT_NEAR(offset(250.0), optics::kLampTilt, 1e-12);
+}
+
 TEST(SurfaceShadows, BothEyesHaveTheSameLamp)
 {
   core::CameraPose camera = from({30.0, -200.0, 60.0}, {1.0, 2.0, 3.0}, 12.0);

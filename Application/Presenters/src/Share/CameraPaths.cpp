@@ -2,11 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
 
 #include <Eigen/Geometry>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Presenters/Measuring.h"
+#include "petrous/Presenters/SceneAssembly.h"
+#include "petrous/Scene/CaseField.h"
+#include "petrous/Volume/LabelBorders.h"
+#include "petrous/Volume/MeshInside.h"
+#include "petrous/Volume/MeshTree.h"
+#include "petrous/Volume/TissueField.h"
 
 namespace petrous::presenters
 {
@@ -15,6 +27,10 @@ namespace
 {
 
 using Eigen::Vector3d;
+
+constexpr double kAhead = 3.0;    // mm: a corner of the line is seen to come
+constexpr double kShortest = 1.0; // mm that the cameras of a flight are apart at least
+constexpr double kSampling = 0.1; // mm along the line
 
 void checkFrames(int frames)
 {
@@ -41,7 +57,7 @@ public:
       throw core::InvalidParameter("a flight needs a line of two different points");
   }
 
-  double length() const { return m_way.back(); }
+  double length() const { return m_way.back(); } // mm
 
   /// Beyond its ends it goes on straight.
   Vector3d at(double way) const
@@ -57,6 +73,172 @@ private:
   std::vector<Vector3d> m_points;
   std::vector<double> m_way; // mm from the first point
 };
+
+std::vector<core::CameraPose> flightBetween(const Polyline& line, double from, double to,
+                                            int frames)
+{
+  constexpr double kViewAngle = 80.0; // degrees, as of an endoscope
+  checkFrames(frames);
+  std::vector<core::CameraPose> poses;
+  Vector3d up(0.0, 0.0, 1.0); // superior
+  Vector3d before = Vector3d::Zero();
+  for (int n = 0; n < frames; ++n)
+  {
+    const double way = from + (to - from) * n / (frames - 1);
+    core::CameraPose pose;
+    pose.position = line.at(way);
+    pose.focalPoint = line.at(way + kAhead);
+    pose.viewAngle = kViewAngle;
+    const Vector3d ahead = (pose.focalPoint - pose.position).normalized();
+    if (n == 0 && up.cross(ahead).norm() < 0.2) // a line that goes up
+      up = Vector3d(0.0, -1.0, 0.0);            // anterior
+    if (n > 0)
+      up = Eigen::Quaterniond::FromTwoVectors(before, ahead) * up;
+    up = (up - up.dot(ahead) * ahead).normalized();
+    pose.viewUp = up;
+    before = ahead;
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+// What is drawn within kFlightClearance of a point.
+struct Here
+{
+  bool isClosed = false; // by bone or the edge of the image
+  std::set<std::string> parts;
+};
+
+// What is drawn of a case, for points and lines in the CT.
+class Surroundings
+{
+public:
+  Surroundings(const scene::Case& value, const rendering::SceneContents& contents)
+    : m_labels(contents.labels)
+    , m_bone(contents.ct, {}, contents.mask,
+             {contents.boneShown ? contents.iso : kNoBone, scene::kFieldScale})
+    , m_structures(contents.ct,
+                   contents.labels && contents.labels->occupancy
+                       ? std::vector<volume::TissueField::SolidUnion>{contents.labels->occupancy}
+                       : std::vector<volume::TissueField::SolidUnion>{},
+                   contents.mask, {kNoBone, scene::kFieldScale})
+  {
+    for (const scene::StructurePart* part :
+         scene::labelSources(value, [](const auto& look) { return look.shown; }).structures)
+      m_names.push_back(part->name);
+    for (const rendering::MeshContents& mesh : contents.meshes)
+      m_meshes.push_back({mesh.name, volume::MeshTree(*mesh.mesh), volume::MeshInside(*mesh.mesh)});
+  }
+
+  Here around(const Vector3d& point) const
+  {
+    Here here;
+    for (int n = 0; n < 27; ++n) // the point itself, and the ball around it
+    {
+      const Vector3d way(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+      const Vector3d at = point + kFlightClearance * way / std::max(way.norm(), 1.0);
+      const core::GridGeometry& grid = m_bone.geometry();
+      if (!grid.hullContains(grid.voxelFromPatient(at)) || m_bone.value(at) > 0.0)
+        here.isClosed = true;
+      else if (m_structures.value(at) > 0.0)
+        here.parts.insert(structureAt(at));
+    }
+    for (const Mesh& mesh : m_meshes)
+      if (mesh.tree.distance(point, kFlightClearance) < kFlightClearance ||
+          (mesh.inside.openEdges() == 0 && mesh.inside.contains(point)))
+        here.parts.insert(mesh.name);
+    return here;
+  }
+
+  // Whether most of what a camera looks at is near.
+  bool fillsView(const Vector3d& from, const Vector3d& ahead) const
+  {
+    constexpr double kSight = 40.0; // mm
+    constexpr int kAround = 8;
+    const Vector3d u = ahead.unitOrthogonal();
+    const Vector3d v = ahead.cross(u);
+    int met = 0;
+    for (int n = 0; n <= kAround; ++n)
+    {
+      constexpr double kTurn = 2.0 * 3.14159265358979323846 / kAround;
+      constexpr double kTangent = 0.6; // three quarters of the way to the picture's edge
+      const double turn = kTurn * n;
+      const Vector3d aside =
+          n < kAround ? (std::cos(turn) * u + std::sin(turn) * v).eval() : Vector3d::Zero().eval();
+      met += meets(from, (ahead + kTangent * aside).normalized(), kSight) ? 1 : 0;
+    }
+    return 2 * met > kAround + 1;
+  }
+
+private:
+  static constexpr double kNoBone = 1e300; // HU
+
+  struct Mesh
+  {
+    std::string name;
+    volume::MeshTree tree;
+    volume::MeshInside inside;
+  };
+
+  std::string structureAt(const Vector3d& point) const
+  {
+    const volume::Volume<std::uint8_t>& index = *m_labels->index;
+    const std::size_t found = volume::structureAt(index, m_labels->borders.get(),
+                                                  index.geometry().voxelFromPatient(point))
+                                  .index;
+    return found > 0 && found <= m_names.size() ? m_names[found - 1] : std::string();
+  }
+
+  bool meets(const Vector3d& from, const Vector3d& way, double sight) const
+  {
+    const Vector3d to = from + sight * way;
+    if (m_bone.firstHit(from, to) || m_structures.firstHit(from, to))
+      return true;
+    return std::any_of(m_meshes.begin(), m_meshes.end(),
+                       [&](const Mesh& mesh)
+                       {
+                         const auto hit = mesh.tree.firstAlong(from, way, 0.0);
+                         return hit && hit->distance < sight;
+                       });
+  }
+
+  std::shared_ptr<const volume::LabelField> m_labels;
+  volume::TissueField m_bone, m_structures; // neither holds the other
+  std::vector<std::string> m_names;         // of index i at i - 1
+  std::vector<Mesh> m_meshes;
+};
+
+// Samples, both included; last < first: none.
+struct Stretch
+{
+  int first = 0;
+  int last = -1;
+};
+
+Stretch longestFree(const std::vector<Here>& here)
+{
+  Stretch longest;
+  Stretch current;
+  for (int n = 0; n < static_cast<int>(here.size()); ++n)
+  {
+    if (here[static_cast<std::size_t>(n)].isClosed)
+      current.first = n + 1;
+    current.last = n;
+    if (current.last - current.first > longest.last - longest.first)
+      longest = current;
+  }
+  return longest;
+}
+
+// Where structures and meshes lie in a stretch, each from its first to its last sample.
+std::map<std::string, Stretch> crossings(const std::vector<Here>& here, const Stretch& free)
+{
+  std::map<std::string, Stretch> found;
+  for (int n = free.first; n <= free.last; ++n)
+    for (const std::string& name : here[static_cast<std::size_t>(n)].parts)
+      found.emplace(name, Stretch{n, n}).first->second.last = n;
+  return found;
+}
 
 } // namespace
 
@@ -80,42 +262,84 @@ std::vector<core::CameraPose> turntable(const core::CameraPose& camera, int fram
 
 std::vector<core::CameraPose> flight(const std::vector<Vector3d>& points, int frames)
 {
-  constexpr double kAhead = 3.0;      // mm: a corner of the line is seen to come
-  constexpr double kViewAngle = 80.0; // degrees, as of an endoscope
-  checkFrames(frames);
   const Polyline line(points);
-  std::vector<core::CameraPose> poses;
-  Vector3d up(0.0, 0.0, 1.0); // superior
-  Vector3d before = Vector3d::Zero();
-  for (int n = 0; n < frames; ++n)
-  {
-    const double way = line.length() * n / (frames - 1);
-    core::CameraPose pose;
-    pose.position = line.at(way);
-    pose.focalPoint = line.at(way + kAhead);
-    pose.viewAngle = kViewAngle;
-    const Vector3d ahead = (pose.focalPoint - pose.position).normalized();
-    if (n == 0 && up.cross(ahead).norm() < 0.2) // a line that goes up
-      up = Vector3d(0.0, -1.0, 0.0);            // anterior
-    if (n > 0)
-      up = Eigen::Quaterniond::FromTwoVectors(before, ahead) * up;
-    up = (up - up.dot(ahead) * ahead).normalized();
-    pose.viewUp = up;
-    before = ahead;
-    poses.push_back(pose);
-  }
-  return poses;
+  return flightBetween(line, 0.0, line.length(), frames);
 }
 
-std::vector<core::CameraPose> flightAlong(scene::Case& value, const std::string& structure,
-                                          int frames, const core::Progress& progress)
+Flight flightAlong(scene::Case& value, const std::string& structure, int frames,
+                   const core::Progress& progress)
 {
-  const auto poses = flight(alongStructure(value, structure, {}, progress).points, frames);
+  checkFrames(frames);
+  const Polyline line(alongStructure(value, structure, {}, progress.part(0.0, 0.4)).points);
   if (scene::StructurePart* part = scene::findStructure(value, structure))
     part->look.shown = false;
   else if (scene::MeshPart* mesh = scene::findMesh(value, structure))
     mesh->look.shown = false;
-  return poses;
+
+  Flight flight;
+  flight.length = line.length();
+  SceneAssembly assembly;
+  std::optional<Surroundings> drawn;
+  drawn.emplace(value, assembly.contents(value, progress.part(0.4, 0.7)));
+  std::vector<Here> here; // every kSampling; also straight ahead of the line's end
+  const int samples = static_cast<int>((line.length() + kAhead) / kSampling);
+  for (int n = 0; n <= samples; ++n)
+    here.push_back(drawn->around(line.at(n * kSampling)));
+  Stretch free = longestFree(here);
+  const auto refuseUnlessLong = [&](const char* closed)
+  {
+    if (free.last - free.first < static_cast<int>(std::lround((kAhead + kShortest) / kSampling)))
+      throw core::InvalidParameter("flight: along the centre line of '" + structure +
+                                   "' no stretch of " + core::generalText(kAhead + kShortest) +
+                                   " mm is free: " + closed);
+  };
+  refuseUnlessLong("bone, or the edge of the image, is nearer than 0.3 mm");
+
+  // What of the line's ends a structure may close without being hidden.
+  const int end = static_cast<int>(kAhead / kSampling);
+  const int early = free.first + end;
+  const int late = std::min(free.last, static_cast<int>(line.length() / kSampling)) - end;
+  for (const auto& [name, at] : crossings(here, free))
+    if (at.first > late)
+      free.last = std::min(free.last, at.first - 1);
+    else if (at.last < early)
+      free.first = std::max(free.first, at.last + 1);
+    else
+      flight.hidden.push_back(name);
+  refuseUnlessLong("structures that are shown close it at its ends; hide them");
+  for (const std::string& name : flight.hidden)
+  {
+    if (scene::StructurePart* part = scene::findStructure(value, name))
+      part->look.shown = false;
+    if (scene::MeshPart* mesh = scene::findMesh(value, name))
+      mesh->look.shown = false;
+  }
+  for (int n = free.first; n <= free.last && value.softTissue.shown; n += 5)
+    if (drawsSoftFace(value, line.at(n * kSampling)))
+    {
+      flight.softTissueHidden = true;
+      value.softTissue.shown = false;
+    }
+  if (!flight.hidden.empty())
+    drawn.emplace(value, assembly.contents(value, progress.part(0.7, 1.0)));
+
+  const auto showsSomething = [&](int n)
+  {
+    const Vector3d from = line.at(n * kSampling);
+    return drawn->fillsView(from, (line.at(n * kSampling + kAhead) - from).normalized());
+  };
+  int first = free.first;
+  int last = free.last - end;
+  while (first < last && !showsSomething(first))
+    ++first;
+  while (first < last && !showsSomething(last))
+    --last;
+  if ((last - first) * kSampling < kShortest)
+    throw core::InvalidParameter("flight: along the centre line of '" + structure +
+                                 "' nothing is drawn");
+  flight.flown = (last - first) * kSampling;
+  flight.cameras = flightBetween(line, first * kSampling, last * kSampling, frames);
+  return flight;
 }
 
 } // namespace petrous::presenters

@@ -90,6 +90,11 @@ Eigen::Vector3d Lamp::from(const Eigen::Vector3d& point) const
   return isFar ? at : (at - point).normalized();
 }
 
+double Lamp::reach(const Eigen::Vector3d& point) const
+{
+  return isFar ? kShadowReach : std::min((at - point).norm(), kShadowReach);
+}
+
 Lamp lampOf(const core::CameraPose& camera)
 {
   const core::CameraPose::Head head =
@@ -101,8 +106,11 @@ Lamp lampOf(const core::CameraPose& camera)
   lamp.right = forward.cross(camera.viewUp).normalized();
   lamp.up = lamp.right.cross(forward);
   lamp.isFar = camera.parallelScale.has_value();
+  const double tilt =
+      kLampTilt *
+      std::clamp((lamp.focus - kEndoscopeFocus) / (kMicroscopeFocus - kEndoscopeFocus), 0.0, 1.0);
   lamp.at = lamp.isFar ? (kLampTilt * lamp.up - forward).normalized().eval()
-                       : (head.position + kLampTilt * lamp.focus * lamp.up).eval();
+                       : (head.position + tilt * lamp.focus * lamp.up).eval();
   return lamp;
 }
 

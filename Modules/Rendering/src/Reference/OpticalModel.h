@@ -68,11 +68,11 @@ namespace petrous::rendering
 ///   lamp    1 - mean over the lamp's disc of b(w)
 /// where b(w) is the fraction that tissue, closed meshes and the tool stop of what comes from
 /// direction w, and d the distance at which they do, up to r = kOcclusionReach; for the lamp up to
-/// kShadowReach. A surface that a ray in air enters stops the opacity of its material, a mesh its
-/// own opacity where it is entered (of a drilled one, what the mask left), both only in the hull,
-/// the crop box and on the drawn side of clipping planes; the tool (ToolShape.h, or the instrument)
-/// stops all, but nothing of what reaches itself. What a mesh or the tool lies in stops nothing of
-/// it. All other surfaces see all.
+/// where it stands, at most kShadowReach (record 77). A surface that a ray in air enters stops the
+/// opacity of its material, a mesh its own opacity where it is entered (of a drilled one, what the
+/// mask left), both only in the hull, the crop box and on the drawn side of clipping planes; the
+/// tool (ToolShape.h, or the instrument) stops all, but nothing of what reaches itself. What a mesh
+/// or the tool lies in stops nothing of it. All other surfaces see all.
 namespace optics
 {
 
@@ -110,6 +110,11 @@ constexpr double kShadowReach = 25.0;
 constexpr double kLampTilt = 0.14054083;
 constexpr double kLampTangent = 0.1;
 
+/// Distance, mm, to the focal point: up to kEndoscopeFocus the lamp is on the axis, as at the tip
+/// of an endoscope, and from kMicroscopeFocus on at kLampTilt; the tangent is linear in between.
+constexpr double kEndoscopeFocus = 5.0;
+constexpr double kMicroscopeFocus = 30.0;
+
 /// Fractions that reach a surface: of the light from all around, and of the lamp's.
 struct Seen
 {
@@ -127,6 +132,10 @@ struct Lamp
   double focus = 0.0; ///< mm from the camera to the focal point
 
   Eigen::Vector3d from(const Eigen::Vector3d& point) const; ///< unit, towards it
+
+  /// How far from a point light is stopped on the way to it, mm: up to the lamp, at most
+  /// kShadowReach.
+  double reach(const Eigen::Vector3d& point) const;
 };
 /// At the camera's distance from the focal point; of a parallel projection, far away.
 Lamp lampOf(const core::CameraPose& camera);

@@ -176,12 +176,12 @@ optics::Seen SurfaceShadows::at(const Eigen::Vector3d& point, const Eigen::Vecto
                 kSkyRays;
   }
   const Disc disc{lamp.from(point)};
+  const double reach = lamp.reach(point);
   for (int n = 0; n < kLampRays; ++n)
   {
     const Eigen::Vector3d way =
         (disc.axis + disc.place(n, kLampRays, optics::kLampTangent)).normalized();
-    seen.lamp -=
-        stopped({from, way}, optics::kShadowReach, surface, [](double) { return 1.0; }) / kLampRays;
+    seen.lamp -= stopped({from, way}, reach, surface, [](double) { return 1.0; }) / kLampRays;
   }
   return {std::clamp(seen.sky, 0.0, 1.0), std::clamp(seen.lamp, 0.0, 1.0)};
 }

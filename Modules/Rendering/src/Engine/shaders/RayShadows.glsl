@@ -108,13 +108,13 @@ float toolAt(vec3 v)
 
 // Of the lamp's disc past the tool, `by` being the way to its centre, voxels a mm: how far beyond
 // the disc's centre the tool comes, in radii of the disc, where it comes farthest.
-float lampPastTool(vec3 v, vec3 by)
+float lampPastTool(vec3 v, vec3 by, float reach)
 {
   float least = 1.0;
   float far = 0.3;
   for (int turn = 0; turn < 40; ++turn)
   {
-    if (far >= kShadowReach || least <= -1.0)
+    if (far >= reach || least <= -1.0)
       break;
     float distance = toolAt(v + far * by);
     least = min(least, distance / (far * kLampTangent));
@@ -195,14 +195,15 @@ float leavesAt(vec3 v, vec3 by)
   return min(min(away.x, away.y), away.z);
 }
 
-// Of the lamp's disc, `way` being the direction to its centre.
-float lampAt(vec3 v, vec3 normal, vec3 way, float texel, bool wanted)
+// Of the lamp's disc, `way` being the direction to its centre, from which nothing farther than
+// `reach` keeps its light, mm.
+float lampAt(vec3 v, vec3 normal, vec3 way, float reach, float texel, bool wanted)
 {
   float rise = dot(way, normal);
   float left = clamp(0.5 + 0.5 * rise / kLampTangent, 0.0, 1.0); // above the tangent plane
   float seen = left;
   vec3 by = voxelFromMm * way;
-  float last = min(leavesAt(v, by), kShadowReach);
+  float last = min(leavesAt(v, by), reach);
   float far = wanted ? 1.2 * opacityEdge : kShadowReach;
   while (far < last && left > kDark)
   {
@@ -219,7 +220,7 @@ float lampAt(vec3 v, vec3 normal, vec3 way, float texel, bool wanted)
     return 1.0;
 #ifdef PETROUS_TOOL
   if (toolBall.w > 0.0)
-    seen *= lampPastTool(v, by);
+    seen *= lampPastTool(v, by, reach);
 #endif
   return max(seen, 0.0);
 }
@@ -229,7 +230,10 @@ Seen seenAt(vec3 v, vec3 normal, vec3 ray, float hit, float curvature, bool want
 {
   vec3 across = abs(normal * opacityEdges);
   float texel = across.x + across.y + across.z;
-  vec3 way = normalize(lamp.xyz - lamp.w * hit * ray);
-  return Seen(skyAt(v, normal, texel, curvature, wanted), lampAt(v, normal, way, texel, wanted));
+  vec3 way = lamp.xyz - lamp.w * hit * ray;
+  float away = length(way);
+  float reach = lamp.w > 0.0 ? min(away, kShadowReach) : kShadowReach;
+  return Seen(skyAt(v, normal, texel, curvature, wanted),
+              lampAt(v, normal, way / away, reach, texel, wanted));
 }
 #endif

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -146,8 +147,16 @@ constexpr Benchmark kBenchmarks[] = {
      { return runNerveBenchmark(options.quick, progress); }},
     {"segment", [](const auto&, const BenchOptions& options, const core::Progress& progress)
      { return segmentation::runSegmentBenchmark(options.quick, progress); }},
-    {"renderer", [](const auto&, const BenchOptions& options, const core::Progress& progress) {
-       return runRendererBenchmark({options.quick, options.edges, options.data}, progress);
+    {"renderer", [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     {
+       const std::vector<std::string> parts =
+           options.name == "renderer" ? options.parts : std::vector<std::string>();
+       const auto& known = rendererParts();
+       for (const std::string& part : parts)
+         if (std::find(known.begin(), known.end(), part) == known.end())
+           throw UsageError("bench renderer: there is no part '" + part + "'");
+       return runRendererBenchmark(
+           {options.quick, options.edges, options.data, {parts.begin(), parts.end()}}, progress);
      }}};
 
 std::string processorName()
@@ -306,7 +315,8 @@ void addBenchCommand(CLI::App& app, Context& context)
       ->type_name("DIR");
   command
       ->add_option("--part", options->parts,
-                   "Of registration: pairs, capture, schedule, conditions, calibration, stress")
+                   "Of registration: pairs, capture, schedule, conditions, calibration, stress; of "
+                   "renderer: frames, interaction, sweep, features, stereo, edits, soft, shapes")
       ->delimiter(',');
   command
       ->add_option("--seconds", options->seconds,

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "OwnPicture.h"
+#include "ParaViewPeer.h"
 #include "PeerPicture.h"
 #include "RendererAccuracy.h"
 #include "RendererBenchmarkScenes.h"
@@ -478,8 +479,9 @@ void Run::features(const BenchmarkPatient& patient, const core::Progress& progre
 
 const std::vector<std::string>& rendererParts()
 {
-  static const std::vector<std::string> parts{"frames", "interaction", "sweep", "features",
-                                              "stereo", "edits",       "soft",  "shapes"};
+  static const std::vector<std::string> parts{"frames",   "interaction", "sweep",
+                                              "features", "stereo",      "edits",
+                                              "soft",     "paraview",    "shapes"};
   return parts;
 }
 
@@ -516,7 +518,16 @@ core::BenchmarkReport runRendererBenchmark(const RendererBenchmarkOptions& optio
         for (const bool shadows : {false, true})
           run.edits(patient, shadows);
       if (wants("soft"))
-        run.softTissue(patient, part.part(0.9, 1.0));
+        run.softTissue(patient, part.part(0.9, 0.95));
+      if (wants("paraview"))
+      {
+        const Extent& extent = run.extent();
+        const auto points = paraViewPoints(
+            patient,
+            {options.paraview, options.work, extent.picture, extent.peerFrames, kPeerSeconds},
+            report.machine, part.part(0.95, 1.0));
+        report.points.insert(report.points.end(), points.begin(), points.end());
+      }
     }
   }
   const auto part = progress.part(1.0 - 1.0 / parts, 1.0);

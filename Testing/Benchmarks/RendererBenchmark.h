@@ -15,8 +15,10 @@ struct RendererBenchmarkOptions
 {
   bool quick = false;     ///< 96^3, small pictures, few frames
   std::vector<int> edges; ///< edge lengths of the phantom, voxels, 16 to 1024; empty: 256 and 512
-  std::filesystem::path data;  ///< folder with a real CT; empty: phantom only
-  std::set<std::string> parts; ///< of rendererParts(); empty: all
+  std::filesystem::path data;     ///< folder with a real CT; empty: phantom only
+  std::set<std::string> parts;    ///< of rendererParts(); empty: all
+  std::filesystem::path paraview; ///< pvpython; empty: as found in PATH
+  std::filesystem::path work;     ///< folder for what pvpython reads and writes
 };
 
 const std::vector<std::string>& rendererParts();
@@ -33,7 +35,8 @@ const std::vector<std::string>& rendererParts();
 /// error is over all pixels of the same 640 x 480, of peers too, at rest and of a frame as it is
 /// drawn while the camera moves.
 ///
-/// Features, at the smallest size: see featurePoints.
+/// Features, at the smallest size: see featurePoints. ParaView's volume shadows, at the
+/// largest: see paraViewPoints.
 core::BenchmarkReport runRendererBenchmark(const RendererBenchmarkOptions& options,
                                            const core::Progress& progress);
 

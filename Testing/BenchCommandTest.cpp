@@ -15,7 +15,8 @@ using BenchCommand = CommandLine;
 TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
 {
   const auto out = m_folder / "figures";
-  const auto report = json("bench renderer --quick --edge 24 --out " + quoted(out));
+  const auto report =
+      json("bench renderer --quick --edge 24 --paraview absent-pvpython --out " + quoted(out));
   // The commit the figures were measured on; "unknown" outside of a git checkout.
   const std::string commit = report.at("commit");
   EXPECT_TRUE(std::regex_match(commit, std::regex("[0-9a-f]{12}(-dirty)?|unknown"))) << commit;
@@ -23,6 +24,7 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
   int surfaces = 0;
   int interactive = 0;
   int moving = 0, resting = 0;
+  int features = 0, roundedFilters = 0;
   for (const auto& point : report.at("points"))
   {
     const auto& setting = point.at("setting");
@@ -57,6 +59,24 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
       ++surfaces;
       EXPECT_LE(point.at("error").get<double>(), 0.05) << scene;
     }
+    // With the feature and without it; the weights' error stands beside that of none rounded.
+    if (scene.find(", feature: ") != std::string::npos)
+    {
+      ++features;
+      roundedFilters += scene.find("weights of 8 bits") != std::string::npos;
+      const auto& extra = point.at("extra");
+      EXPECT_GT(extra.at("without_ms").get<double>(), 0.0) << scene;
+      EXPECT_LT(extra.at("share_percent").get<double>(), 100.0) << scene;
+      EXPECT_GT(extra.at("fetches_per_pixel_without").get<double>(), 0.0) << scene;
+      if (scene.find("feature: shadows") != std::string::npos)
+      {
+        EXPECT_GT(extra.at("fetches_per_pixel").get<double>(),
+                  extra.at("fetches_per_pixel_without").get<double>())
+            << scene;
+      }
+      const bool isAlone = scene.find(" alone") != std::string::npos;
+      EXPECT_LE(point.at("error").get<double>(), isAlone ? 0.3 : 40.0) << scene;
+    }
     // During camera motion: frame rate, worst frame, and picture scale.
     if (scene.find(", interactive ") != std::string::npos)
     {
@@ -73,7 +93,11 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
       EXPECT_EQ(point.at("error").get<double>(), 0.0) << scene;
     }
   }
-  EXPECT_EQ(surfaces, 4);
+  EXPECT_EQ(surfaces, 6);
+  EXPECT_EQ(features, 19);
+  EXPECT_EQ(roundedFilters, 4);
+  const std::string paraview = report.at("machine").at("paraview");
+  EXPECT_NE(paraview.find("no peer"), std::string::npos) << paraview;
   EXPECT_EQ(interactive, 4);
   EXPECT_EQ(moving, 3);
   EXPECT_EQ(resting, 3);
@@ -83,6 +107,17 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
   EXPECT_EQ(marked, varied) << "each curve marks the setting that the product uses";
   EXPECT_TRUE(std::filesystem::exists(out / "renderer.json"));
   expectPlots(out, {"renderer.svg", "renderer-frames.svg"});
+}
+
+TEST_F(BenchCommand, MeasuresAPartOfTheRenderer)
+{
+  const auto out = m_folder / "figures";
+  const auto report = json("bench renderer --quick --edge 24 --part shapes --out " + quoted(out));
+  EXPECT_EQ(report.at("points").size(), 2U);
+  expectPlots(out, {"renderer-frames.svg"});
+  const auto outcome = run("bench renderer --part nothing --out " + quoted(out));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("'nothing'"), std::string::npos) << outcome.err;
 }
 
 // The law and the removed balls are the truth; whole-voxel deletion follows neither thrust nor law.

@@ -33,6 +33,8 @@ install(FILES
 install(TARGETS petrous-bench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT petrous-bench)
 install(PROGRAMS Testing/Benchmarks/plots.py
   DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME petrous-plots COMPONENT petrous-bench)
+install(PROGRAMS Testing/Benchmarks/paraview_peer.py
+  DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME petrous-paraview-peer COMPONENT petrous-bench)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME petrous)

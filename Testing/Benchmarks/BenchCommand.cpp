@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -46,7 +47,7 @@ namespace
 
 struct BenchOptions
 {
-  std::string name, out, data, pairs, rire;
+  std::string name, out, data, pairs, rire, paraview;
   std::vector<std::string> parts;
   std::vector<int> edges;
   std::optional<double> seconds;
@@ -146,8 +147,21 @@ constexpr Benchmark kBenchmarks[] = {
      { return runNerveBenchmark(options.quick, progress); }},
     {"segment", [](const auto&, const BenchOptions& options, const core::Progress& progress)
      { return segmentation::runSegmentBenchmark(options.quick, progress); }},
-    {"renderer", [](const auto&, const BenchOptions& options, const core::Progress& progress) {
-       return runRendererBenchmark({options.quick, options.edges, options.data}, progress);
+    {"renderer", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     {
+       const std::vector<std::string> parts =
+           options.name == "renderer" ? options.parts : std::vector<std::string>();
+       const auto& known = rendererParts();
+       for (const std::string& part : parts)
+         if (std::find(known.begin(), known.end(), part) == known.end())
+           throw UsageError("bench renderer: there is no part '" + part + "'");
+       return runRendererBenchmark({options.quick,
+                                    options.edges,
+                                    options.data,
+                                    {parts.begin(), parts.end()},
+                                    options.paraview,
+                                    work / "paraview"},
+                                   progress);
      }}};
 
 std::string processorName()
@@ -305,8 +319,14 @@ void addBenchCommand(CLI::App& app, Context& context)
                    "Folder with RIRE's patients: registration on those alone")
       ->type_name("DIR");
   command
+      ->add_option("--paraview", options->paraview,
+                   "pvpython of ParaView 5.11 or later, for renderer (as found in PATH)")
+      ->type_name("FILE");
+  command
       ->add_option("--part", options->parts,
-                   "Of registration: pairs, capture, schedule, conditions, calibration, stress")
+                   "Of registration: pairs, capture, schedule, conditions, calibration, stress; of "
+                   "renderer: frames, interaction, sweep, features, stereo, edits, soft, "
+                   "paraview, shapes")
       ->delimiter(',');
   command
       ->add_option("--seconds", options->seconds,

@@ -115,11 +115,16 @@ core::BenchmarkPoint shapePoint(const std::string& name,
   point.errorUnit = "voxels, median of first hits";
   point.extra["depth_p95_voxels"] = error.depthP95;
   point.extra["mismatch_percent"] = error.mismatchPercent();
-  point.setting["picture"] = std::to_string(size.width) + "x" + std::to_string(size.height);
+  point.setting["picture"] = shown(size);
   return point;
 }
 
 } // namespace
+
+std::string shown(const PictureSize& size)
+{
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
 
 SceneTruth::SceneTruth(const rendering::SceneContents& contents, const core::CameraPose& camera,
                        const PictureSize& size, const core::Progress& progress)

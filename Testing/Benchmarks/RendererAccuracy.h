@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "PictureError.h"
@@ -18,6 +19,8 @@ struct PictureSize
   int width = 0;
   int height = 0;
 };
+
+std::string shown(const PictureSize& size); ///< "640x480"
 
 /// A scene's reference picture, and the error of the renderer against it.
 class SceneTruth

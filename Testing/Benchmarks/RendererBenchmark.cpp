@@ -1,17 +1,21 @@
 #include "RendererBenchmark.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <utility>
 
 #include <Eigen/Geometry>
 
 #include "OwnPicture.h"
+#include "ParaViewPeer.h"
 #include "PeerPicture.h"
 #include "RendererAccuracy.h"
 #include "RendererBenchmarkScenes.h"
+#include "RendererFeatures.h"
 #include "TimedView.h"
 #include "petrous/Dissection/SweptSphereCut.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
@@ -40,6 +44,7 @@ struct Extent
   std::vector<int> edges{256, 512};
   PictureSize picture{640, 480};
   PictureSize errorPicture{320, 240};
+  PictureSize featurePicture{160, 120}; // of which errors are known: shadows take 320 rays a pixel
   PictureSize stereoPicture{1920, 1080};
   int frames = 9;
   int peerFrames = 3; // fewer if one takes seconds
@@ -51,15 +56,10 @@ Extent extentOf(const RendererBenchmarkOptions& options)
 {
   Extent extent;
   if (options.quick)
-    extent = {{96}, {160, 120}, {80, 60}, {320, 180}, 1, 1, 5, 4};
+    extent = {{96}, {160, 120}, {80, 60}, {40, 30}, {320, 180}, 1, 1, 5, 4};
   if (!options.edges.empty())
     extent.edges = options.edges;
   return extent;
-}
-
-std::string shown(const PictureSize& size)
-{
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
 std::string sceneName(const BenchmarkPatient& patient, BenchmarkView view, BenchmarkLook look)
@@ -132,9 +132,10 @@ public:
   void frames(const BenchmarkPatient& patient, const core::Progress& progress);
   void sweep(const BenchmarkPatient& patient, const core::Progress& progress);
   void stereo(const BenchmarkPatient& patient);
-  void edits(const BenchmarkPatient& patient);
+  void edits(const BenchmarkPatient& patient, bool shadows);
   void interaction(const BenchmarkPatient& patient, const core::Progress& progress);
   void softTissue(const BenchmarkPatient& patient, const core::Progress& progress);
+  void features(const BenchmarkPatient& patient, const core::Progress& progress);
 
 private:
   void scene(const BenchmarkPatient& patient, BenchmarkView view, BenchmarkLook look,
@@ -270,9 +271,11 @@ void Run::stereo(const BenchmarkPatient& patient)
   m_report.points.push_back(std::move(point));
 }
 
-void Run::edits(const BenchmarkPatient& patient)
+// With shadows, what stops the light is measured anew about each edit.
+void Run::edits(const BenchmarkPatient& patient, bool shadows)
 {
   auto contents = contentsOf(patient, BenchmarkLook::Translucent);
+  contents.light.setShadows(shadows);
   const auto camera = cameraOf(patient, BenchmarkView::Near);
   const auto mask = std::make_shared<volume::CutMask>(*patient.mask);
   contents.mask = mask;
@@ -285,9 +288,12 @@ void Run::edits(const BenchmarkPatient& patient)
   const auto show = [&](const std::vector<std::size_t>& bricks, std::vector<double>& milliseconds)
   {
     mask->takeDirty();
+    const auto start = std::chrono::steady_clock::now();
     own.maskChanged(mask, mask->boxOf(bricks));
+    const std::chrono::duration<double, std::milli> marking =
+        std::chrono::steady_clock::now() - start;
     m_view.frame();
-    milliseconds.push_back(own.statistics().editMilliseconds);
+    milliseconds.push_back(marking.count() + own.statistics().editMilliseconds);
   };
   for (int n = 0; n < m_extent.edits; ++n)
   {
@@ -317,7 +323,7 @@ void Run::edits(const BenchmarkPatient& patient)
     std::sort(milliseconds->begin(), milliseconds->end());
     core::BenchmarkPoint point;
     point.scene = patient.name + (milliseconds == &cutMs ? ", cut" : ", undo") +
-                  " of a 4 mm burr at 0.3 mm voxels";
+                  " of a 4 mm burr at 0.3 mm voxels" + (shadows ? ", shadows" : "");
     point.isDefault = true;
     point.seconds = 1e-3 * (*milliseconds)[milliseconds->size() / 2];
     point.error = static_cast<double>(rendering::countDifferentPixels(edited, m_view.picture()));
@@ -385,6 +391,7 @@ void Run::softTissue(const BenchmarkPatient& patient, const core::Progress& prog
           .render(middle, size.width, size.height, progress.part(0.0, 0.5))
           .rgb;
   TimedView view(size.width, size.height); // of its own: peers change its rate
+  std::map<std::string, double> ourSeconds;
   const auto enter =
       [&](const std::string& scene, const TimedView::Timing& timing, const std::string& peer)
   {
@@ -393,6 +400,12 @@ void Run::softTissue(const BenchmarkPatient& patient, const core::Progress& prog
     point.isDefault = peer.empty();
     point.error = rmsOf(view.picture(), truth);
     point.errorUnit = "1/255, RMS of colour of all pixels";
+    // The peers' at rest and moving over ours, which come first.
+    double& ours = ourSeconds[scene];
+    if (peer.empty())
+      ours = timing.median;
+    else
+      point.extra["times_ours"] = timing.median / ours;
     m_report.points.push_back(std::move(point));
     return &m_report.points.back();
   };
@@ -455,12 +468,29 @@ void Run::softTissue(const BenchmarkPatient& patient, const core::Progress& prog
   }
 }
 
+void Run::features(const BenchmarkPatient& patient, const core::Progress& progress)
+{
+  const auto points = featurePoints(
+      patient, {m_extent.picture, m_extent.featurePicture, m_extent.frames}, progress);
+  m_report.points.insert(m_report.points.end(), points.begin(), points.end());
+}
+
 } // namespace
+
+const std::vector<std::string>& rendererParts()
+{
+  static const std::vector<std::string> parts{"frames",   "interaction", "sweep",
+                                              "features", "stereo",      "edits",
+                                              "soft",     "paraview",    "shapes"};
+  return parts;
+}
 
 core::BenchmarkReport runRendererBenchmark(const RendererBenchmarkOptions& options,
                                            const core::Progress& progress)
 {
   core::BenchmarkReport report{"renderer", "Volume renderer: a frame's time against its error", {}};
+  const auto wants = [&](const char* part)
+  { return options.parts.empty() || options.parts.count(part) != 0; };
   Run run(options, report);
   const auto& edges = run.extent().edges;
   const double parts = static_cast<double>(edges.size()) + 1.0;
@@ -469,30 +499,55 @@ core::BenchmarkReport runRendererBenchmark(const RendererBenchmarkOptions& optio
     const auto part =
         progress.part(static_cast<double>(n) / parts, static_cast<double>(n + 1) / parts);
     const BenchmarkPatient patient = phantomPatient(edges[n], part.part(0.0, 0.1));
-    run.frames(patient, part.part(0.1, 0.8));
+    if (wants("frames"))
+      run.frames(patient, part.part(0.1, 0.7));
     if (n == 0)
     {
-      run.interaction(patient, part.part(0.8, 0.82));
-      run.sweep(patient, part.part(0.82, 0.9));
+      if (wants("interaction"))
+        run.interaction(patient, part.part(0.7, 0.72));
+      if (wants("sweep"))
+        run.sweep(patient, part.part(0.72, 0.8));
+      if (wants("features"))
+        run.features(patient, part.part(0.8, 0.9));
     }
     if (n + 1 == edges.size())
     {
-      run.stereo(patient);
-      run.edits(patient);
-      run.softTissue(patient, part.part(0.9, 1.0));
+      if (wants("stereo"))
+        run.stereo(patient);
+      if (wants("edits"))
+        for (const bool shadows : {false, true})
+          run.edits(patient, shadows);
+      if (wants("soft"))
+        run.softTissue(patient, part.part(0.9, 0.95));
+      if (wants("paraview"))
+      {
+        const Extent& extent = run.extent();
+        const auto points = paraViewPoints(
+            patient,
+            {options.paraview, options.work, extent.picture, extent.peerFrames, kPeerSeconds},
+            report.machine, part.part(0.95, 1.0));
+        report.points.insert(report.points.end(), points.begin(), points.end());
+      }
     }
   }
   const auto part = progress.part(1.0 - 1.0 / parts, 1.0);
-  if (const auto patient = realPatient(options.data, part.part(0.0, 0.1)))
+  if (!wants("frames") && !wants("sweep"))
+    report.machine["real_data"] = "left out by --part";
+  else if (const auto patient = realPatient(options.data, part.part(0.0, 0.1)))
   {
-    run.frames(*patient, part.part(0.1, 0.8));
-    run.sweep(*patient, part.part(0.8, 1.0));
+    if (wants("frames"))
+      run.frames(*patient, part.part(0.1, 0.8));
+    if (wants("sweep"))
+      run.sweep(*patient, part.part(0.8, 1.0));
   }
   else
     report.machine["real_data"] =
         options.data.empty() ? "no --data given: the phantom alone" : "no CT found below --data";
-  const auto shapes = shapeDepths(run.extent().errorPicture);
-  report.points.insert(report.points.end(), shapes.begin(), shapes.end());
+  if (wants("shapes"))
+  {
+    const auto shapes = shapeDepths(run.extent().errorPicture);
+    report.points.insert(report.points.end(), shapes.begin(), shapes.end());
+  }
   return report;
 }
 

@@ -844,7 +844,7 @@ def pages_of(report):
         return servo(report)
     plain = [point for point in report.points if not point.series]
     scenes = unique(point.scene for point in report.points if point.series)
-    if not scenes:
+    if not scenes and report.name != "renderer":  # whose parts have errors of different units
         words = distinguishing(plain)
         measured = [point for point in plain if point.error is not None]
         if any(point.error > 0.0 for point in measured):

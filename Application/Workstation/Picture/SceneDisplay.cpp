@@ -49,6 +49,7 @@ SceneDisplay::SceneDisplay(vtkGenericOpenGLRenderWindow& window, std::function<b
   : QObject(parent)
   , m_window(window)
   , m_shown(std::move(shown))
+  , m_isLost(contextLost)
   , m_samples(rendering::kPixelSamples)
 {
   m_window.SetMultiSamples(0);
@@ -95,6 +96,11 @@ void SceneDisplay::release()
   m_ghostOverlay.reset();
   m_stereo.reset();
   m_picture.attach(nullptr);
+}
+
+void SceneDisplay::setLossQuery(std::function<bool()> isLost)
+{
+  m_isLost = isLost ? std::move(isLost) : contextLost;
 }
 
 // The frame time is divided between eyes and windows.
@@ -401,7 +407,7 @@ void SceneDisplay::frameEnded()
   try
   {
     m_picture.throwLastError();
-    if (contextLost())
+    if (m_isLost())
       why = tr("the graphics driver was reset and lost the picture");
   }
   catch (const core::Error& error)

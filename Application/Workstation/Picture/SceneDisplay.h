@@ -103,6 +103,10 @@ public:
   /// Synchronizes another display from now on; nullptr ends that.
   void setFollower(SceneDisplay* follower);
 
+  /// Who tells, after each frame, whether the driver lost the context; at first the driver itself
+  /// (GL_ARB_robustness).
+  void setLossQuery(std::function<bool()> isLost);
+
   /// Renders soon; several calls are coalesced. `moving`: coarser until shortly after the last
   /// call.
   void redraw(bool moving = false);
@@ -122,6 +126,7 @@ private:
   void setRate();
   vtkGenericOpenGLRenderWindow& m_window;
   std::function<bool()> m_shown;
+  std::function<bool()> m_isLost;
   vtkNew<vtkRenderer> m_renderer;
   rendering::ScenePicture m_picture;
   std::unique_ptr<rendering::StereoPicture> m_stereo; // destroyed before m_picture

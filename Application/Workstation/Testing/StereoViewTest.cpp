@@ -1,5 +1,7 @@
 #include "GuiTest.h"
 
+#include <memory>
+
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -304,6 +306,49 @@ TEST_F(PictureView, AFailingPictureSavesTheCaseFirst)
   EXPECT_TRUE(words.contains("lost the picture")) << words.toStdString();
   EXPECT_TRUE(words.contains("The case is saved")) << words.toStdString();
   EXPECT_FALSE(window().model().unsaved());
+}
+
+// Every frame asks the driver. Here it answers at the test's word: none can be made to lose what it
+// holds.
+TEST_F(PictureView, AResetOfTheDriverIsNoticedByTheNextFrame)
+{
+  struct Driver
+  {
+    int asked = 0;
+    bool lost = false;
+  };
+  const auto driver = std::make_shared<Driver>();
+  view().display().setSamples(1);
+  view().display().setLossQuery(
+      [driver]
+      {
+        ++driver->asked;
+        return driver->lost;
+      });
+  view().display().redraw();
+  ASSERT_TRUE(waitFor([&] { return driver->asked > 0; }));
+  const QImage before = steady([this] { return picture(); });
+  int messages = 0;
+  QString words;
+  onMessage(
+      [&](QMessageBox& box)
+      {
+        ++messages;
+        words = box.text() + box.informativeText();
+        driver->lost = false; // it is back
+        box.accept();
+      });
+  driver->lost = true;
+  view().display().redraw();
+  EXPECT_TRUE(waitFor([&] { return messages > 0; }));
+  EXPECT_TRUE(words.contains("lost the picture")) << words.toStdString();
+  EXPECT_TRUE(words.contains("The case is saved")) << words.toStdString();
+  const int then = driver->asked;
+  view().display().redraw();
+  EXPECT_TRUE(waitFor([&] { return driver->asked > then; }));
+  EXPECT_EQ(steady([this] { return picture(); }), before);
+  EXPECT_EQ(messages, 1);
+  view().display().setLossQuery({});
 }
 
 TEST_F(PictureView, TheWindowMayBeResizedWhileTheDrillIsOn)

@@ -2,9 +2,12 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <map>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "PictureScenes.h"
 #include "SyntheticScenes.h"
 #include "petrous/Rendering/RenderingError.h"
 #include "petrous/Rendering/StandardViews.h"
@@ -51,6 +54,62 @@ TEST(OffscreenView, GivesTheSamePixelsInANewContext)
     return view.render(scene);
   };
   EXPECT_EQ(countDifferentPixels(draw(), draw()), 0U);
+}
+
+// All that the card held for the picture went with the context: CT, mask, labels, MR, what stops
+// the light, the instrument's field, meshes.
+TEST(OffscreenView, APictureOutlivesItsContextAndIsDrawnAgainAsItWas)
+{
+  SceneContents contents = synthetic::fullScene();
+  contents.light.setShadows(true);
+  MeshContents mesh;
+  mesh.name = "plate";
+  mesh.mesh = synthetic::boxMesh({-8.0, -8.0, -6.0}, {8.0, -7.0, 6.0});
+  mesh.drilled = true;
+  contents.meshes = {mesh};
+  ToolPose tool;
+  tool.center = {2.0, -7.0, 3.0};
+  tool.axisToHand = -Eigen::Vector3d::UnitY();
+  tool.instrument = synthetic::boxMesh({-1.0, -1.5, 0.0}, {1.0, 1.5, 30.0});
+  tool.rotation = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), tool.axisToHand);
+  contents.tool = tool;
+  ScenePicture scene;
+  scene.setContents(contents);
+  const core::CameraPose pose = synthetic::from({20.0, -40.0, 15.0}, {0.0, -3.0, 0.0}, 26.0);
+  scene.setCamera(pose);
+  Picture before;
+  std::map<std::string, std::size_t> held;
+  {
+    OffscreenView lost(96, 72);
+    before = lost.render(scene);
+    held = scene.resources();
+  }
+  EXPECT_EQ(scene.renderer(), nullptr) << "it went with its window";
+  for (const char* name : {"ct.texture", "mask.texture", "labels.texture", "mr.texture",
+                           "light.opacities", "light.instrument"})
+    EXPECT_GT(held[name], 0U) << name;
+  held.erase("light.instrument"); // counted from the next frame on
+  for (int n = 0; n < 2; ++n)     // the second as well
+  {
+    OffscreenView next(96, 72);
+    EXPECT_EQ(countDifferentPixels(next.render(scene), before), 0U) << n;
+    auto holds = scene.resources();
+    holds.erase("light.instrument");
+    EXPECT_EQ(holds, held) << n;
+  }
+  // An edit made while there was no context is in the next one.
+  const auto more = synthetic::cut(contents.ct->geometry(), [](const Eigen::Vector3d& p)
+                                   { return (p - Eigen::Vector3d(0.0, -8.0, 0.0)).norm() - 5.0; });
+  scene.maskChanged(more, contents.ct->geometry().fullBox());
+  OffscreenView next(96, 72);
+  const Picture after = next.render(scene);
+  EXPECT_GT(countDifferentPixels(after, before), 50U);
+  ScenePicture anew;
+  contents.mask = more;
+  anew.setContents(contents);
+  anew.setCamera(pose);
+  OffscreenView fresh(96, 72);
+  EXPECT_EQ(countDifferentPixels(fresh.render(anew), after), 0U);
 }
 
 TEST(OffscreenView, TwoViewsCanLiveAtOnce)

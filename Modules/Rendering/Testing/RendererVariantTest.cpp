@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "PictureComparison.h"
 #include "PictureScenes.h"
@@ -42,6 +44,46 @@ RenderStatistics counted(const SceneContents& contents, const core::CameraPose& 
   OffscreenView view(kWidth, kHeight);
   view.render(scene);
   return scene.statistics();
+}
+
+template <class Change>
+SceneContents changed(SceneContents contents, const Change& change)
+{
+  change(contents);
+  return contents;
+}
+
+void shadowed(SceneContents& contents)
+{
+  contents.light.setShadows(true);
+}
+
+appearance::Material flesh()
+{
+  return {appearance::TransferFunction({{-900.0, {0.9F, 0.7F, 0.6F}, 0.0F},
+                                        {-500.0, {0.9F, 0.7F, 0.6F}, 0.1F},
+                                        {300.0, {0.6F, 0.2F, 0.15F}, 0.05F},
+                                        {900.0, {0.5F, 0.15F, 0.1F}, 0.1F}})};
+}
+
+ToolPose toolAt(std::shared_ptr<const core::TriangleMesh> instrument)
+{
+  ToolPose tool;
+  tool.center = {2.0, -7.0, 3.0}; // in the cavity
+  tool.axisToHand = Vector(0.3, -1.0, 0.2).normalized();
+  tool.instrument = std::move(instrument);
+  tool.rotation = Eigen::Quaterniond::FromTwoVectors(Vector::UnitZ(), tool.axisToHand);
+  return tool;
+}
+
+// Through the cavity.
+MeshContents plate()
+{
+  MeshContents mesh;
+  mesh.name = "plate";
+  mesh.mesh = boxMesh({-8.0, -8.0, -6.0}, {8.0, -7.0, 6.0});
+  mesh.drilled = true;
+  return mesh;
 }
 
 } // namespace
@@ -279,6 +321,64 @@ TEST(RendererVariant, FetchesNoMoreThanItDid)
       {"cut", cutBall(), near, 53.9, 18.1},
       {"labels", labelledBall(cube(64, 0.35, obliqueMirrored())), slanting(), 39.2, 14.4},
       {"everything", fullScene(), near, 165.2, 46.6},
+      // Each feature of the picture, alone.
+      {"edges", changed(translucentBall(), [](SceneContents& c) { c.light.edges = 1.0; }),
+       slanting(), 34.8, 15.1},
+      {"soft tissue", changed(cutBall(), [](SceneContents& c) { c.softTissue = flesh(); }), near,
+       377.6, 83.3},
+      {"soft tissue by an MR",
+       changed(cutBall(),
+               [](SceneContents& c)
+               {
+                 c.second = movedWaves();
+                 c.softTissue = flesh();
+                 c.softTissue->source = appearance::IntensitySource::Second;
+               }),
+       near, 451.4, 86.9},
+      {"structure by an MR",
+       changed(hollowBall(oblique()),
+               [](SceneContents& c)
+               {
+                 c.second = movedWaves();
+                 c.materials = {waveMaterial(0.3F)};
+               }),
+       slanting(), 27.7, 10.6},
+      {"shadows", changed(cutBall(), shadowed), near, 65.3, 18.1},
+      {"shadows of translucent bone", changed(translucentBall(), shadowed), slanting(), 38.6, 15.2},
+      {"shadows with a burr",
+       changed(cutBall(),
+               [](SceneContents& c)
+               {
+                 shadowed(c);
+                 c.tool = toolAt(nullptr);
+               }),
+       near, 51.1, 14.0},
+      {"shadows with an instrument",
+       changed(cutBall(),
+               [](SceneContents& c)
+               {
+                 shadowed(c);
+                 c.tool = toolAt(boxMesh({-1.0, -1.5, 0.0}, {1.0, 1.5, 30.0}));
+               }),
+       near, 58.8, 13.1},
+      {"drilled mesh", changed(cutBall(), [](SceneContents& c) { c.meshes = {plate()}; }), near,
+       43.0, 14.8},
+      {"drilled mesh in shadows",
+       changed(cutBall(),
+               [](SceneContents& c)
+               {
+                 shadowed(c);
+                 c.meshes = {plate()};
+               }),
+       near, 51.7, 14.8},
+      {"section",
+       changed(translucentBall(),
+               [](SceneContents& c)
+               {
+                 c.clipping = {{{0.0, 0.0, 2.0}, {0.0, 0.0, -1.0}}};
+                 c.section = SectionWindow{};
+               }),
+       slanting(), 22.3, 9.3},
   };
   for (const Limit& limit : limits)
   {
@@ -287,4 +387,23 @@ TEST(RendererVariant, FetchesNoMoreThanItDid)
     EXPECT_GE(statistics.fetchesPerPixel, 0.5 * limit.fetches) << limit.name; // counting works
     EXPECT_LE(statistics.samplesPerPixel, limit.samples) << limit.name;
   }
+}
+
+// Light that is not looked up on the way is free: the tone curve, the water film, the falloff.
+TEST(RendererVariant, LightThatIsReckonedAtTheSurfaceTakesNoFetch)
+{
+  const RenderStatistics plain = counted(cutBall(), slanting());
+  const SceneContents lit = changed(cutBall(),
+                                    [](SceneContents& c)
+                                    {
+                                      c.light.toneCurve = true;
+                                      c.light.exposure = 0.7;
+                                      c.light.wetness = 1.0;
+                                      c.light.falloff = 30.0;
+                                    });
+  EXPECT_GT(
+      countDifferentPixels(shoot(cutBall(), slanting()).picture, shoot(lit, slanting()).picture),
+      500U);
+  EXPECT_EQ(counted(lit, slanting()).fetchesPerPixel, plain.fetchesPerPixel);
+  EXPECT_EQ(counted(lit, slanting()).samplesPerPixel, plain.samplesPerPixel);
 }

@@ -44,21 +44,13 @@ struct Tables
   vtkNew<vtkColorTransferFunction> color;
   vtkNew<vtkPiecewiseFunction> opacity;
 
-  // An opaque surface becomes an opaque interior: these mappers have no surfaces.
   Tables(const appearance::Material& material, double below)
   {
-    const auto& transfer = material.transfer;
-    const auto add = [&](double value, const appearance::TransferFunction::Optics& optics)
+    for (const PeerControlPoint& point : peerTable(material, below))
     {
-      color->AddRGBPoint(value, optics.color[0], optics.color[1], optics.color[2]);
-      opacity->AddPoint(value, material.surfaceOpacity < 1.0F ? -std::expm1(-optics.extinction)
-                                                              : 1.0); // per 1 mm
-    };
-    opacity->AddPoint(below - kRamp, 0.0);
-    add(below, transfer.at(below));
-    for (const auto& point : transfer.points())
-      if (point.value > below)
-        add(point.value, transfer.at(point.value));
+      color->AddRGBPoint(point.value, point.color[0], point.color[1], point.color[2]);
+      opacity->AddPoint(point.value, point.opacity);
+    }
   }
 
   // The whole function, as finely as the mappers tabulate it over 12 bits.
@@ -153,6 +145,29 @@ std::string nameOf(Peer peer)
     break;
   }
   return "VTK fixed point (CPU)";
+}
+
+double lampTilt()
+{
+  return optics::kLampTilt;
+}
+
+std::vector<PeerControlPoint> peerTable(const appearance::Material& material, double below)
+{
+  const auto& transfer = material.transfer;
+  const auto at = [&](double value) -> PeerControlPoint
+  {
+    const auto optics = transfer.at(value);
+    return {value, optics.color,
+            material.surfaceOpacity < 1.0F ? -std::expm1(-optics.extinction) : 1.0};
+  };
+  std::vector<PeerControlPoint> table{at(below), at(below)};
+  table.front().value = below - kRamp;
+  table.front().opacity = 0.0;
+  for (const auto& point : transfer.points())
+    if (point.value > below)
+      table.push_back(at(point.value));
+  return table;
 }
 
 class PeerPicture::Implementation

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "petrous/Core/CameraPose.h"
 #include "petrous/Rendering/SceneContents.h"
@@ -23,6 +25,21 @@ enum class Peer
 };
 
 std::string nameOf(Peer peer);
+
+/// A control point of a peer's transfer functions.
+struct PeerControlPoint
+{
+  double value = 0.0;            ///< HU
+  std::array<double, 3> color{}; ///< RGB, 0 to 1
+  double opacity = 0.0;          ///< of 1 mm
+};
+
+/// Bone as mappers without surfaces draw it: invisible below the iso value `below`, and of an
+/// opaque surface an opaque interior.
+std::vector<PeerControlPoint> peerTable(const appearance::Material& material, double below);
+
+/// Tangent of the angle between our lamp and the view axis, towards the picture's upper edge.
+double lampTilt();
 
 /// A scene as drawn by a peer: composite, shaded, linear, sampling distance 0.5 of the smallest
 /// spacing, no automatic adjustment. Bone has the scene's transfer function above the iso value.

@@ -773,7 +773,7 @@ TEST_F(CommandLine, AnEmptyValueIsNeverAnAbsentOption)
   for (const std::string& command :
        matches(help.substr(help.find("Subcommands:")), "^  ([a-z][a-z-]*) "))
     for (const std::string& option :
-         matches(run(command + " --help").out, "^  (--[a-z-]+) (?!Excludes:)[^ ]"))
+         matches(run(command + " --help").out, "^  (--[a-z-]+) (?!Excludes:|Needs:)[^ ]"))
     {
       expectRefused(command + " " + option + " ''", 2, option + ": the value is empty");
       expectRefused(command + " " + option + "= x", 2, option + ": the value is empty");

@@ -5190,10 +5190,6 @@ Verletzt: %1, %2</translation>
         <translation>Name &amp;darin:</translation>
     </message>
     <message>
-        <source>Your &amp;certificate:</source>
-        <translation>Ihr &amp;Zertifikat:</translation>
-    </message>
-    <message>
         <source>Your &amp;key:</source>
         <translation>Ihr &amp;Schlüssel:</translation>
     </message>
@@ -5252,6 +5248,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>“%1” is removed. To take it back, press Add now.</source>
         <translation>„%1“ ist entfernt. Um ihn zurückzunehmen, drücken Sie jetzt Hinzufügen.</translation>
+    </message>
+    <message>
+        <source>Y&amp;our certificate:</source>
+        <translation>Ihr &amp;Zertifikat:</translation>
     </message>
 </context>
 <context>
@@ -5833,10 +5833,6 @@ Verletzt: %1, %2</translation>
         <translation>Patienten-&amp;ID:</translation>
     </message>
     <message>
-        <source>Patient &amp;name:</source>
-        <translation>Patienten&amp;name:</translation>
-    </message>
-    <message>
         <source>Study date:</source>
         <translation>Studiendatum:</translation>
     </message>
@@ -5943,6 +5939,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Study %1</source>
         <translation>Studie %1</translation>
+    </message>
+    <message>
+        <source>Pa&amp;tient name:</source>
+        <translation>Patienten&amp;name:</translation>
     </message>
 </context>
 <context>

@@ -3037,19 +3037,19 @@
     </message>
     <message>
         <source>flight: along the centre line of '%1' no stretch of %#2 mm is free: %3</source>
-        <translation type="unfinished"></translation>
+        <translation>Flug: entlang der Mittellinie von „%1“ ist keine Strecke von %#2 mm frei: %3</translation>
     </message>
     <message>
         <source>bone, or the edge of the image, is nearer than 0.3 mm</source>
-        <translation type="unfinished"></translation>
+        <translation>Knochen oder der Bildrand ist näher als 0,3 mm</translation>
     </message>
     <message>
         <source>structures that are shown close it at its ends; hide them</source>
-        <translation type="unfinished"></translation>
+        <translation>gezeigte Strukturen verschließen sie an den Enden; blenden Sie diese aus</translation>
     </message>
     <message>
         <source>flight: along the centre line of '%1' nothing is drawn</source>
-        <translation type="unfinished"></translation>
+        <translation>Flug: entlang der Mittellinie von „%1“ wird nichts gezeichnet</translation>
     </message>
     <message>
         <source>ffmpeg cannot be started: %1</source>
@@ -8987,6 +8987,10 @@
     <message>
         <source>of a structure's tubes more than their length is unresolved, or less than nothing</source>
         <translation>von den Röhren einer Struktur ist mehr nicht aufgelöst, als sie lang sind, oder weniger als nichts</translation>
+    </message>
+    <message>
+        <source>clipping is no object</source>
+        <translation>der Beschnitt ist kein Objekt</translation>
     </message>
     <message>
         <source>view: a burr must be cutting or diamond</source>

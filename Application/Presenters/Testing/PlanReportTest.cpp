@@ -137,7 +137,8 @@ TEST(PlanReport, HasOneNumberOfWhatWasRemovedFromALumen)
     for (scene::StructurePart& structure : value.labels.front().structures)
       structure.look.solid = isSolid;
     value.dissection.beginStroke({});
-    value.dissection.cut({{5.0, 8.0, 8.0}, {5.0, 8.0, 8.0}, 1.0});
+    const double y = isSolid ? 8.0 : 5.0; // a stroke that removes nothing is none
+    value.dissection.cut({{5.0, y, 8.0}, {5.0, y, 8.0}, 1.0});
     value.dissection.openInfo().removed = 4.0;
     value.dissection.openInfo().structures = {{"facial nerve", 0.5}};
     value.dissection.endStroke();

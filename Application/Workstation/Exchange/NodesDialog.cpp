@@ -134,7 +134,7 @@ void NodesDialog::layOut()
   form->addRow({}, m_tls);
   form->addRow(tr("&Trusted certificates:"), m_authority);
   form->addRow(tr("Name &in its certificate:"), m_certifiedName);
-  form->addRow(tr("Your &certificate:"), m_certificate);
+  form->addRow(tr("Y&our certificate:"), m_certificate);
   form->addRow(tr("Your &key:"), m_key);
 
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);

@@ -112,7 +112,7 @@ ReceiveDialog::ReceiveDialog(const std::vector<network::Node>& nodes,
   form->addRow(tr("&Node:"), m_node);
   form->addRow(tr("C&ase:"), m_case);
   form->addRow(tr("Patient &ID:"), m_id);
-  form->addRow(tr("Patient &name:"), m_name);
+  form->addRow(tr("Pa&tient name:"), m_name);
   form->addRow(tr("Study date:"), dates);
   form->addRow(tr("&Modality:"), m_modality);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);

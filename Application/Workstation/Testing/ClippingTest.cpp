@@ -256,7 +256,7 @@ TEST_F(ClippingBox, NumbersAreTypedAndJudgedWhenTheyAreEnded)
   enterNumber(*x0, "7"); // on the wrong side of 0
   EXPECT_EQ(x0->value(), before);
   EXPECT_TRUE(x0->property("refused").toBool());
-  EXPECT_TRUE(window().statusBar()->currentMessage().contains("above the most"))
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("is not possible here"))
       << window().statusBar()->currentMessage().toStdString();
   enterNumber(*x0, "-38");
   EXPECT_NEAR(x0->value(), -38.0, 0.3);

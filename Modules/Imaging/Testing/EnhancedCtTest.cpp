@@ -266,7 +266,9 @@ TEST(EnhancedCt, WhatIsStatedTwiceAndDiffersIsRefused)
       ASSERT_TRUE(frame->findAndGetSequenceItem(one.group, own).good());
       ASSERT_TRUE(own->findAndGetOFStringArray(one.value, stated).good());
       // The same number in other digits is no contradiction.
-      const OFString again = one.value == DCM_RescaleType ? stated : "+" + stated;
+      const OFString again = one.value == DCM_RescaleType ? stated
+                             : stated[0] == '-'           ? "-0" + stated.substr(1)
+                                                          : "+" + stated;
       group->putAndInsertString(one.value, differs ? one.other : again.c_str());
       ASSERT_TRUE(whole.saveFile(path.c_str(), EXS_LittleEndianExplicit).good());
       const ScanResult result = scanDicom(folder.path(), {});

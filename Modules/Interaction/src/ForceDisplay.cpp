@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <vtkActor.h>
 #include <vtkActor2D.h>
@@ -141,7 +142,7 @@ public:
   void show(double force, double fullScale, double pixels, const Eigen::Vector3d& color);
 
 private:
-  enum Part // in the order of drawing
+  enum Part
   {
     Plate,
     Filled,
@@ -149,9 +150,13 @@ private:
     Mark,
     kParts
   };
-  void place(Part part, double left, double bottom, double right, double top);
+  struct Quad
+  {
+    double left, bottom, right, top;
+  };
+  void place(Part part, const std::vector<Quad>& quads);
 
-  std::array<vtkNew<vtkPoints>, kParts> m_corners;
+  std::array<vtkNew<vtkPolyData>, kParts> m_quads;
   std::array<vtkNew<vtkActor2D>, kParts> m_actors;
   vtkNew<vtkTextActor> m_text;
   mutable vtkWeakPointer<vtkRenderer> m_renderer;
@@ -185,14 +190,8 @@ ForceBar::ForceBar()
 {
   for (std::size_t part = 0; part < kParts; ++part)
   {
-    m_corners[part]->SetNumberOfPoints(4);
-    vtkNew<vtkCellArray> quad;
-    quad->InsertNextCell({0, 1, 2, 3});
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(m_corners[part]);
-    data->SetPolys(quad);
     vtkNew<vtkPolyDataMapper2D> mapper;
-    mapper->SetInputData(data);
+    mapper->SetInputData(m_quads[part]);
     m_actors[part]->SetMapper(mapper);
     m_actors[part]->PickableOff();
   }
@@ -232,14 +231,20 @@ void ForceBar::setShown(bool shown)
   m_text->SetVisibility(shown ? 1 : 0);
 }
 
-void ForceBar::place(Part part, double left, double bottom, double right, double top)
+void ForceBar::place(Part part, const std::vector<Quad>& quads)
 {
-  const auto& corners = m_corners[part];
-  corners->SetPoint(0, left, bottom, 0.0);
-  corners->SetPoint(1, right, bottom, 0.0);
-  corners->SetPoint(2, right, top, 0.0);
-  corners->SetPoint(3, left, top, 0.0);
-  corners->Modified();
+  vtkNew<vtkPoints> corners;
+  vtkNew<vtkCellArray> cells;
+  for (const Quad& quad : quads)
+  {
+    const vtkIdType first = corners->InsertNextPoint(quad.left, quad.bottom, 0.0);
+    corners->InsertNextPoint(quad.right, quad.bottom, 0.0);
+    corners->InsertNextPoint(quad.right, quad.top, 0.0);
+    corners->InsertNextPoint(quad.left, quad.top, 0.0);
+    cells->InsertNextCell({first, first + 1, first + 2, first + 3});
+  }
+  m_quads[part]->SetPoints(corners);
+  m_quads[part]->SetPolys(cells);
 }
 
 void ForceBar::show(double force, double fullScale, double pixels, const Eigen::Vector3d& color)
@@ -249,14 +254,24 @@ void ForceBar::show(double force, double fullScale, double pixels, const Eigen::
   const double left = pixels * kLeft;
   const double right = left + pixels * kWidth;
   const double top = heightOf(fullScale);
+  const double bottom = pixels * kBottom;
+  const double filled = heightOf(force);
+  place(Filled, {{left, bottom, right, filled}});
+  place(Empty, {{left, filled, right, top}});
+  const double markLeft = right + pixels * kMarkGap;
+  const double markRight = markLeft + pixels * kMarkLength;
+  const double markBottom = heightOf(1.0) - 0.5 * pixels;
+  const double markTop = heightOf(1.0) + 0.5 * pixels;
+  place(Mark, {{markLeft, markBottom, markRight, markTop}});
+  // Around them and not below: which of two overlays at one place is seen depends on the window's
+  // depth test.
   const double rim = pixels * kPlateRim;
-  place(Plate, left - rim, pixels * kBottom - rim, right + pixels * (kMarkGap + kMarkLength) + rim,
-        top);
-  place(Filled, left, pixels * kBottom, right, heightOf(force));
-  place(Empty, left, heightOf(force), right, top);
-  const double mark = heightOf(1.0);
-  place(Mark, right + pixels * kMarkGap, mark - 0.5 * pixels,
-        right + pixels * (kMarkGap + kMarkLength), mark + 0.5 * pixels);
+  place(Plate, {{left - rim, bottom - rim, markRight + rim, bottom},
+                {left - rim, bottom, left, top},
+                {right, bottom, markLeft, top},
+                {markLeft, bottom, markRight, std::min(markBottom, top)},
+                {markLeft, std::min(markTop, top), markRight, top},
+                {markRight, bottom, markRight + rim, top}});
   m_actors[Filled]->GetProperty()->SetColor(color.x(), color.y(), color.z());
 
   const std::string words = core::fixedText(force, 1) + " N";

@@ -1074,6 +1074,9 @@ TEST_F(Deidentification, AddsWhatTheStandardRequiresWithoutAValue)
   EXPECT_NE(report.text().find("(0018,0060) KVP: added without a value"), std::string::npos);
   EXPECT_EQ(report.text().find("(0018,5100) PatientPosition: added"), std::string::npos);
 
+  found = cleaned(element(0x00180015, "HEAD"));
+  EXPECT_EQ(found.count(hexOf(kLaterality)), 0U) << "a head is no pair";
+
   found = cleaned(element(kImageLaterality, "L"));
   EXPECT_EQ(found.at(hexOf(kImageLaterality)), "L");
   EXPECT_EQ(found.count(hexOf(kLaterality)), 0U) << "one of the two only";

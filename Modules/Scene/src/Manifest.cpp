@@ -663,6 +663,8 @@ json clippingOut(const ViewState::Clipping& clipping)
 ViewState::Clipping clippingIn(const json& j)
 {
   ViewState::Clipping clipping;
+  if (!j.is_object())
+    throw core::InvalidParameter("clipping is no object");
   if (j.contains("planes"))
     for (const json& plane : j.at("planes"))
       clipping.planes.push_back({vectorIn(plane.at("point_mm")), vectorIn(plane.at("normal"))});

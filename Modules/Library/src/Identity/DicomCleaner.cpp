@@ -1575,7 +1575,9 @@ std::vector<DcmTagKey> missingOfType2(DcmItem& dataSet, const std::string& sopCl
   {
     keys.insert(keys.end(), {DCM_Manufacturer, DCM_SeriesNumber, DCM_InstanceNumber,
                              DCM_PositionReferenceIndicator, DCM_SliceThickness});
-    if (!dataSet.tagExists(DCM_ImageLaterality))
+    // Type 2C: of a body part that is no pair it must be absent, and of a pair it has a value.
+    if (!dataSet.tagExistsWithValue(DCM_BodyPartExamined) &&
+        !dataSet.tagExists(DCM_ImageLaterality))
       keys.push_back(DCM_Laterality);
     if (!dataSet.tagExists(DCM_PatientOrientationCodeSequence))
       keys.push_back(DCM_PatientPosition);

@@ -265,6 +265,46 @@ TEST(OpticalModel, EdgesCountAsFarAsTheImageChanges)
   EXPECT_NEAR(optics::edgeFacing(0.0, 1e5), 0.0, 1e-5);
 }
 
+TEST(OpticalModel, ASampleOfACoarseCtIsLitFromAside)
+{
+  const auto aside = [](double spacing, int sample)
+  {
+    const core::GridGeometry grid({8, 8, 8}, {spacing, spacing, 2.0}, {0.0, 0.0, 0.0},
+                                  Eigen::Matrix3d::Identity());
+    return optics::asideOf(grid, sample);
+  };
+  EXPECT_TRUE(aside(1.0, -1).isZero());
+  EXPECT_TRUE(aside(0.15, 3).isZero());
+  EXPECT_TRUE(aside(0.3, 3).isZero());
+  EXPECT_TRUE(aside(1.0, 3).isApprox(Eigen::Vector3d::Constant(0.75)));
+  EXPECT_TRUE(aside(0.5, 3).isApprox(Eigen::Vector3d::Constant(0.375)));
+}
+
+TEST(OpticalModel, WhatIsAsideLightsASurfaceOnlyIfItIsAlike)
+{
+  const Eigen::Vector3d ray(0.0, 0.0, 1.0);
+  const auto tilted = [](double degrees) -> Eigen::Vector3d
+  {
+    const double angle = degrees * 3.14159265358979323846 / 180.0;
+    return 200.0 * Eigen::Vector3d(std::sin(angle), 0.0, std::cos(angle));
+  };
+  const double here = std::cos(3.14159265358979323846 / 6.0);
+  const Eigen::Vector3d usual = optics::kAsideSlope * tilted(10.0);
+  EXPECT_NEAR(optics::asideFacing(tilted(30.0), usual, ray), 0.98480775, 1e-8);
+  EXPECT_NEAR(optics::asideFacing(tilted(30.0), 0.5 * usual, ray), 0.5 * (here + 0.98480775), 1e-8)
+      << "what is small is less certain";
+  EXPECT_EQ(optics::asideFacing(tilted(30.0), 9.0 * usual, ray), 1.0);
+  EXPECT_NEAR(optics::asideFacing(tilted(30.0), tilted(-60.0), ray), here, 1e-12) << "an edge";
+  EXPECT_NEAR(optics::asideFacing(tilted(30.0), tilted(170.0), ray), here, 1e-12)
+      << "the other side of a plate";
+  EXPECT_NEAR(optics::asideFacing(tilted(30.0), Eigen::Vector3d::Zero(), ray), here, 1e-12);
+  EXPECT_EQ(optics::asideFacing(Eigen::Vector3d::Zero(), tilted(0.0), ray), 1.0);
+  // Half-way between kUnlike and kAlike.
+  const double apart = std::acos(0.75);
+  const Eigen::Vector3d half(std::sin(apart), 0.0, std::cos(apart));
+  EXPECT_NEAR(optics::asideFacing(ray, optics::kAsideSlope * half, ray), 0.5 * (1.0 + 0.75), 1e-12);
+}
+
 // A shell of opacity 0.12 is passed twice as long at 60 degrees.
 TEST(OpticalModel, ATranslucentSurfaceIsAsOpaqueFromTheSideAsAShell)
 {

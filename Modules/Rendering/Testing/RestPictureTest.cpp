@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <random>
 
 #include <vtkActor2D.h>
 #include <vtkNew.h>
@@ -58,6 +59,55 @@ std::vector<double> supersampled(const SceneContents& contents, const core::Came
             static_cast<double>(
                 large.rgb[static_cast<std::size_t>(3 * (row * 4 * width + column) + c)]);
   return mean;
+}
+
+/// The window as one of the samples of a picture; `aside`: lit as that.
+Shot shootSample(OffscreenView& view, ScenePicture& scene, int sample, bool aside)
+{
+  const auto [right, down] = pixelSample(sample);
+  scene.setTile(PictureTile{kWidth, kHeight, 0, 0, right, down, aside ? sample : -1});
+  Shot shot = shoot(view, scene);
+  scene.setTile(std::nullopt);
+  return shot;
+}
+
+/// Mean of all samples, 0 to 255.
+std::vector<double> meanOfSamples(const SceneContents& contents, bool aside)
+{
+  ScenePicture scene;
+  scene.setContents(contents);
+  scene.setCamera(slanting(100.0));
+  OffscreenView view(kWidth, kHeight);
+  std::vector<double> mean(std::size_t{3} * kWidth * kHeight, 0.0);
+  for (int n = 0; n < kPixelSamples; ++n)
+  {
+    const Shot shot = shootSample(view, scene, n, aside);
+    for (std::size_t c = 0; c < mean.size(); ++c)
+      mean[c] += shot.picture.rgb[c] / double{kPixelSamples};
+  }
+  return mean;
+}
+
+/// A ball of bone in soft tissue, of one colour, on voxels of 1 mm; `border`: standard deviation of
+/// the Gaussian that blurs it, mm; `noise`: that of the voxels, HU. 0: a slope so gentle that its
+/// normals are those of the ball.
+SceneContents coarseBall(double border, double noise = 0.0)
+{
+  constexpr double kRadius = 18.0;
+  std::mt19937 random(1);
+  const auto value = [&](const Vector& p)
+  {
+    const double depth = kRadius - p.norm();
+    if (!(border > 0.0))
+      return kIso + 40.0 * depth;
+    constexpr double kLargest = 4294967295.0;
+    const double uniform = std::sqrt(12.0) * (static_cast<double>(random()) / kLargest - 0.5);
+    return 790.0 + 750.0 * std::erf(depth / (std::sqrt(2.0) * border)) + noise * uniform;
+  };
+  SceneContents contents = boneScene(image(cube(44, 1.0, oblique()), value));
+  contents.materials = {{appearance::TransferFunction::constant({0.8F, 0.8F, 0.8F}, 0.5F),
+                         appearance::IntensitySource::Ct, 1.0F}};
+  return contents;
 }
 
 double rms(const Picture& picture, const std::vector<double>& truth)
@@ -266,6 +316,81 @@ TEST(RestPicture, GoesOnFromFramesThatKeepTheFieldFine)
                 width, height, view.glRenderer().c_str(), sum / kFrames, slowest, 100.0 * rest,
                 100.0 * field, whole, parts, longest);
   }
+}
+
+// Also where it is cut, and where the CT samples its borders so well that nothing is to change.
+TEST(RestPicture, IsOfSamplesThatAreLitAsTheReferenceLightsThem)
+{
+  for (const SceneContents& contents :
+       {coarseBall(0.6), cutBall(), hollowBall(oblique(), 0.8), translucentBall()})
+  {
+    ScenePicture scene;
+    scene.setContents(contents);
+    scene.setCamera(slanting());
+    OffscreenView view(kWidth, kHeight);
+    for (const int sample : {0, 1, 6, 15})
+    {
+      ReferenceRayCaster::Quality quality;
+      quality.sample = sample;
+      const ReferencePicture truth =
+          ReferenceRayCaster(contents, quality).render(slanting(), kWidth, kHeight);
+      expectAgreement(compare(shootSample(view, scene, sample, true), truth,
+                              contents.ct->geometry().minSpacing()));
+    }
+  }
+}
+
+TEST(RestPicture, OfSamplesShowsTheSameSurfaceInAnotherShade)
+{
+  for (const auto& [spacing, isCoarse] : {std::pair{0.3, false}, {0.8, true}})
+  {
+    ScenePicture scene;
+    scene.setContents(hollowBall(oblique(), spacing));
+    scene.setCamera(slanting());
+    OffscreenView view(kWidth, kHeight);
+    const Shot aside = shootSample(view, scene, 5, true);
+    const Shot plain = shootSample(view, scene, 5, false);
+    EXPECT_EQ(countDifferentPixels(aside.picture, plain.picture) > 0U, isCoarse) << spacing;
+    for (std::size_t p = 0; p < plain.depth.millimetres.size(); ++p)
+      ASSERT_TRUE(
+          aside.depth.millimetres[p] == plain.depth.millimetres[p] ||
+          (std::isnan(aside.depth.millimetres[p]) && std::isnan(plain.depth.millimetres[p])));
+  }
+}
+
+// Truth: a ball whose normals are exact. What differs but for a constant is of the voxels.
+TEST(RestPicture, OfSamplesShowsLessOfTheVoxelsInTheShadeOfACoarseCt)
+{
+  const std::vector<double> truth = meanOfSamples(coarseBall(0.0), false);
+  const auto pattern = [&truth](const std::vector<double>& mean)
+  {
+    double sum = 0.0, squares = 0.0;
+    int count = 0;
+    for (int row = kHeight / 3; row < 2 * kHeight / 3; ++row)
+      for (int column = 3 * kWidth / 8; column < 5 * kWidth / 8; ++column, ++count)
+      {
+        const auto c = static_cast<std::size_t>(3 * (row * kWidth + column));
+        sum += mean[c] - truth[c];
+        squares += std::pow(mean[c] - truth[c], 2);
+      }
+    return std::sqrt(squares / count - std::pow(sum / count, 2));
+  };
+  const SceneContents noisy = coarseBall(0.7, 80.0);
+  const double before = pattern(meanOfSamples(noisy, false));
+  EXPECT_GT(before, 2.0) << "of 255: else there is nothing to mend";
+  EXPECT_LT(pattern(meanOfSamples(noisy, true)), 0.8 * before) << before;
+  EXPECT_LT(pattern(meanOfSamples(coarseBall(0.5), true)), 1.5) << "without noise";
+}
+
+TEST(PixelSamples, AreLitFromTheCornersOfTetrahedra)
+{
+  for (int first = 0; first < kPixelSamples; first += 4)
+    for (int n = first; n < first + 4; ++n)
+      for (int m = first; m < n; ++m)
+      {
+        const auto a = sampleCorner(n), b = sampleCorner(m);
+        EXPECT_EQ(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], -1.0) << n << ' ' << m;
+      }
 }
 
 TEST(PixelSamples, AreSpreadEvenlyAboutTheCentre)

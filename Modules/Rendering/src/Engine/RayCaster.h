@@ -83,7 +83,8 @@ public:
     GLuint opaque = 0;
     optics::Lamp lamp = {};                      ///< in patient mm
     std::optional<ToolPose> tool = std::nullopt; ///< that casts shadows, in patient mm
-    bool everywhere = false;                     ///< also cast rays that cannot meet tissue
+    int sample = -1;         ///< of kPixelSamples, see optics::asideOf; -1: the only one
+    bool everywhere = false; ///< also cast rays that cannot meet tissue
     std::optional<Fovea> fovea = std::nullopt;
     /// An instrument that is new throws its shadow once that is measured in the background
     /// (RenderStatistics::pendingShadow), not at once.

@@ -206,6 +206,7 @@ void RayCaster::setLight(GlProgram& program, const Frame& frame) const
   program.set("plainLight", light.intensity);
   program.set("edges", light.edges);
   program.set("falloff", light.falloff);
+  program.set("aside", optics::asideOf(m_contents.ct->geometry(), frame.sample));
   const SectionWindow window = m_contents.section.value_or(SectionWindow());
   program.set("section", m_contents.section ? Eigen::Vector2d(window.level - 0.5 * window.width,
                                                               1.0 / window.width)

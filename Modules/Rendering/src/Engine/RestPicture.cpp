@@ -120,6 +120,7 @@ bool RestPicture::drawCells(RayCaster& caster, double milliseconds)
   {
     const auto [right, down] = pixelSample(m_drawn - 1);
     frame = throughPlace(m_frame, right, down);
+    frame.sample = m_drawn - 1;
   }
   const core::IndexBox whole{{0, 0, 0}, {m_key->width, m_key->height, 1}};
   if (m_next < 0)

@@ -281,6 +281,7 @@ public:
   std::optional<vtkPetrousVolumeMapper::Fovea> fovea;
   std::optional<petrous::core::CameraPose> lampCamera;
   std::optional<petrous::rendering::ToolPose> tool; // world
+  int sample = -1;
 
   /// With neither size nor depth.
   petrous::rendering::RayCaster::Frame frameOf(vtkRenderer* renderer, vtkVolume* volume) const
@@ -294,6 +295,7 @@ public:
         lampCamera.value_or(petrous::rendering::poseOf(renderer->GetActiveCamera())));
     if (tool)
       frame.tool = petrous::rendering::toolIn(worldFromPatient, *tool);
+    frame.sample = sample;
     frame.shadowsLater = restQuality.has_value();
     return frame;
   }
@@ -620,6 +622,11 @@ void vtkPetrousVolumeMapper::SetRestQuality(
     const std::optional<petrous::rendering::RenderQuality>& quality)
 {
   this->Internal->restQuality = quality;
+}
+
+void vtkPetrousVolumeMapper::SetSample(int sample)
+{
+  this->Internal->sample = sample;
 }
 
 void vtkPetrousVolumeMapper::SetLampCamera(const std::optional<petrous::core::CameraPose>& camera)

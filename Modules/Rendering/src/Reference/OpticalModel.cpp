@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include "petrous/Rendering/PixelSamples.h"
+
 namespace petrous::rendering::optics
 {
 
@@ -60,6 +62,30 @@ double edgeFacing(double cosine, double slope)
   const double square = slope * slope;
   const double weight = square / (square + kEdgeSlope * kEdgeSlope);
   return 1.0 + weight * (std::min(std::abs(cosine), 1.0) - 1.0);
+}
+
+Eigen::Vector3d asideOf(const core::GridGeometry& grid, int sample)
+{
+  if (sample < 0)
+    return Eigen::Vector3d::Zero();
+  const double share = (grid.minSpacing() - kFineSpacing) / (kCoarseSpacing - kFineSpacing);
+  const auto [x, y, z] = sampleCorner(sample);
+  return kAside * std::clamp(share, 0.0, 1.0) * Eigen::Vector3d(x, y, z);
+}
+
+double asideFacing(const Eigen::Vector3d& here, const Eigen::Vector3d& aside,
+                   const Eigen::Vector3d& ray)
+{
+  constexpr double kNothing = 1e-12;
+  if (here.norm() <= kNothing)
+    return 1.0;
+  const auto facing = [&](const Eigen::Vector3d& gradient)
+  { return std::min(std::abs(gradient.dot(ray)) / std::max(gradient.norm(), kNothing), 1.0); };
+  const double alike = here.dot(aside) / (here.norm() * std::max(aside.norm(), kNothing));
+  const double part = std::clamp((alike - kUnlike) / (kAlike - kUnlike), 0.0, 1.0);
+  const double share = std::min(aside.norm() / (kAsideSlope * here.norm()), kMostAside);
+  const double weight = part * part * (3.0 - 2.0 * part) * share;
+  return std::clamp(facing(here) + weight * (facing(aside) - facing(here)), 0.0, 1.0);
 }
 
 double sectionGrey(const SectionWindow& window, double value)

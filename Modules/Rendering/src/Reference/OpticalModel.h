@@ -4,6 +4,7 @@
 
 #include "petrous/Appearance/Material.h"
 #include "petrous/Core/CameraPose.h"
+#include "petrous/Core/GridGeometry.h"
 #include "petrous/Rendering/SceneContents.h"
 
 namespace petrous::rendering
@@ -45,6 +46,9 @@ namespace petrous::rendering
 ///   c_s     surfaceColor(transfer(v), |n . ray|, distance along the ray)
 ///   opacity edgeOpacity(material.surfaceOpacity, c), c = |n . ray|, of c_CT's surfaces
 ///           edgeFacing(|n . ray|, the size of the gradient that gave n)
+/// Of a picture that is the mean of several samples a pixel, c_s of c_CT's surfaces that
+/// edgeGradientInPatient shades has asideFacing in place of |n . ray|, with the gradient at x and
+/// the same at x + asideOf(sample), clamped to the hull. All else is of n.
 /// The material is i's from structure to structure i; otherwise structureAt(x)'s where occupancy >
 /// 0.5 - 1e-3 at x; otherwise a lumen's where the index at x is that of a lumen; otherwise bone.
 /// Where tissue is cut off by the hull, the crop box or a clipping plane, n is that face's normal
@@ -92,6 +96,24 @@ constexpr double kOccupancyThreshold = 0.5 - 1e-3;
 /// Surface opacity from which slice steps are smoothed when shading the CT's surface. They are less
 /// visible on more transparent surfaces, and a ray meets many of those.
 constexpr double kSmoothOpacity = 0.5;
+
+/// Voxels by which a sample's light is taken aside, along each axis: a pair at +-0.75 cancels what
+/// repeats from voxel to voxel. On a CT whose smallest spacing is at most kFineSpacing (mm), which
+/// samples borders well, it is none; from kCoarseSpacing on it is all.
+constexpr double kAside = 0.75;
+constexpr double kFineSpacing = 0.3;
+constexpr double kCoarseSpacing = 0.7;
+
+/// Cosine of the angle between the normals at a surface and aside of it up to which the latter is
+/// of something else (the other side of a thin plate, an edge), and from which it counts in full.
+constexpr double kUnlike = 0.6;
+constexpr double kAlike = 0.9;
+
+/// Size of a gradient aside, relative to that at the surface, which counts as one, about the mean
+/// of the four corners; and the most that one counts. So weighted, the mean of the samples' cosines
+/// is nearly that of the sum of the gradients, in which small ones, which noise turns, say little.
+constexpr double kAsideSlope = 0.8;
+constexpr double kMostAside = 2.0;
 
 /// Smallest cosine of edgeOpacity: 83 degrees.
 constexpr double kLeastFacing = 1.0 / 8.0;
@@ -183,6 +205,16 @@ double edgeOpacity(double opacity, double cosine, double edges);
 /// its normal is that of the noise, and one surface in a few hundred is seen from the side
 /// anywhere.
 double edgeFacing(double cosine, double slope);
+
+/// How far aside, in voxels of the CT, the sample of that number (sampleCorner) takes its light;
+/// zero if negative.
+Eigen::Vector3d asideOf(const core::GridGeometry& grid, int sample);
+
+/// Cosine of the light on a surface: f + w s (g - f), clamped to 0 to 1; f = |here . ray| / |here|,
+/// g = |aside . ray| / |aside|, w the smoothstep from kUnlike to kAlike of the cosine between the
+/// two gradients, s = min(|aside| / (kAsideSlope |here|), kMostAside).
+double asideFacing(const Eigen::Vector3d& here, const Eigen::Vector3d& aside,
+                   const Eigen::Vector3d& ray);
 
 /// Grey of a CT's value in a section, 0 to 1.
 double sectionGrey(const SectionWindow& window, double value);

@@ -1,6 +1,7 @@
 #include "petrous/Rendering/ReferenceRayCaster.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -15,6 +16,7 @@
 #include "SurfaceGeometry.h"
 #include "TissueRay.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Rendering/PixelSamples.h"
 #include "petrous/Rendering/RenderingError.h"
 
 namespace petrous::rendering
@@ -54,16 +56,21 @@ public:
     const double step = checkedStep(quality);
     checkContents(contents);
     if (contents.ct)
-      m_tissue.emplace(contents, step);
+      m_tissue.emplace(contents, step, quality.sample);
+    if (quality.sample >= 0)
+      m_place = pixelSample(quality.sample);
   }
 
   Pixel see(const PixelRay& ray, const optics::Lamp& lamp) const;
+  /// Right and down of a pixel's centre, pixels.
+  const std::array<double, 2>& place() const noexcept { return m_place; }
 
 private:
   GatheredLight gather(const PixelRay& ray, double end, const optics::Lamp& lamp) const;
 
   SurfaceGeometry m_shapes;
   bool m_hasShadows;
+  std::array<double, 2> m_place{};
   Eigen::Vector3d m_background;
   std::optional<TissueRay> m_tissue;
 };
@@ -119,17 +126,19 @@ ReferencePicture ReferenceRayCaster::render(const core::CameraPose& camera, int 
                                                               " pixels; at least 1 x 1 is needed");
   const PixelRays rays(camera, width, height);
   const optics::Lamp lamp = optics::lampOf(camera);
+  const auto [right, down] = m_implementation->place();
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   ReferencePicture result;
   result.picture = {width, height, std::vector<std::uint8_t>(3 * pixels)};
   result.rgb.resize(3 * pixels);
   result.depth = {width, height, std::vector<float>(pixels)};
 
-  const auto drawPixel = [&](int column, int row)
+  const auto drawPixel = [&, right = right, down = down](int column, int row)
   {
     const std::size_t index = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
                               static_cast<std::size_t>(column);
-    const Implementation::Pixel pixel = m_implementation->see(rays.through(column, row), lamp);
+    const Implementation::Pixel pixel =
+        m_implementation->see(rays.through(column + right, row + down), lamp);
     result.depth.millimetres[index] = static_cast<float>(pixel.depth);
     for (std::size_t channel = 0; channel < 3; ++channel)
     {

@@ -39,7 +39,7 @@ volume::TissueField makeField(const SceneContents& contents)
 
 } // namespace
 
-TissueOptics::TissueOptics(const SceneContents& contents)
+TissueOptics::TissueOptics(const SceneContents& contents, int sample)
   : m_ct(checked(contents).ct)
   , m_occupancy(contents.labels ? contents.labels->occupancy : nullptr)
   , m_index(contents.labels ? contents.labels->index : nullptr)
@@ -57,6 +57,7 @@ TissueOptics::TissueOptics(const SceneContents& contents)
   , m_thickness(contents.thickness)
   , m_section(contents.section)
   , m_field(makeField(contents))
+  , m_aside(optics::asideOf(m_ct->geometry(), sample))
 {
   if (m_materials.empty())
     m_materials.emplace_back();
@@ -249,8 +250,9 @@ bool TissueOptics::isSmooth(const Eigen::Vector3d& patient) const
   return double{surfaceMaterial(patient).surfaceOpacity} >= optics::kSmoothOpacity;
 }
 
-// Size of the CT's gradient that gave the normal, intensity per mm; only where the CT decides.
-std::optional<double> TissueOptics::ctSlopeAt(const Eigen::Vector3d& patient, State from) const
+// The CT's gradient that gave the normal, intensity per mm; only where the CT decides.
+std::optional<Eigen::Vector3d> TissueOptics::ctGradientAt(const Eigen::Vector3d& patient,
+                                                          State from) const
 {
   const core::GridGeometry& grid = m_ct->geometry();
   const Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
@@ -259,9 +261,20 @@ std::optional<double> TissueOptics::ctSlopeAt(const Eigen::Vector3d& patient, St
   const bool isCut = m_mask && m_mask->sample(voxel) - 0.5 < bone;
   if (isSolid(from) || isCut || !m_boneShown || occupancyAt(patient) - 0.5 > bone)
     return std::nullopt;
-  return (isSmooth(patient) ? volume::edgeGradientInPatient(grid, voxel, ctAt)
-                            : volume::gradientInPatient(grid, voxel, 1.0, ctAt))
-      .norm();
+  return isSmooth(patient) ? volume::edgeGradientInPatient(grid, voxel, ctAt)
+                           : volume::gradientInPatient(grid, voxel, 1.0, ctAt);
+}
+
+// Beside a surface at a point, clamped to the hull.
+Eigen::Vector3d TissueOptics::gradientAside(const Eigen::Vector3d& patient) const
+{
+  const core::GridGeometry& grid = m_ct->geometry();
+  const core::Index3& dims = grid.dims();
+  const Eigen::Vector3d last(dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0);
+  const Eigen::Vector3d voxel =
+      (grid.voxelFromPatient(patient) + m_aside).cwiseMax(0.0).cwiseMin(last);
+  return volume::edgeGradientInPatient(
+      grid, voxel, [this](const Eigen::Vector3d& v) { return m_ct->sample(v); });
 }
 
 // Only with a section.
@@ -304,13 +317,17 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
   if (face && m_section)
     return {{look.color[0], look.color[1], look.color[2]}, material.surfaceOpacity, false};
   double opacity = material.surfaceOpacity;
-  if (!face && m_light.edges > 0.0 && opacity < 1.0)
-  {
-    const std::optional<double> slope = ctSlopeAt(point, from);
-    opacity = optics::edgeOpacity(opacity, slope ? optics::edgeFacing(cosine, *slope) : cosine,
-                                  m_light.edges);
-  }
-  return {optics::surfaceColor(look, material.shininess, cosine, m_light, t, seen, focus,
+  double lit = cosine;
+  const bool hasEdge = !face && m_light.edges > 0.0 && opacity < 1.0;
+  const bool isAside = !face && !m_aside.isZero() && opacity >= optics::kSmoothOpacity;
+  const std::optional<Eigen::Vector3d> gradient =
+      hasEdge || isAside ? ctGradientAt(point, from) : std::nullopt;
+  if (hasEdge)
+    opacity = optics::edgeOpacity(
+        opacity, gradient ? optics::edgeFacing(cosine, gradient->norm()) : cosine, m_light.edges);
+  if (isAside && gradient)
+    lit = optics::asideFacing(*gradient, gradientAside(point), ray.direction);
+  return {optics::surfaceColor(look, material.shininess, lit, m_light, t, seen, focus,
                                overlay.has_value()),
           opacity, !overlay};
 }

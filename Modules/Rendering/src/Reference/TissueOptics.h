@@ -39,7 +39,8 @@ public:
 
   /// Throws RenderingError BadContents if the contents are inconsistent: no CT, a mask on another
   /// grid, labels without voxels, a missing material, or one that reads a missing second image.
-  explicit TissueOptics(const SceneContents& contents);
+  /// `sample`: whose light it is, see optics::asideOf.
+  explicit TissueOptics(const SceneContents& contents, int sample = -1);
 
   Place at(const Eigen::Vector3d& patient) const;
 
@@ -85,7 +86,8 @@ private:
   std::optional<std::array<double, 3>> overlayAt(const Eigen::Vector3d& patient) const;
   Surface sectionAt(const Eigen::Vector3d& patient, double opacity) const;
   bool isSmooth(const Eigen::Vector3d& patient) const;
-  std::optional<double> ctSlopeAt(const Eigen::Vector3d& patient, State from) const;
+  std::optional<Eigen::Vector3d> ctGradientAt(const Eigen::Vector3d& patient, State from) const;
+  Eigen::Vector3d gradientAside(const Eigen::Vector3d& patient) const;
   Eigen::Vector3d occupancyNormal(const Eigen::Vector3d& patient) const;
   Eigen::Vector3d borderNormal(const Eigen::Vector3d& patient, std::size_t index) const;
 
@@ -103,6 +105,7 @@ private:
   ThicknessOverlay m_thickness;
   std::optional<SectionWindow> m_section;
   volume::TissueField m_field;
+  Eigen::Vector3d m_aside; // voxels
 };
 
 } // namespace petrous::rendering

@@ -35,8 +35,8 @@ struct TissueRay::Sample
   TissueOptics::Place place;
 };
 
-TissueRay::TissueRay(const SceneContents& contents, double step)
-  : m_optics(contents)
+TissueRay::TissueRay(const SceneContents& contents, double step, int sample)
+  : m_optics(contents, sample)
   , m_drawn(contents.ct->geometry(), contents.crop, contents.clipping)
   , m_shadows(m_optics, m_drawn, contents)
   , m_step(step * contents.ct->geometry().minSpacing())

@@ -25,8 +25,9 @@ struct GatheredLight
 class TissueRay
 {
 public:
-  /// step: relative to the smallest spacing. Throws RenderingError BadContents.
-  TissueRay(const SceneContents& contents, double step);
+  /// step: relative to the smallest spacing; sample: see optics::asideOf. Throws RenderingError
+  /// BadContents.
+  TissueRay(const SceneContents& contents, double step, int sample = -1);
 
   TissueRay(const TissueRay&) = delete;
   TissueRay& operator=(const TissueRay&) = delete;

@@ -118,6 +118,7 @@ Picture renderTiled(ScenePicture& scene, const core::CameraPose& camera, int wid
           const auto [right, down] = pixelSample(n);
           place.right = right;
           place.down = down;
+          place.sample = n;
         }
         scene.setTile(place);
         drawn = view.render(scene);

@@ -434,6 +434,7 @@ void ScenePicture::Implementation::startFrame()
   core::CameraPose lampCamera = poseOf(renderer->GetActiveCamera()); // not yet that of an eye
   lampCamera.head = pose.head;
   mapper->SetLampCamera(lampCamera);
+  mapper->SetSample(tile ? tile->sample : -1);
   LightSettings light;
   light.falloff = m_falloff;
   const double atLamp = optics::lightAt(light, 0.0, optics::lampOf(lampCamera).focus);

@@ -20,4 +20,12 @@ constexpr std::array<double, 2> pixelSample(int n)
   return {at(k), at((kStep * k + (kStep - 1) / 2) % kPixelSamples)};
 }
 
+/// Corner of a cube in whose direction the n-th sample takes the CT's slope aside of its surface
+/// (optics::asideOf): each four in turn are the corners of a tetrahedron, whose mean is zero.
+constexpr std::array<double, 3> sampleCorner(int n)
+{
+  const auto sign = [](bool plus) { return plus ? 1.0 : -1.0; };
+  return {sign(n % 2 == 1), sign(n / 2 % 2 == 1), sign(n % 4 == 0 || n % 4 == 3)};
+}
+
 } // namespace petrous::rendering

@@ -34,6 +34,9 @@ public:
     /// In units of the smallest CT spacing, in (0, 1]. Halving the default changes a picture by
     /// less than 0.1 of an 8-bit level (RMS).
     double step = 1.0 / 16.0;
+    /// Of kPixelSamples, which goes through pixelSample and is lit as that; -1: the only one,
+    /// through the centre.
+    int sample = -1;
   };
 
   /// Shares the voxels of `contents` and reads the mask as it is when `render` is called. Throws

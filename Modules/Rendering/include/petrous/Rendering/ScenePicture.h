@@ -25,6 +25,7 @@ struct PictureTile
   int top = 0;
   double right = 0.0; ///< by which all rays are shifted, fractions of a pixel
   double down = 0.0;
+  int sample = -1; ///< of kPixelSamples, of a picture that is the mean of several; -1: of one
 };
 
 /// The scene as props in a VTK renderer, used by both the window and the command line.

@@ -82,6 +82,9 @@ public:
   /// falloff changes nothing, e.g. that between both eyes; null: the one that draws.
   void SetLampCamera(const std::optional<petrous::core::CameraPose>& camera);
 
+  /// Of kPixelSamples, which lights a frame that is one of several of a picture; -1: of none.
+  void SetSample(int sample);
+
   /// Casts shadows, if there are any (world); null: none does. Drawn elsewhere.
   void SetShadowingTool(const std::optional<petrous::rendering::ToolPose>& tool);
 

@@ -210,6 +210,18 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
     }
     opacity = opacityFrom(opacity, facing, ofCt, size);
   }
+  bool isAside = !isFace && ofCt && ray.row.z >= kSmoothOpacity && any(notEqual(aside, vec3(0.0)));
+  vec3 asideSlope = ctGradient(clamp(v + aside, vec3(0.0), hullUpper), isAside, true);
+  if (isAside)
+  {
+    vec3 asideMm = normalFromVoxel * asideSlope;
+    float asideSize = max(length(asideMm), 1e-12);
+    float alike = dot(asideMm, slopeMm) / (asideSize * max(size, 1e-12));
+    float asideFacing = min(abs(dot(asideSlope, ray.direction)) / asideSize, 1.0);
+    float share = min(asideSize / (kAsideSlope * max(size, 1e-12)), kMostAside);
+    float weight = smoothstep(kUnlike, kAlike, alike) * share;
+    facing = clamp(facing + weight * (asideFacing - facing), 0.0, 1.0);
+  }
   Seen seen = Seen(1.0, 1.0);
 #ifdef PETROUS_SHADOWS
   bool shadowed = !isFace && ray.state <= kAir && size > 1e-12 &&

@@ -18,7 +18,7 @@
 //   ROUNDED    the card's filter is made to round its weights, for tests on one that does not
 // Preceded by the constants that the C++ code defines (RayShader.cpp): kMaxPlanes,
 // kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity, kLeastFacing,
-// kEdgeSlope, kSoftInSection (OpticalModel.h),
+// kEdgeSlope, kUnlike, kAlike, kAsideSlope, kMostAside, kSoftInSection (OpticalModel.h),
 // kOcclusionReach, kShadowReach, kLampTangent, kSliceGrowth (OpticalModel.h, RayShader.h),
 // kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h), kMeeting,
 // kDeepest, kMarginPerDepth (LabelBorders.h).
@@ -81,6 +81,7 @@ uniform float weights; // of the card's filter between two texels
 uniform vec4 light; // intensity at the lamp with exposure, ambient, specular, wetness
 uniform float plainLight; // intensity without exposure and falloff
 uniform float falloff;
+uniform vec3 aside; // voxels by which the light of a sample is taken aside; zero: of the only one
 #ifdef PETROUS_EDGES
 uniform float edges; // 0 to 1
 #endif

@@ -101,7 +101,9 @@ TEST(AxesCorrection, MovesTheVoxelsOfAGridAboutItsCentre)
              Vector3d(byFile[1], -byFile[2], byFile[0]))
                 .norm(),
             1e-9);
-  EXPECT_GT(permuted.direction().determinant(), 0.0);
+  EXPECT_LT(permuted.direction().determinant(), 0.0) << "a cycle, and one axis turned round";
+  EXPECT_GT(AxesCorrection::parse("LSA").applied(stated).direction().determinant(), 0.0)
+      << "a quarter of a turn about the left-right axis";
   for (const std::string& text : allTexts())
   {
     const AxesCorrection one = AxesCorrection::parse(text);

@@ -54,7 +54,10 @@ void clear(scene::Case& value, const std::string& part)
   else if (part == "instrument")
     view.instrument.reset();
   else
+  {
     view.tool.reset();
+    view.handpiece.reset();
+  }
 }
 
 const ViewState::Saved& savedView(const scene::Case& value, const std::string& name,
@@ -125,7 +128,7 @@ ViewState::Handpiece handpieceFor(const scene::Case& value, const ViewCommandOpt
   const scene::Side ear = presenters::earOf(value);
   const auto hand =
       presenters::handpieceAlong(presenters::shaftOf(approach.value(), ear, options.leftHand),
-                                 presenters::currentCamera(value));
+                                 presenters::currentCamera(value), options.leftHand);
   if (!hand)
     throw UsageError("--handpiece: in this view the hand would come from behind the picture; look "
                      "at the ear first, as with --view " +
@@ -171,7 +174,7 @@ void change(scene::Case& value, const ViewCommandOptions& options,
     view.clipping.planes = parsePlanes(options.clip);
   if (const auto crop = parseCrop(options.crop, options.roi, value.ct.geometry))
     view.clipping.crop = crop;
-  if (burr || options.diameter || options.rpm || options.thrust || !options.handpiece.empty())
+  if (burr || options.diameter || options.rpm || options.thrust)
   {
     if (!view.tool)
       view.tool.emplace();
@@ -180,13 +183,20 @@ void change(scene::Case& value, const ViewCommandOptions& options,
     view.tool->burr.diameter = options.diameter.value_or(view.tool->burr.diameter);
     view.tool->burr.rpm = options.rpm.value_or(view.tool->burr.rpm);
     view.tool->thrust = options.thrust.value_or(view.tool->thrust);
+<<<<<<< HEAD
     if (options.handpiece == kUsual && options.leftHand)
       throw UsageError("--left-hand: the usual handpiece is in no hand; give an approach");
     if (options.handpiece == kUsual)
       view.tool->handpiece.reset();
     else if (!options.handpiece.empty())
       view.tool->handpiece = handpieceFor(value, options);
+=======
+>>>>>>> i2
   }
+  if (options.handpiece == kUsual)
+    view.handpiece.reset();
+  else if (!options.handpiece.empty())
+    view.handpiece = handpieceFor(value, options);
   if (instrument)
     view.instrument = instrument;
   try
@@ -232,11 +242,8 @@ nlohmann::json slicesJson(const Slices& slices)
           {"overlay", std::move(overlay)}};
 }
 
-// null: nothing is cut away.
 nlohmann::json clippingJson(const ViewState::Clipping& clipping)
 {
-  if (clipping.empty())
-    return nullptr;
   nlohmann::json planes = nlohmann::json::array();
   for (const auto& plane : clipping.planes)
     planes.push_back({{"point_mm", vectorJson(plane.point)}, {"normal", vectorJson(plane.normal)}});
@@ -262,7 +269,8 @@ nlohmann::json viewJson(const scene::Case& value)
   for (const auto& [name, one] : view.branches)
   {
     branches[name] = savedJson(one);
-    branches[name]["clipping"] = clippingJson(one.clipping.value_or(ViewState::Clipping()));
+    branches[name]["clipping"] =
+        one.clipping ? clippingJson(*one.clipping) : nlohmann::json(nullptr);
   }
   nlohmann::json light = nullptr;
   if (view.light)
@@ -275,8 +283,10 @@ nlohmann::json viewJson(const scene::Case& value)
               {"eye_separation_mm", orNull(view.stereo->eyeSeparation)},
               {"convergence_mm", orNull(view.stereo->convergence)}};
   nlohmann::json hand = nullptr;
-  if (view.tool && view.tool->handpiece)
-    hand = {{"turn_deg", view.tool->handpiece->turn}, {"tilt_deg", view.tool->handpiece->tilt}};
+  if (view.handpiece)
+    hand = {{"turn_deg", view.handpiece->turn},
+            {"tilt_deg", view.handpiece->tilt},
+            {"hand", view.handpiece->isLeft ? "left" : "right"}};
   nlohmann::json tool = nullptr;
   if (view.tool)
     tool = {{"burr", dissection::nameOf(view.tool->burr.kind)},
@@ -284,8 +294,7 @@ nlohmann::json viewJson(const scene::Case& value)
             {"diameter_mm", view.tool->burr.diameter},
             {"rpm", view.tool->burr.rpm},
             {"thrust_n", view.tool->thrust},
-            {"by_wheel", view.tool->byWheel},
-            {"handpiece", std::move(hand)}};
+            {"by_wheel", view.tool->byWheel}};
   nlohmann::json instrument = nullptr;
   if (view.instrument)
     instrument = {{"name", view.instrument->name},
@@ -302,6 +311,7 @@ nlohmann::json viewJson(const scene::Case& value)
           {"stereo", std::move(stereo)},
           {"clipping", clippingJson(view.clipping)},
           {"tool", std::move(tool)},
+          {"handpiece", std::move(hand)},
           {"instrument", std::move(instrument)}};
 }
 
@@ -348,7 +358,7 @@ void run(const Context& context, const ViewCommandOptions& options)
   }
   context.print("case '" + value.name + "'" + (isChanged ? " has another view" : ""));
   for (const auto& [part, what] : now.items())
-    if (!what.is_null() && !what.empty())
+    if (!what.is_null() && !what.empty() && (part != "clipping" || !value.view.clipping.empty()))
       context.print("  " + part + ": " + what.dump());
   nlohmann::json answer = now;
   answer["case"] = value.name;

@@ -2071,6 +2071,18 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>%1 (axes corrected)</source>
         <translation>%1 (Achsen korrigiert)</translation>
     </message>
+    <message>
+        <source>The case is closed, and “%1” is opened,</source>
+        <translation>Der Fall wird geschlossen und „%1“ geöffnet</translation>
+    </message>
+    <message>
+        <source>The case is closed</source>
+        <translation>Der Fall wird geschlossen</translation>
+    </message>
+    <message>
+        <source>Petrous is closed</source>
+        <translation>Petrous wird beendet</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::CaseJobs</name>
@@ -2414,12 +2426,12 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>um %1 mm verschoben</translation>
     </message>
     <message>
-        <source>%1 mm before the bone, moved by %2 mm</source>
-        <translation>%1 mm vor dem Knochen, um %2 mm verschoben</translation>
+        <source>%1 mm before the bone&apos;s surface, moved by %2 mm</source>
+        <translation>%1 mm vor der Knochenoberfläche, um %2 mm verschoben</translation>
     </message>
     <message>
-        <source>%1 mm deep in the bone, moved by %2 mm</source>
-        <translation>%1 mm tief im Knochen, um %2 mm verschoben</translation>
+        <source>%1 mm behind the bone&apos;s surface, moved by %2 mm</source>
+        <translation>%1 mm hinter der Knochenoberfläche, um %2 mm verschoben</translation>
     </message>
 </context>
 <context>
@@ -3160,7 +3172,7 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
 Let go, it lifts by a millimetre and rests there: the handpiece has no weight, and X holds it in place.
 Without it a drag turns the patient.</source>
         <translation>Bohrmodus (D): Die linke Taste oder die Leertaste bohrt, wo die Fräse liegt.
-Losgelassen hebt sie sich um einen Millimeter und ruht dort: Das Handstück hat kein Gewicht, und X hält es an seinem Ort.
+Losgelassen, hebt sie sich um einen Millimeter und ruht dort: Das Handstück hat kein Gewicht, und X hält es an seinem Ort.
 Ohne ihn dreht Ziehen den Patienten.</translation>
     </message>
 </context>
@@ -3324,11 +3336,11 @@ Ohne ihn dreht Ziehen den Patienten.</translation>
     </message>
     <message>
         <source>From here the hand would come from behind the picture: look at the left ear first, as in Surgical position (8)</source>
-        <translation>Von hier käme die Hand von hinter dem Bild: Sehen Sie zuerst auf das linke Ohr, wie in Operationslage (8)</translation>
+        <translation>Von hier aus käme die Hand hinter dem Bild hervor: Sehen Sie zuerst auf das linke Ohr, wie in Operationslage (8)</translation>
     </message>
     <message>
         <source>From here the hand would come from behind the picture: look at the right ear first, as in Surgical position (9)</source>
-        <translation>Von hier käme die Hand von hinter dem Bild: Sehen Sie zuerst auf das rechte Ohr, wie in Operationslage (9)</translation>
+        <translation>Von hier aus käme die Hand hinter dem Bild hervor: Sehen Sie zuerst auf das rechte Ohr, wie in Operationslage (9)</translation>
     </message>
     <message>
         <source>Handpiece for the left ear: %1° from the line of sight, at %2° on the screen</source>
@@ -4651,8 +4663,8 @@ Ohne ihn dreht Ziehen den Patienten.</translation>
         <translation>Fall offen lassen</translation>
     </message>
     <message>
-        <source>The case is closed as soon as this is done: %1</source>
-        <translation>Der Fall wird geschlossen, sobald dies fertig ist: %1</translation>
+        <source>%1 as soon as this is done: %2</source>
+        <translation>%1, sobald dies fertig ist: %2</translation>
     </message>
 </context>
 <context>

@@ -422,14 +422,95 @@ TEST_F(EditUndoTest, AnOpenStrokeComesFirstAndWhatWasBeforeItNext)
 TEST_F(EditUndoTest, StrokesOfAnotherBranchDoNotBarTheWay)
 {
   open();
+  const Color before = look().color;
   paint({1.0F, 0.0F, 0.0F});
   stroke();
   model->startBranch("other");
+  model->goToState("other", dissection::History::kStart);
+  EXPECT_EQ(model->undoText(), "change to approach other") << "there is no stroke here";
+  model->undo();
   EXPECT_EQ(model->undoText(), "colour of facial nerve");
   model->undo();
+  EXPECT_EQ(look().color, before);
   EXPECT_EQ(model->undoText(), "stroke 1") << "of the branch";
   model->redo();
   EXPECT_EQ(look().color, (Color{1.0F, 0.0F, 0.0F}));
+}
+
+TEST_F(EditUndoTest, WhatWasCutAwayOnOneApproachIsNotUndoneOnOneThatBeginsThere)
+{
+  open();
+  stroke();
+  const auto branch = [this] { return model->value().dissection.history().branch().name; };
+  const auto cropped = [](int width)
+  {
+    scene::ViewState::Clipping clipping;
+    clipping.crop = core::IndexBox{{0, 0, 0}, {width, 40, 40}};
+    return clipping;
+  };
+  // As the window does.
+  const auto crop = [this](const scene::ViewState::Clipping& to)
+  {
+    const scene::ViewState::Clipping from = model->value().view.clipping;
+    const auto set = [this](const scene::ViewState::Clipping& clipping)
+    { model->setClipping(clipping); };
+    set(to);
+    model->edits().did({"crop box", {}, [set, from] { set(from); }, [set, to] { set(to); }});
+  };
+  crop(cropped(20));
+  model->startBranch("other");
+  EXPECT_TRUE(model->value().view.clipping == cropped(20)) << "it goes on from what is seen";
+  crop(cropped(10));
+  model->undo();
+  EXPECT_TRUE(model->value().view.clipping == cropped(20));
+  EXPECT_EQ(model->undoText(), "change to approach other");
+  model->undo();
+  EXPECT_EQ(branch(), "main");
+  ASSERT_TRUE(model->value().dissection.history().find("other")) << "no deletion";
+  EXPECT_TRUE(model->value().view.clipping == cropped(20));
+  model->undo();
+  EXPECT_TRUE(model->value().view.clipping.empty());
+  EXPECT_EQ(model->undoText(), "stroke 1");
+  EXPECT_TRUE(model->value().view.branches.at("other").clipping == cropped(20));
+
+  model->redo();
+  model->redo();
+  EXPECT_EQ(branch(), "other");
+  EXPECT_TRUE(model->value().view.clipping == cropped(20));
+  model->redo();
+  EXPECT_TRUE(model->value().view.clipping == cropped(10));
+}
+
+TEST_F(EditUndoTest, AnApproachThatWasGoneToAtAnotherStateIsInItsOwnAfterUndo)
+{
+  open();
+  stroke();
+  model->startBranch("other");
+  stroke();
+  model->goToBranch("main");
+  const auto there = [this]
+  {
+    const dissection::History::Branch* other = model->value().dissection.history().find("other");
+    return other ? other->position : dissection::History::kStart;
+  };
+  ASSERT_EQ(there(), 1u);
+  model->goToState("other", dissection::History::kStart);
+  EXPECT_TRUE(model->value().dissection.mask().untouched());
+  model->undo();
+  EXPECT_EQ(model->value().dissection.history().branch().name, "main");
+  EXPECT_EQ(model->value().applied(), 1u);
+  EXPECT_EQ(there(), 1u);
+  model->redo();
+  EXPECT_EQ(model->value().dissection.history().branch().name, "other");
+  EXPECT_TRUE(model->value().dissection.mask().untouched());
+  // Another way from there: the one before is a branch of its own, and still whole.
+  stroke();
+  model->undo();
+  model->undo();
+  EXPECT_EQ(model->value().dissection.history().branch().name, "main");
+  EXPECT_EQ(there(), dissection::History::kStart) << "its own state is not on it any more";
+  ASSERT_TRUE(model->value().dissection.history().find("other~1"));
+  EXPECT_EQ(model->value().dissection.history().find("other~1")->position, 1u);
 }
 
 TEST_F(EditUndoTest, StrokesAreNumberedOverAllBranchesAsTheReportNumbersThem)
@@ -443,8 +524,10 @@ TEST_F(EditUndoTest, StrokesAreNumberedOverAllBranchesAsTheReportNumbersThem)
   EXPECT_EQ(model->value().applied(), 2u);
   EXPECT_EQ(model->undoText(), "stroke 3");
   model->undo();
-  EXPECT_EQ(model->undoText(), "stroke 1");
   EXPECT_EQ(model->redoText(), "stroke 3");
+  EXPECT_EQ(model->undoText(), "change to approach other");
+  model->undo();
+  EXPECT_EQ(model->undoText(), "stroke 1");
 }
 
 // As its name is shown: it is no name that a user gave, and is translated.

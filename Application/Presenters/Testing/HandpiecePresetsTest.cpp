@@ -34,8 +34,8 @@ TEST(HandpiecePresets, TransmastoidIsTheUsualHandpieceInSurgicalPosition)
   for (const Side ear : {Side::Right, Side::Left})
     for (const bool isLeft : {false, true})
     {
-      const auto hand =
-          handpieceAlong(shaftOf(SurgicalApproach::Transmastoid, ear, isLeft), surgicalView(ear));
+      const auto hand = handpieceAlong(shaftOf(SurgicalApproach::Transmastoid, ear, isLeft),
+                                       surgicalView(ear), isLeft);
       ASSERT_TRUE(hand);
       EXPECT_NEAR(hand->tilt, 20.0, 1e-6);
       EXPECT_NEAR(hand->turn, isLeft ? -140.0 : -40.0, 1e-6) << "from below";
@@ -100,7 +100,7 @@ TEST(HandpiecePresets, APointersToolLiesAlongThemInAnyViewThatSeesTheHand)
     {
       camera.position = camera.focalPoint + 100.0 * from;
       const Vector3d shaft = shaftOf(approach, Side::Right, false);
-      const auto hand = handpieceAlong(shaft, camera);
+      const auto hand = handpieceAlong(shaft, camera, false);
       const double angle = std::acos(shaft.dot(from.normalized())) / kDegree;
       ASSERT_EQ(hand.has_value(), angle <= 80.0) << angle;
       if (!hand)

@@ -228,6 +228,31 @@ TEST(SceneAssembly, DrawsSoftTissueWhereItIsShown)
   EXPECT_FALSE(sceneContents(thumbnailCase(value)).softTissue) << "a face is recognised";
 }
 
+// As for each move of the mouse.
+TEST(SceneAssembly, AFaceThroughSoftTissueReadsNoImage)
+{
+  scene::Case value = slabs();
+  value.softTissue.shown = true;
+  value.softTissue.relative = false;
+  value.softTissue.transfer = appearance::TransferFunction(
+      std::vector<appearance::ControlPoint>{{-500.0, {1, 1, 1}, 0.0F}, {0.0, {1, 1, 1}, 0.5F}});
+  int reads = 0;
+  value.ct.volume = core::Lazy<volume::IntensityVolume>(
+      [&reads]
+      {
+        ++reads;
+        return std::make_shared<const volume::IntensityVolume>(
+            std::make_shared<const volume::Volume<std::int16_t>>(kGrid, std::int16_t{50}));
+      });
+  const Vector3d at = kGrid.center();
+  EXPECT_FALSE(drawsSoftFace(value, at));
+  EXPECT_EQ(reads, 0);
+  const auto held = value.ct.volume.get();
+  ASSERT_EQ(reads, 1);
+  EXPECT_TRUE(drawsSoftFace(value, at));
+  EXPECT_EQ(reads, 1);
+}
+
 TEST(SceneAssembly, SaysWhySoftTissueIsNotDrawn)
 {
   scene::Case value = slabs();

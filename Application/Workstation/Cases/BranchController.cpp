@@ -79,8 +79,28 @@ BranchController::BranchController(presenters::WorkstationModel& model, QMenu& m
   stateChanged();
 }
 
+void BranchController::caseChanged()
+{
+  m_present.clear();
+  m_left.clear();
+  follow();
+}
+
+// Also by undo and redo. An approach that is not there any more was renamed or deleted.
+void BranchController::follow()
+{
+  const std::string present =
+      m_model.hasCase() ? m_model.value().dissection.history().branch().name : std::string();
+  if (present == m_present)
+    return;
+  if (m_model.hasCase() && m_model.value().dissection.history().find(m_present))
+    m_left = m_present;
+  m_present = present;
+}
+
 void BranchController::stateChanged()
 {
+  follow();
   const bool open = m_model.hasCase();
   enable(*m_start, open, tr("Open a case first"));
   const bool several = open && m_model.value().dissection.history().branches().size() > 1;
@@ -271,7 +291,6 @@ void BranchController::say(const QString& text)
 bool BranchController::change(const std::function<void()>& what)
 {
   m_isPutAway = settle && settle();
-  const std::string before = m_model.value().dissection.history().branch().name;
   try
   {
     what();
@@ -281,9 +300,6 @@ bool BranchController::change(const std::function<void()>& what)
     QMessageBox::warning(&m_window, tr("Approach"), toString(fault));
     return false;
   }
-  const dissection::History& history = m_model.value().dissection.history();
-  if (before != history.branch().name)
-    m_left = before;
   emit changed();
   return true;
 }

@@ -27,7 +27,8 @@ public:
   /// was in the hand.
   std::function<bool()> settle;
 
-  void stateChanged(); ///< strokes, approaches or the case changed
+  void caseChanged();  ///< or closed
+  void stateChanged(); ///< strokes or approaches changed
 
   void goTo(std::string name); ///< in the state in which it was left
   void goToState(std::string name, std::size_t state);
@@ -43,6 +44,7 @@ signals:
   void statusMessage(const QString& line);
 
 private:
+  void follow();
   void fill();
   void fillComparisons();
   void goOn(int steps);
@@ -59,7 +61,8 @@ private:
   QMenu* m_others; // to compare with
   QAction* m_rename;
   QAction* m_remove;
-  std::string m_left;       // the approach that was left last
+  std::string m_present;    // approach
+  std::string m_left;       // the one that was left last
   QTimer m_changed;         // states that are passed are not saved
   bool m_isPutAway = false; // the tool, by the last change
 };

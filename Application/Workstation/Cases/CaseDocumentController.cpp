@@ -525,10 +525,10 @@ void CaseDocumentController::stopWork()
   endWork();
 }
 
-bool CaseDocumentController::mayStopJobs(const std::function<void()>& again)
+bool CaseDocumentController::mayStopJobs(const std::function<void()>& again, const QString& what)
 {
   const QScopedValueRollback<bool> asking(m_asking, true);
-  return !mayDropJobs || mayDropJobs(again);
+  return !mayDropJobs || mayDropJobs(again, what);
 }
 
 // Saves the open case before another one is opened; no tool can be taken up until then.
@@ -549,7 +549,9 @@ void CaseDocumentController::openCase(const std::string& name)
 {
   if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
-  if (m_model.library().folder().empty() || !mayStopJobs([this, name] { openCase(name); }) ||
+  if (m_model.library().folder().empty() ||
+      !mayStopJobs([this, name] { openCase(name); },
+                   tr("The case is closed, and “%1” is opened,").arg(words(name))) ||
       !leaveCase())
     return;
   m_model.beginOpen(name);
@@ -2265,7 +2267,8 @@ void CaseDocumentController::closeCase()
 {
   if (writing())
     return emit statusMessage(tr("One at a time: something is being read already"));
-  if (!m_model.hasCase() || !mayStopJobs([this] { closeCase(); }) || !leaveCase())
+  if (!m_model.hasCase() || !mayStopJobs([this] { closeCase(); }, tr("The case is closed")) ||
+      !leaveCase())
     return;
   m_removed.hide();
   m_model.close();
@@ -2281,7 +2284,8 @@ bool CaseDocumentController::mayLeave()
   if (m_leaving) // called again while saving
     return false;
   const QScopedValueRollback<bool> leaving(m_leaving, true);
-  if (!mayStopJobs([this] { m_window.close(); }) || (mayDropDraft && !mayDropDraft()))
+  if (!mayStopJobs([this] { m_window.close(); }, tr("Petrous is closed")) ||
+      (mayDropDraft && !mayDropDraft()))
     return false;
   const FinishingNote note(m_window);
   stopWork();

@@ -99,7 +99,8 @@ public:
 
   /// Asks what becomes of jobs whose results would change the open case; false: the user wants to
   /// stay, or to wait: `again`, which leaves anew, is called then. Null: waiting is not offered.
-  std::function<bool(const std::function<void()>& again)> mayDropJobs;
+  /// `what`: becomes of the case then, for the user: "The case is closed".
+  std::function<bool(const std::function<void()>& again, const QString& what)> mayDropJobs;
   /// What is being added to a case or made into one, for such a question; empty: nothing.
   QString changing() const;
   void stopWork(); ///< and waits; a stopped import leaves nothing behind
@@ -205,7 +206,7 @@ private:
   void notSaved(const QString& why);
   void bringBack(); ///< the case, which another program deleted
   bool leaveCase();
-  bool mayStopJobs(const std::function<void()>& again = {});
+  bool mayStopJobs(const std::function<void()>& again = {}, const QString& what = {});
   void refuse(const QString& why);
   void inform(const QString& text);
 

@@ -61,6 +61,12 @@ QString textOf(const presenters::PlaceReading& reading, const presenters::Intens
     lines += DrillController::tr("distances to structures: being measured…");
   return lines.join('\n');
 }
+// Of a handpiece: the mirror image on the screen. Degrees.
+double inOtherHand(double turn)
+{
+  return std::remainder(180.0 - turn, 360.0);
+}
+
 } // namespace
 
 DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView& view,
@@ -251,7 +257,7 @@ void DrillController::holdFor(presenters::SurgicalApproach approach)
     return;
   const scene::Side ear = presenters::earOf(m_model.value());
   const auto hand = presenters::handpieceAlong(presenters::shaftOf(approach, ear, m_isLeft),
-                                               m_view.picture().camera());
+                                               m_view.picture().camera(), m_isLeft);
   if (!hand)
     return emit statusMessage(
         ear == scene::Side::Left
@@ -272,7 +278,7 @@ void DrillController::holdFor(presenters::SurgicalApproach approach)
 
 std::optional<scene::ViewState::Handpiece> DrillController::handpiece() const
 {
-  const scene::ViewState::Handpiece now{m_turn, m_tilt};
+  const scene::ViewState::Handpiece now{m_turn, m_tilt, m_isLeft};
   if (now == presenters::usualHandpiece(m_isLeft))
     return std::nullopt;
   return now;
@@ -280,9 +286,9 @@ std::optional<scene::ViewState::Handpiece> DrillController::handpiece() const
 
 void DrillController::setHandpiece(const std::optional<scene::ViewState::Handpiece>& hand)
 {
-  const auto [turn, tilt] = hand.value_or(presenters::usualHandpiece(m_isLeft));
-  m_turn = turn;
-  m_tilt = std::clamp(tilt, 0.0, interaction::AimSettings::kMaxTilt);
+  const scene::ViewState::Handpiece held = hand.value_or(presenters::usualHandpiece(m_isLeft));
+  m_turn = held.isLeft == m_isLeft ? held.turn : inOtherHand(held.turn);
+  m_tilt = std::clamp(held.tilt, 0.0, interaction::AimSettings::kMaxTilt);
   applyBar();
 }
 
@@ -292,7 +298,7 @@ void DrillController::setLeftHand(bool isLeft)
   if (isLeft == m_isLeft)
     return;
   m_isLeft = isLeft;
-  m_turn = std::remainder(180.0 - m_turn, 360.0);
+  m_turn = inOtherHand(m_turn);
   applyBar();
 }
 

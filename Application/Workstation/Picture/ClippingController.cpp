@@ -103,7 +103,7 @@ void ClippingController::caseChanged()
 {
   m_drag = {};
   m_held.reset();
-  m_zooms = {};
+  forgetZooms();
   m_actions.cropBox->setChecked(false);
   if (m_dialog)
     m_dialog->close();
@@ -204,17 +204,32 @@ void ClippingController::showWholeSlices()
   m_slices.fit();
 }
 
-// But for a slice that was zoomed since.
+// As the box showed it: it was not zoomed since.
+bool ClippingController::isStillWhole(std::size_t slice) const
+{
+  const scene::ViewState::Slices::Plane now = m_slices.views()[slice]->plane();
+  return now.zoom == 1.0 && now.offset.isZero(0.0);
+}
+
 void ClippingController::zoomAsBefore()
 {
   for (std::size_t n = 0; n < m_zooms.size(); ++n)
-  {
-    SliceView& view = *m_slices.views()[n];
-    const scene::ViewState::Slices::Plane now = view.plane();
-    if (m_zooms[n] && now.zoom == 1.0 && now.offset.isZero(0.0))
-      view.setPlane(*m_zooms[n]);
-    m_zooms[n].reset();
-  }
+    if (m_zooms[n] && isStillWhole(n))
+      m_slices.views()[n]->setPlane(*m_zooms[n]);
+  forgetZooms();
+}
+
+void ClippingController::takeOff(scene::ViewState::Slices& slices) const
+{
+  if (slices.planes)
+    for (std::size_t n = 0; n < m_zooms.size(); ++n)
+      if (m_zooms[n] && isStillWhole(n))
+        (*slices.planes)[n] = *m_zooms[n];
+}
+
+void ClippingController::forgetZooms()
+{
+  m_zooms = {};
 }
 
 void ClippingController::enterBox()
@@ -437,9 +452,10 @@ QString ClippingController::readPlane(std::size_t n, const Clipping& before) con
                                          { return m_model.tissueAlong(line); });
   if (!depth)
     return tr("moved by %1 mm").arg(moved);
-  return *depth < 0.0
-             ? tr("%1 mm before the bone, moved by %2 mm").arg(numberText(-*depth, 1), moved)
-             : tr("%1 mm deep in the bone, moved by %2 mm").arg(numberText(*depth, 1), moved);
+  return *depth < 0.0 ? tr("%1 mm before the bone's surface, moved by %2 mm")
+                            .arg(numberText(-*depth, 1), moved)
+                      : tr("%1 mm behind the bone's surface, moved by %2 mm")
+                            .arg(numberText(*depth, 1), moved);
 }
 
 std::vector<std::size_t> ClippingController::handlesAt(const std::vector<Handle>& all,

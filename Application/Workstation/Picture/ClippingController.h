@@ -38,6 +38,10 @@ public:
   void caseChanged(); ///< or closed
   void refresh();     ///< the clipping, or whether the view is taken, may have changed
 
+  /// Puts the zooms back that the slices had before the box showed the whole of them.
+  void takeOff(scene::ViewState::Slices& slices) const;
+  void forgetZooms(); ///< since the slices were set to be seen otherwise
+
   /// Whether a tool other than the drill's has the clicks in the 3D view, which then has no
   /// handles.
   std::function<bool()> viewTaken;
@@ -55,6 +59,7 @@ private:
   void showBox(bool shown);
   void showWholeSlices();
   void zoomAsBefore();
+  bool isStillWhole(std::size_t slice) const;
   void enterBox();
   void change(const Clipping& clipping, const std::string& continues = {});
   void record(const Clipping& before, const std::string& continues = {});

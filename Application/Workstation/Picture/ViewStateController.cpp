@@ -130,7 +130,8 @@ void ViewStateController::saveAs()
   if (name.isEmpty() || !m_model.hasCase())
     return;
   const bool replaces = saved.count(bytes(name)) > 0;
-  const State now = present();
+  State now = present();
+  now.view.slices->planes = m_slices.shown().planes; // as they are seen
   try
   {
     m_model.saveView(bytes(name), now.camera, *now.view.slices);
@@ -155,7 +156,10 @@ void ViewStateController::showSaved(const std::string& name)
   if (saved.camera)
     m_view.setCamera(*saved.camera);
   if (saved.slices)
+  {
+    emit slicesSet();
     m_slices.setShown(*saved.slices);
+  }
   emit statusMessage(tr("View “%1”").arg(words(name)));
 }
 
@@ -164,11 +168,14 @@ ViewStateController::State ViewStateController::present() const
   State state;
   state.camera = m_view.picture().camera();
   state.view.slices = m_slices.shown();
+  if (lasting)
+    lasting(*state.view.slices);
   state.view.slices->overlay = m_registration.overlay();
   state.view.light = m_picture.settings().lightState();
   state.view.stereo = m_picture.settings().stereoState();
-  state.view.tool = {m_bar.wanted(), m_bar.thrust(), m_bar.wheelAction()->isChecked(),
-                     handpiece ? handpiece() : std::nullopt};
+  state.view.tool = {m_bar.wanted(), m_bar.thrust(), m_bar.wheelAction()->isChecked()};
+  if (handpiece)
+    state.view.handpiece = handpiece();
   if (instrument)
     state.view.instrument = instrument();
   return state;
@@ -193,7 +200,7 @@ void ViewStateController::show()
     m_bar.wheelAction()->setChecked(view.tool->byWheel);
   }
   if (showHandpiece)
-    showHandpiece(view.tool ? view.tool->handpiece : std::nullopt);
+    showHandpiece(view.handpiece);
   if (showInstrument)
     showInstrument(view.instrument);
   m_shown = present();
@@ -219,6 +226,9 @@ void ViewStateController::collect()
   take(view.stereo, now.view.stereo, m_shown.view.stereo, all);
   take(view.tool, now.view.tool, m_shown.view.tool, all);
   take(view.instrument, now.view.instrument, m_shown.view.instrument, all);
+  take(view.handpiece, now.view.handpiece, m_shown.view.handpiece, all);
+  if (!now.view.handpiece && m_shown.view.handpiece)
+    view.handpiece.reset(); // as at first again
   m_model.setView(view);
   m_shown = now;
 }
@@ -239,6 +249,7 @@ void ViewStateController::collectPlace()
 void ViewStateController::showPlace()
 {
   const scene::Case& value = m_model.value();
+  emit slicesSet();
   if (value.camera)
     m_view.setCamera(*value.camera);
   if (value.view.slices)

@@ -43,6 +43,9 @@ public:
   std::function<std::optional<scene::ViewState::Instrument>()> instrument;
   std::function<void(const std::optional<scene::ViewState::Instrument>&)> showInstrument;
 
+  /// Takes off what the slices show for a while only.
+  std::function<void(scene::ViewState::Slices&)> lasting;
+
   /// Likewise how the handpiece is held.
   std::function<std::optional<scene::ViewState::Handpiece>()> handpiece;
   std::function<void(const std::optional<scene::ViewState::Handpiece>&)> showHandpiece;
@@ -53,6 +56,7 @@ public:
 
 signals:
   void statusMessage(const QString& line);
+  void slicesSet(); ///< by a saved view or an approach
 
 private:
   struct State

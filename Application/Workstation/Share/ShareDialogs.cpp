@@ -288,7 +288,7 @@ QString PrintDialog::problem() const
                       .arg(numberText(wanted.width(), 0), numberText(wanted.height(), 0)));
   if (std::max(wanted.width(), wanted.height()) > rendering::PrintSize::kMaxEdge)
     return tr("At most %1 pixels: choose a smaller width or resolution.")
-        .arg(rendering::PrintSize::kMaxEdge);
+        .arg(numberText(rendering::PrintSize::kMaxEdge, 0));
   if (scene::lowerCase(file().extension().string()) != ".png")
     return tr("Let the name end in .png.");
   return {};

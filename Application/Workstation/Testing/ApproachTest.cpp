@@ -312,6 +312,28 @@ TEST_F(Approaches, KeysOfTheMainWindowActInTheComparison)
   EXPECT_TRUE(waitFor([this] { return tree().isVisible(); }));
 }
 
+TEST_F(Approaches, UndoLeavesAnApproachToo)
+{
+  saveApproaches();
+  scene::Case three = library().open("ball");
+  scene::startBranch(three, "below");
+  scene::goToBranch(three, "main");
+  library().save(three);
+  openWindow();
+  QTest::keyClick(&window(), Qt::Key_PageDown, Qt::ControlModifier);
+  ASSERT_EQ(branch(), "above");
+  QTest::keyClick(&window(), Qt::Key_PageDown, Qt::ControlModifier);
+  ASSERT_EQ(branch(), "below");
+  ASSERT_TRUE(settled());
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_EQ(branch(), "above");
+  QTest::keyClick(&window(), Qt::Key_D, Qt::ControlModifier);
+  ASSERT_TRUE(comparison());
+  EXPECT_EQ(comparison()->findChild<QComboBox*>("firstApproach")->currentText(), "above");
+  EXPECT_EQ(comparison()->findChild<QComboBox*>("secondApproach")->currentText(), "below")
+      << "the one that undo left";
+}
+
 TEST_F(Approaches, AreComparedByOneKey)
 {
   saveApproaches();

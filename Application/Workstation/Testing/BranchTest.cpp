@@ -137,10 +137,16 @@ TEST_F(Branches, AreShownAsEachWasLeftAlsoByUndo)
   QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
   expectOther();
   ASSERT_TRUE(settled());
+  const scene::Case undone = library().open("ball"); // undo is saved, too
+  EXPECT_EQ(undone.dissection.history().branch().name, "other");
+  EXPECT_TRUE(undone.view.clipping == cropped);
+  ASSERT_EQ(undone.view.branches.count("main"), 1u);
+  EXPECT_EQ(undone.view.branches.count("other"), 0u);
   QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   expectMain();
   ASSERT_TRUE(settled());
   const scene::Case saved = library().open("ball");
+  EXPECT_EQ(saved.dissection.history().branch().name, "main");
   ASSERT_EQ(saved.view.branches.count("other"), 1u);
   EXPECT_TRUE(saved.view.branches.at("other").clipping == cropped);
 

@@ -24,6 +24,7 @@
 #include "SliceView.h"
 #include "ThreeDView.h"
 #include "petrous/Presenters/BoxHandles.h"
+#include "petrous/Scene/Branches.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -172,6 +173,71 @@ TEST_F(ClippingBox, HidingItBringsBackTheZoomOfTheSlices)
   action("Crop box")->trigger();
   action("Crop box")->trigger();
   EXPECT_EQ(views[0]->plane().zoom, 1.0) << "what was whole stays so";
+}
+
+TEST_F(ClippingBox, ZoomsBeneathItAreThoseOfTheirApproachAndSaved)
+{
+  scene::Case value = ballCase("ball");
+  value.dissection = dissection::Dissection(value.ct.geometry);
+  scene::startBranch(value, "other");
+  library().save(value);
+  openWindow("ball");
+  ASSERT_TRUE(settled());
+  const auto views = window().findChildren<SliceView*>();
+  ASSERT_EQ(views.size(), 3);
+  const auto zoomAll = [&](double zoom)
+  {
+    for (SliceView* slice : views)
+      slice->setPlane({zoom, Vector3d::Zero()});
+  };
+  const auto change = [this] { QTest::keyClick(&window(), Qt::Key_PageDown, Qt::ControlModifier); };
+  const auto branch = [this]
+  { return window().model().value().dissection.history().branch().name; };
+  ASSERT_EQ(branch(), "other");
+  action("Fit slices")->trigger();
+  change();
+  ASSERT_EQ(branch(), "main");
+  zoomAll(3.0);
+  action("Crop box")->trigger();
+  ASSERT_EQ(views[0]->plane().zoom, 1.0);
+  change();
+  ASSERT_EQ(branch(), "other");
+  EXPECT_EQ(views[0]->plane().zoom, 1.0);
+  action("Crop box")->trigger(); // hidden
+  EXPECT_EQ(views[0]->plane().zoom, 1.0) << "the other one's is not its";
+  ASSERT_TRUE(settled());
+  const scene::Case saved = library().open("ball");
+  ASSERT_EQ(saved.view.branches.count("main"), 1U);
+  const auto& left = saved.view.branches.at("main").slices;
+  ASSERT_TRUE(left && left->planes);
+  EXPECT_EQ((*left->planes)[0].zoom, 3.0);
+  change();
+  ASSERT_EQ(branch(), "main");
+  EXPECT_EQ(views[0]->plane().zoom, 3.0);
+
+  // Nor does a save while it is shown know of the whole slices.
+  action("Crop box")->trigger();
+  ASSERT_EQ(views[0]->plane().zoom, 1.0);
+  action("Save")->trigger();
+  ASSERT_TRUE(settled());
+  const auto shown = library().open("ball").view.slices;
+  ASSERT_TRUE(shown && shown->planes);
+  EXPECT_EQ((*shown->planes)[0].zoom, 3.0);
+}
+
+TEST_F(ClippingBox, SlicesThatAreFittedWhileItIsShownStaySo)
+{
+  saveBall("ball");
+  openWindow("ball");
+  const auto views = window().findChildren<SliceView*>();
+  ASSERT_EQ(views.size(), 3);
+  for (SliceView* slice : views)
+    slice->setPlane({3.0, Vector3d::Zero()});
+  action("Crop box")->trigger();
+  action("Fit slices")->trigger();
+  action("Crop box")->trigger();
+  for (SliceView* slice : views)
+    EXPECT_EQ(slice->plane().zoom, 1.0);
 }
 
 TEST_F(ClippingBox, IsDraggedByAFaceInTheThreeDView)
@@ -574,7 +640,8 @@ TEST_F(ClippingBox, APlaneThatIsDraggedTellsHowDeepItIs)
   const Vector3d tip = plane.point + 8.0 * plane.normal;
   const QPoint from = inView(tip);
   const QPoint to = inView(tip + 3.0 * plane.normal);
-  const auto isRead = [](const QString& text) { return text.contains("mm deep in the bone"); };
+  const auto isRead = [](const QString& text)
+  { return text.contains("mm behind the bone's surface"); };
   QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, from);
   moveTo(view(), (from + to) / 2);
   moveTo(view(), to);
@@ -589,9 +656,9 @@ TEST_F(ClippingBox, APlaneThatIsDraggedTellsHowDeepItIs)
   const double half = std::sqrt(kBallRadius * kBallRadius - (at.squaredNorm() - along * along));
   action("Cut deeper")->trigger();
   const QString said = window().statusBar()->currentMessage();
-  EXPECT_TRUE(said.contains(QString::number(along + half + 0.5, 'f', 1) + " mm deep") ||
-              said.contains(QString::number(along + half + 0.6, 'f', 1) + " mm deep") ||
-              said.contains(QString::number(along + half + 0.4, 'f', 1) + " mm deep"))
+  EXPECT_TRUE(said.contains(QString::number(along + half + 0.5, 'f', 1) + " mm behind") ||
+              said.contains(QString::number(along + half + 0.6, 'f', 1) + " mm behind") ||
+              said.contains(QString::number(along + half + 0.4, 'f', 1) + " mm behind"))
       << said.toStdString() << ", expected " << along + half + 0.5;
   EXPECT_TRUE(said.contains("moved by 0.5 mm")) << said.toStdString();
 }

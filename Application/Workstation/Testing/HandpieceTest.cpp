@@ -141,14 +141,30 @@ TEST_F(Handpiece, IsHeldForAnApproachToTheCasesEarAndKeptWithTheCase)
 
   action("Save")->trigger();
   ASSERT_TRUE(settled());
-  const auto kept = library().open("ball").view.tool;
-  ASSERT_TRUE(kept);
-  EXPECT_TRUE(kept->handpiece == held);
+  EXPECT_TRUE(library().open("ball").view.handpiece == held);
   closeWindow();
   openWindow("ball");
   EXPECT_TRUE(window().findChild<DrillController*>()->handpiece() == held);
   action("As at first")->trigger();
   EXPECT_FALSE(window().findChild<DrillController*>()->handpiece());
+}
+
+TEST_F(Handpiece, ThatWasKeptInTheOtherHandIsMirrored)
+{
+  scene::Case value = ballCase("ball");
+  value.view.handpiece = scene::ViewState::Handpiece{-140.0, 30.0, true};
+  library().save(value);
+  openWindow("ball");
+  const auto held = window().findChild<DrillController*>()->handpiece();
+  ASSERT_TRUE(held);
+  EXPECT_FALSE(held->isLeft) << "the hand is that of who drills";
+  EXPECT_NEAR(held->turn, -40.0, 1e-9);
+  EXPECT_EQ(held->tilt, 30.0);
+  action("Surgical position, right ear")->trigger();
+  action("Save")->trigger();
+  ASSERT_TRUE(settled());
+  EXPECT_TRUE(library().open("ball").view.handpiece == value.view.handpiece)
+      << "what the user did not change stays";
 }
 
 TEST_F(Handpiece, DrillsWithTheBurrAloneToo)

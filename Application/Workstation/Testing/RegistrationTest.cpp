@@ -696,6 +696,8 @@ TEST_F(RegistrationWindow, ACaseThatIsToBeClosedSaysSoAndCanBeKeptOpen)
   leaveBy(QMessageBox::AcceptRole, [this] { action("Close the case")->trigger(); });
   EXPECT_TRUE(banner.isVisible());
   EXPECT_TRUE(banner.text().contains("registration of the MR")) << banner.text().toStdString();
+  EXPECT_TRUE(banner.text().startsWith("The case is closed as soon as"))
+      << banner.text().toStdString();
   click("stayInCase");
   EXPECT_FALSE(banner.isVisible());
   EXPECT_TRUE(waitFor([this] { return mr().registered; }, 240000)) << "the run goes on";
@@ -718,6 +720,8 @@ TEST_F(RegistrationWindow, AWindowThatIsToBeClosedAfterARunClosesByItself)
   showPanel();
   click("register");
   leaveBy(QMessageBox::AcceptRole, [this] { window().close(); });
+  const QString told = find<Banner>("leaveBanner").text();
+  EXPECT_TRUE(told.startsWith("Petrous is closed as soon as")) << told.toStdString();
   EXPECT_TRUE(waitFor([this] { return !window().isVisible(); }, 240000));
   EXPECT_TRUE(library().open("ear").mr.front().registered);
 }

@@ -70,10 +70,9 @@ protected:
     view.stereo = scene::ViewState::Stereo{"anaglyph", 100.0 / 7.0, 1000.0 / 3.0};
     view.clipping.planes = {{kBallCenter, Eigen::Vector3d(0.0, 0.6, 0.8)}};
     view.clipping.crop = core::IndexBox{{0, 0, 0}, {64, 64, 50}};
-    view.tool = scene::ViewState::Tool{{dissection::Burr::Kind::Diamond, 3.0, 70000.0 / 3.0, {}},
-                                       7.0 / 3.0,
-                                       true,
-                                       scene::ViewState::Handpiece{1000.0 / 9.0, 100.0 / 3.0}};
+    view.tool = scene::ViewState::Tool{
+        {dissection::Burr::Kind::Diamond, 3.0, 70000.0 / 3.0, {}}, 7.0 / 3.0, true};
+    view.handpiece = scene::ViewState::Handpiece{1000.0 / 9.0, 100.0 / 3.0};
     return ball;
   }
 };

@@ -35,7 +35,7 @@ QStringList CaseJobs::running() const
   return all;
 }
 
-bool CaseJobs::mayLeave(const std::function<void()>& again)
+bool CaseJobs::mayLeave(const std::function<void()>& again, const QString& what)
 {
   stay();
   const QStringList jobs = running();
@@ -71,13 +71,14 @@ bool CaseJobs::mayLeave(const std::function<void()>& again)
     return false;
   if (running().isEmpty()) // it ended meanwhile
     return true;
-  leaveLater(again);
+  leaveLater(again, what);
   return false;
 }
 
-void CaseJobs::leaveLater(const std::function<void()>& again)
+void CaseJobs::leaveLater(const std::function<void()>& again, const QString& what)
 {
   m_again = again;
+  m_what = what;
   m_look.start();
   tell(running());
 }
@@ -92,7 +93,7 @@ void CaseJobs::stay()
 void CaseJobs::tell(const QStringList& jobs)
 {
   if (jobs != std::exchange(m_told, jobs))
-    emit waits(jobs);
+    emit waits(jobs, m_what);
 }
 
 void CaseJobs::lookAgain()

@@ -33,22 +33,25 @@ public:
 
   /// Before the case is left. Asks (object name "askJobs") while a job runs; false: the user stays,
   /// or waits: then `again`, which is to leave anew, is called as soon as no job runs and no dialog
-  /// is open, unless this was called again by then. Null: waiting is not offered.
-  bool mayLeave(const std::function<void()>& again);
+  /// is open, unless this was called again by then. Null: waiting is not offered. `what`: becomes
+  /// of the case then, for the user.
+  bool mayLeave(const std::function<void()>& again, const QString& what = {});
   void stay(); ///< waits no more: the jobs go on, and the case is not left
 
 signals:
-  /// For these jobs, after which the case is left; empty: for none any more.
-  void waits(const QStringList& jobs);
+  /// For these jobs, after which the case is left, and what becomes of it; empty: for none any
+  /// more.
+  void waits(const QStringList& jobs, const QString& what);
 
 private:
   void lookAgain();
-  void leaveLater(const std::function<void()>& again);
+  void leaveLater(const std::function<void()>& again, const QString& what);
   void tell(const QStringList& jobs);
 
   QWidget& m_window;
   std::vector<Job> m_jobs;
   std::function<void()> m_again;
+  QString m_what;     ///< becomes of the case then
   QStringList m_told; ///< what is waited for
   QTimer m_look;
   bool m_isAsking = false;

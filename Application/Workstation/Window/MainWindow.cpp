@@ -395,10 +395,9 @@ void MainWindow::layOut()
   auto* leaving = new Banner("leaveBanner", Banner::Kind::Notice, this);
   leaving->addButton("stayInCase", tr("Keep the case open"), [this] { m_jobs->stay(); });
   connect(m_jobs, &CaseJobs::waits, leaving,
-          [leaving](const QStringList& jobs)
+          [leaving](const QStringList& jobs, const QString& what)
           {
-            leaving->setText(
-                tr("The case is closed as soon as this is done: %1").arg(jobs.join(", ")));
+            leaving->setText(tr("%1 as soon as this is done: %2").arg(what, jobs.join(", ")));
             leaving->setVisible(!jobs.isEmpty());
           });
   auto* whole = new QWidget;
@@ -868,7 +867,12 @@ void MainWindow::connectActions()
   on(m_actions->boneWindow, [this] { m_slices->boneWindow(); });
   on(m_actions->softWindow, [this] { m_slices->softWindow(); });
   on(m_actions->temporalWindow, [this] { m_slices->temporalWindow(); });
-  on(m_actions->fitSlices, [this] { m_slices->fit(); });
+  on(m_actions->fitSlices,
+     [this]
+     {
+       m_clipping->forgetZooms();
+       m_slices->fit();
+     });
   on(m_actions->otherKind, [this] { m_bar->nextBurr(); });
   constexpr double kTurn = 5.0; // degrees
   on(m_actions->turnLeft, [this] { m_drill->turnHandpiece(kTurn, 0.0); });
@@ -1042,6 +1046,9 @@ void MainWindow::connectMeasure()
   m_measure->viewTaken = [this]
   { return m_view->tool().GetDrillMode() || m_view->tool().GetProbeMode(); };
   m_clipping->viewTaken = [this] { return m_measure->active() || m_segment->active(); };
+  m_viewState->lasting = [this](scene::ViewState::Slices& slices) { m_clipping->takeOff(slices); };
+  connect(m_viewState, &ViewStateController::slicesSet, m_clipping,
+          &ClippingController::forgetZooms);
   connect(m_measure, &MeasureController::stateChanged, m_clipping, &ClippingController::refresh);
   connect(m_segment, &SegmentController::stateChanged, m_clipping, &ClippingController::refresh);
   connect(m_measure, &MeasureController::stateChanged, this, &MainWindow::showUndo);
@@ -1064,7 +1071,8 @@ void MainWindow::connectJobs()
                  return file.isEmpty() ? file : tr("reading the attachment “%1”").arg(file);
                },
                [this] { m_attachments->stop(); }});
-  m_keeper->mayDropJobs = [this](const auto& again) { return m_jobs->mayLeave(again); };
+  m_keeper->mayDropJobs = [this](const auto& again, const QString& what)
+  { return m_jobs->mayLeave(again, what); };
 }
 
 // In the background, while nobody drills or waits for anything.
@@ -1216,6 +1224,7 @@ void MainWindow::caseClosed()
   m_segment->caseChanged();
   m_measure->caseChanged();
   m_clipping->caseChanged();
+  m_branches->caseChanged();
   tellPanels();
   m_removedBanner->hide();
   m_place->clear();
@@ -1263,6 +1272,7 @@ void MainWindow::caseChanged()
   m_segment->caseChanged();
   m_measure->caseChanged();
   m_clipping->caseChanged();
+  m_branches->caseChanged();
   tellPanels();
   if (!value.view.tool) // the thrust may be that of the case before
     m_bar->setThrust(m_settings->thrust().value_or(DrillBar::kUsualThrust));

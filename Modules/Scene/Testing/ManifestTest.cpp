@@ -854,11 +854,9 @@ scene::Case viewedCase()
   view.stereo = scene::ViewState::Stereo{"interleaved", 22.2, std::nullopt};
   view.clipping.planes = {{Vector3d(0.1, 0.2, 0.3), Vector3d(0.0, 0.6, 0.8)}};
   view.clipping.crop = core::IndexBox{{1, 2, 3}, {4, 5, 6}};
-  view.tool =
-      scene::ViewState::Tool{{dissection::Burr::Kind::Diamond, 7.0 / 3.0, 54321.1, "coarse"},
-                             0.7,
-                             true,
-                             scene::ViewState::Handpiece{-100.0 / 3.0, 200.0 / 9.0}};
+  view.tool = scene::ViewState::Tool{
+      {dissection::Burr::Kind::Diamond, 7.0 / 3.0, 54321.1, "coarse"}, 0.7, true};
+  view.handpiece = scene::ViewState::Handpiece{-100.0 / 3.0, 200.0 / 9.0, true};
   scene::Attachment film;
   film.kind = scene::Attachment::Kind::Video;
   film.name = "film.mp4";
@@ -890,10 +888,31 @@ TEST(Manifest, KeepsAllOfTheViewAndTheAttachmentsToTheBit)
   EXPECT_TRUE(*back.view.stereo == *value.view.stereo);
   EXPECT_TRUE(back.view.clipping == value.view.clipping);
   EXPECT_TRUE(*back.view.tool == *value.view.tool);
+  EXPECT_TRUE(back.view.handpiece == value.view.handpiece);
   ASSERT_EQ(back.attachments.size(), 2U);
   EXPECT_EQ(back.attachments[0].bytes, 1ULL << 40U);
   EXPECT_EQ(back.attachments[0].stroke, value.attachments[0].stroke);
   EXPECT_EQ(back.attachments[1].link, "/media/stick/far.mp4");
+}
+
+TEST(Manifest, KeepsAHandpieceWithoutATool)
+{
+  scene::Case value = fullCase();
+  value.view.tool.reset();
+  value.view.handpiece = scene::ViewState::Handpiece{40.0, 20.0, false};
+  const scene::Case back = scene::fromManifest(scene::toManifest(value), "m.json");
+  EXPECT_FALSE(back.view.tool);
+  EXPECT_TRUE(back.view.handpiece == value.view.handpiece);
+}
+
+// Where it was kept at first, in the hand that nothing told.
+TEST(Manifest, ReadsTheHandpieceOfATool)
+{
+  auto json = nlohmann::json::parse(scene::toManifest(viewedCase()));
+  json["view"].erase("handpiece");
+  json["view"]["tool"]["handpiece"] = {{"turn_deg", 40.0}, {"tilt_deg", 20.0}};
+  const scene::Case back = scene::fromManifest(json.dump(), "m.json");
+  EXPECT_TRUE(back.view.handpiece == (scene::ViewState::Handpiece{40.0, 20.0, false}));
 }
 
 // Written only where they are not the default, so that an older case stays as it was.
@@ -1103,8 +1122,9 @@ TEST(Manifest, RefusesAHostileViewOrAttachment)
   refused("/view/tool/burr", "drill");
   refused("/view/tool/diameter_mm", 0.0);
   refused("/view/tool/thrust_n", 1e9);
-  refused("/view/tool/handpiece/tilt_deg", 91.0);
-  refused("/view/tool/handpiece/turn_deg", "left");
+  refused("/view/handpiece/tilt_deg", 91.0);
+  refused("/view/handpiece/turn_deg", "left");
+  refused("/view/handpiece/left_hand", 1);
   for (const char* name : {"../film.mp4", "/film.mp4", "a/b", "..", "", "a\n", "far.MP4"})
     refused("/attachments/0/name", name);
   refused("/attachments/0/kind", "virus");

@@ -707,8 +707,6 @@ json toolOut(const ViewState::Tool& tool)
          {"by_wheel", tool.byWheel}};
   if (!tool.burr.name.empty())
     j["burr_name"] = tool.burr.name;
-  if (tool.handpiece)
-    j["handpiece"] = {{"turn_deg", tool.handpiece->turn}, {"tilt_deg", tool.handpiece->tilt}};
   return j;
 }
 
@@ -724,12 +722,21 @@ ViewState::Tool toolIn(const json& j)
   dissection::setName(tool.burr, j.value("burr_name", std::string()));
   tool.thrust = j.at("thrust_n").get<double>();
   tool.byWheel = j.at("by_wheel").get<bool>();
-  if (j.contains("handpiece"))
-  {
-    const json& hand = j.at("handpiece");
-    tool.handpiece = {hand.at("turn_deg").get<double>(), hand.at("tilt_deg").get<double>()};
-  }
   return tool;
+}
+
+json handpieceOut(const ViewState::Handpiece& hand)
+{
+  json j{{"turn_deg", hand.turn}, {"tilt_deg", hand.tilt}};
+  if (hand.isLeft)
+    j["left_hand"] = true;
+  return j;
+}
+
+ViewState::Handpiece handpieceIn(const json& j)
+{
+  return {j.at("turn_deg").get<double>(), j.at("tilt_deg").get<double>(),
+          j.value("left_hand", false)};
 }
 
 json instrumentOut(const ViewState::Instrument& instrument)
@@ -837,6 +844,8 @@ json viewOut(const Case& value)
     j["clipping"] = clippingOut(view.clipping);
   if (view.tool)
     j["tool"] = toolOut(*view.tool);
+  if (view.handpiece)
+    j["handpiece"] = handpieceOut(*view.handpiece);
   if (view.instrument)
     j["instrument"] = instrumentOut(*view.instrument);
   for (const auto& [name, saved] : view.saved)
@@ -860,6 +869,10 @@ ViewState viewIn(const json& j)
     view.clipping = clippingIn(j.at("clipping"));
   if (j.contains("tool"))
     view.tool = toolIn(j.at("tool"));
+  if (j.contains("handpiece"))
+    view.handpiece = handpieceIn(j.at("handpiece"));
+  else if (j.contains("tool") && j.at("tool").contains("handpiece")) // where it was kept at first
+    view.handpiece = handpieceIn(j.at("tool").at("handpiece"));
   if (j.contains("instrument"))
     view.instrument = instrumentIn(j.at("instrument"));
   if (j.contains("saved"))

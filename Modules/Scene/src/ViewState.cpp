@@ -163,7 +163,7 @@ bool operator==(const ViewState::Clipping& a, const ViewState::Clipping& b)
 
 bool operator==(const ViewState::Handpiece& a, const ViewState::Handpiece& b)
 {
-  return a.turn == b.turn && a.tilt == b.tilt;
+  return a.turn == b.turn && a.tilt == b.tilt && a.isLeft == b.isLeft;
 }
 
 bool operator==(const ViewState::Tool& a, const ViewState::Tool& b)
@@ -171,7 +171,7 @@ bool operator==(const ViewState::Tool& a, const ViewState::Tool& b)
   const auto all = [](const ViewState::Tool& tool)
   {
     return std::tie(tool.burr.kind, tool.burr.name, tool.burr.diameter, tool.burr.rpm, tool.thrust,
-                    tool.byWheel, tool.handpiece);
+                    tool.byWheel);
   };
   return all(a) == all(b);
 }
@@ -230,9 +230,9 @@ void checkView(const ViewState& view)
                 isWithin(view.tool->burr.rpm, 0.0, 1e6) && isWithin(view.tool->thrust, 0.0, 100.0),
             "a burr must be 0.01 to 100 mm wide and turn at 0 to 1000000 rpm, with a thrust of 0 "
             "to 100 N");
-  if (view.tool && view.tool->handpiece)
-    require(isWithin(view.tool->handpiece->turn, -180.0, 180.0) &&
-                isWithin(view.tool->handpiece->tilt, 0.0, 90.0),
+  if (view.handpiece)
+    require(isWithin(view.handpiece->turn, -180.0, 180.0) &&
+                isWithin(view.handpiece->tilt, 0.0, 90.0),
             "a handpiece must be turned by -180 to 180 and tilted by 0 to 90 degrees");
   if (view.instrument)
   {

@@ -252,14 +252,16 @@ bool drawsSoftFace(const scene::Case& value, const Eigen::Vector3d& patient)
   const std::optional<Material> material = drawnSoftTissue(value, images).material;
   if (!material)
     return false;
-  std::shared_ptr<const volume::IntensityVolume> image = value.ct.volume.get();
+  std::shared_ptr<const volume::IntensityVolume> image = value.ct.volume.peek();
   Eigen::Vector3d at = patient;
   for (std::size_t n = 0; n < images.size(); ++n)
     if (material->source == kOthers[n])
     {
-      image = images[n]->volume.get();
+      image = images[n]->volume.peek();
       at = images[n]->mrFromCt * patient;
     }
+  if (!image)
+    return false;
   const double intensity = image->sample(image->geometry().voxelFromPatient(at));
   return material->transfer.at(intensity).extinction > rendering::optics::kSoftInSection;
 }

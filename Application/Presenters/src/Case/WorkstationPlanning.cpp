@@ -17,6 +17,14 @@ namespace petrous::presenters
 namespace
 {
 constexpr const char* kMrEdits = "mr"; // EditHistory::Edit::group
+
+bool isOnPresentBranch(const dissection::History& history, std::size_t state)
+{
+  const std::vector<std::size_t> line = history.lineTo(history.branch().tip);
+  return state == dissection::History::kStart ||
+         std::find(line.begin(), line.end(), state) != line.end();
+}
+
 } // namespace
 
 bool WorkstationModel::measureNearby()
@@ -79,19 +87,33 @@ void WorkstationModel::changeBranch(const std::function<void()>& change)
     notify(events.appearanceChanged);
 }
 
-// A step from the branch that was left to the present one, in the state in which it is then.
-void WorkstationModel::recordBranch(const std::string& left)
+// A step from the branch that was left to the present one, in the state in which it is then; one
+// that was moved is back in its own state first.
+void WorkstationModel::recordBranch(const std::string& left,
+                                    const std::optional<MovedBranch>& moved)
 {
   const std::string name = m_case->dissection.history().branch().name;
   if (name == left)
     return;
-  const auto go = [this](const std::string& to)
-  { changeBranch([this, &to] { scene::goToBranch(*m_case, to); }); };
+  const auto back = [this, left, name, moved]
+  {
+    const dissection::History& history = m_case->dissection.history();
+    if (moved && history.branch().name == name && isOnPresentBranch(history, moved->before))
+      scene::goToState(*m_case, name, moved->before);
+    scene::goToBranch(*m_case, left);
+  };
+  const auto again = [this, name, moved]
+  {
+    if (moved)
+      scene::goToState(*m_case, name, moved->to);
+    else
+      scene::goToBranch(*m_case, name);
+  };
   recordEdit({name == dissection::History::kMain ? "change to the main approach"
                                                  : "change to approach " + name,
               {},
-              [go, left] { go(left); },
-              [go, name] { go(name); },
+              [this, back] { changeBranch(back); },
+              [this, again] { changeBranch(again); },
               true});
 }
 
@@ -109,12 +131,10 @@ void WorkstationModel::startBranch(const std::string& name)
 {
   if (!m_case)
     return;
-  changeBranch(
-      [this, &name]
-      {
-        scene::startBranch(*m_case, name);
-        m_edits.forgetStrokes();
-      });
+  stopTouch();
+  const std::string left = m_case->dissection.history().branch().name;
+  changeBranch([this, &name] { scene::startBranch(*m_case, name); });
+  recordBranch(left);
 }
 
 void WorkstationModel::goToState(const std::string& branch, std::size_t state)
@@ -124,13 +144,15 @@ void WorkstationModel::goToState(const std::string& branch, std::size_t state)
   stopTouch();
   const dissection::History& history = m_case->dissection.history();
   const std::string left = history.branch().name;
-  const std::size_t before = history.position();
   const auto go = [&] { scene::goToState(*m_case, branch, state); };
   if (left != branch)
   {
+    const dissection::History::Branch* there = history.find(branch);
+    const std::size_t before = there ? there->position : state;
     changeBranch(go);
-    return recordBranch(left);
+    return recordBranch(left, MovedBranch{before, state});
   }
+  const std::size_t before = history.position();
   go();
   const auto path = history.path(before, state);
   for (std::size_t n = 0; n < path.undone.size(); ++n)

@@ -63,7 +63,8 @@ std::optional<SurgicalApproach> parseSurgicalApproach(const std::string& name)
 ViewState::Handpiece usualHandpiece(bool isLeftHand)
 {
   const interaction::AimSettings usual;
-  return {std::remainder(isLeftHand ? 180.0 - usual.turn : usual.turn, 360.0), usual.tilt};
+  return {std::remainder(isLeftHand ? 180.0 - usual.turn : usual.turn, 360.0), usual.tilt,
+          isLeftHand};
 }
 
 Vector3d shaftOf(SurgicalApproach approach, scene::Side ear, bool isLeftHand)
@@ -85,10 +86,11 @@ Vector3d shaftOf(SurgicalApproach approach, scene::Side ear, bool isLeftHand)
 }
 
 std::optional<ViewState::Handpiece> handpieceAlong(const Vector3d& shaft,
-                                                   const core::CameraPose& camera)
+                                                   const core::CameraPose& camera, bool isLeftHand)
 {
   const Vector3d seen = screenOf(camera).conjugate() * shaft.normalized();
   ViewState::Handpiece hand;
+  hand.isLeft = isLeftHand;
   hand.turn = std::atan2(seen.y(), seen.x()) / kDegree;
   hand.tilt = std::acos(std::clamp(seen.z(), -1.0, 1.0)) / kDegree;
   if (hand.tilt > interaction::AimSettings::kMaxTilt)

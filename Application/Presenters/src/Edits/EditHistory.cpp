@@ -65,14 +65,6 @@ void EditHistory::strokeStepped(bool back)
   m_open = false;
 }
 
-void EditHistory::forgetStrokes()
-{
-  for (Steps* steps : {&m_done, &m_undone, &m_displaced})
-    steps->erase(std::remove_if(steps->begin(), steps->end(),
-                                [](const Step& step) { return !step.edit.has_value(); }),
-                 steps->end());
-}
-
 EditHistory::Hold::Hold(EditHistory& history)
   : m_history(&history)
   , m_generation(history.m_generation)

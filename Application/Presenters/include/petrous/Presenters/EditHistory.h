@@ -41,7 +41,6 @@ public:
   std::uint64_t did(Edit edit);
   void strokeMade();             ///< likewise
   void strokeStepped(bool back); ///< undone or redone
-  void forgetStrokes();          ///< the case moved to another branch
 
   /// The next edit does not continue the last one.
   void close() noexcept { m_open = false; }

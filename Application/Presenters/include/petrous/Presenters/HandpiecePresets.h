@@ -42,9 +42,8 @@ scene::ViewState::Handpiece usualHandpiece(bool isLeftHand);
 /// Axes, from the operated place to the eye, and where the surgeon sits:
 ///   transmastoid           along the left-right axis, onto the mastoid's surface; behind the ear
 ///   posterior tympanotomy  30 degrees behind it: past the posterior wall of the canal
-///   translabyrinthine      15 degrees behind it: along the internal auditory canal, which is
-///   nearly
-///                          transverse, between the canal's wall and the sigmoid sinus
+///   translabyrinthine      15 degrees behind it: along the internal auditory canal, which lies
+///                          nearly transverse, between the canal's wall and the sigmoid sinus
 ///   retrosigmoid           45 degrees behind it: along the posterior face of the petrous pyramid,
 ///                          which lies at 45 degrees to the median plane
 ///   middle fossa           45 degrees above it: onto the petrous bone's superior face through a
@@ -55,9 +54,10 @@ scene::ViewState::Handpiece usualHandpiece(bool isLeftHand);
 Eigen::Vector3d shaftOf(SurgicalApproach approach, scene::Side ear, bool isLeftHand);
 
 /// The turn and tilt with which a shaft lies along that direction in the middle of the camera's
-/// picture. nullopt: it would lean further than a handpiece can (AimSettings::kMaxTilt), or come
-/// from behind the picture. Throws InvalidParameter for a camera without a viewing direction.
-std::optional<scene::ViewState::Handpiece> handpieceAlong(const Eigen::Vector3d& shaft,
-                                                          const core::CameraPose& camera);
+/// picture, in that hand. nullopt: it would lean further than a handpiece can
+/// (AimSettings::kMaxTilt), or come from behind the picture. Throws InvalidParameter for a camera
+/// without a viewing direction.
+std::optional<scene::ViewState::Handpiece>
+handpieceAlong(const Eigen::Vector3d& shaft, const core::CameraPose& camera, bool isLeftHand);
 
 } // namespace petrous::presenters

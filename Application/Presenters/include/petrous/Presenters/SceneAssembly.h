@@ -64,7 +64,8 @@ std::string softTissueMissing(const scene::Case& value);
 
 /// Whether a face that a crop box or a clipping plane cuts through soft tissue is drawn at a place,
 /// patient LPS mm (OpticalModel.h): soft tissue is, has an extinction there, and was not removed.
-/// The place is one without bone or structure. Reads the CT or the MR that soft tissue is drawn of.
+/// The place is one without bone or structure. False as long as the image that soft tissue is drawn
+/// of is not read: it reads none.
 bool drawsSoftFace(const scene::Case& value, const Eigen::Vector3d& patient);
 
 } // namespace petrous::presenters

@@ -273,8 +273,9 @@ public:
 
   // These put the tool away first; the view that a branch is left with is asked for and shown
   // (WorkstationEvents::viewWanted, viewChanged). Throw as the functions of scene do.
-  void goToBranch(const std::string& name);  ///< can be undone
-  void startBranch(const std::string& name); ///< at the case's current state
+  void goToBranch(const std::string& name); ///< can be undone
+  /// At the case's current state; going to it can be undone, and it is there nevertheless.
+  void startBranch(const std::string& name);
   /// On the present branch it is as if the strokes had been undone or redone; else can be undone.
   void goToState(const std::string& branch, std::size_t state);
   // These two put the tool away and can be undone. They throw as scene::renameBranch and
@@ -439,7 +440,13 @@ private:
   void forgetTissue();
   void forgetReader();
   void changeBranch(const std::function<void()>& change);
-  void recordBranch(const std::string& left);
+  /// A branch that was gone to at another of its states.
+  struct MovedBranch
+  {
+    std::size_t before = dissection::History::kStart; ///< its own state
+    std::size_t to = dissection::History::kStart;
+  };
+  void recordBranch(const std::string& left, const std::optional<MovedBranch>& moved = {});
   void changeView(const std::string& name, const std::optional<scene::ViewState::Saved>& to,
                   const std::string& what);
   void putView(const std::string& name, const std::optional<scene::ViewState::Saved>& saved);

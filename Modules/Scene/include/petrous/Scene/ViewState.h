@@ -88,16 +88,16 @@ struct StereoView
 /// How the mouse's handpiece lies on the screen.
 struct HandpieceView
 {
-  double turn = 0.0; ///< degrees from right (0) to up (90), -180 to 180
-  double tilt = 0.0; ///< degrees from the line of sight, 0 to 90
+  double turn = 0.0;   ///< degrees from right (0) to up (90), -180 to 180
+  double tilt = 0.0;   ///< degrees from the line of sight, 0 to 90
+  bool isLeft = false; ///< in the left hand; for the other one it is mirrored
 };
 
 struct ToolView
 {
   dissection::Burr burr;
-  double thrust = 1.0;                         ///< N, of a device without force
-  bool byWheel = false;                        ///< the wheel moves the burr in depth
-  std::optional<HandpieceView> handpiece = {}; ///< nullopt: as at first
+  double thrust = 1.0;  ///< N, of a device without force
+  bool byWheel = false; ///< the wheel moves the burr in depth
 };
 
 /// An instrument of the user's that was used with the case: a closed mesh that is felt and removes
@@ -160,6 +160,7 @@ struct ViewState
   std::optional<Stereo> stereo;
   Clipping clipping;
   std::optional<Tool> tool;
+  std::optional<Handpiece> handpiece; ///< as at first
   std::optional<Instrument> instrument;
 };
 

@@ -1,8 +1,10 @@
 #include <limits>
+#include <utility>
 
 #include "PictureComparison.h"
 #include "PictureScenes.h"
 #include "petrous/Rendering/ScenePicture.h"
+#include "petrous/Volume/LabelField.h"
 
 using namespace petrous;
 using namespace petrous::rendering;
@@ -42,6 +44,95 @@ double thickness(const volume::TissueField& field, const PixelRay& ray, double h
     t += 1e-3;
   return t - hit;
 }
+
+// 255 labels, as many as there can be, each a block above a slab of bone; seen from above.
+struct LabelBlocks
+{
+  static constexpr int kLabels = 255;
+  static constexpr int kColumns = 16;
+  static constexpr int kCell = 8; // pixels a block and its surroundings
+  static constexpr int kPixels = kColumns * kCell;
+
+  LabelBlocks(int edge, int slices)
+  {
+    constexpr double kWidth = 204.8; // mm
+    const double spacing = kWidth / edge;
+    const core::GridGeometry grid({edge, edge, slices}, Vector::Constant(spacing), Vector::Zero());
+    const std::size_t slice = static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge);
+    auto bone = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{-1000});
+    std::fill_n(bone->data(), slice * static_cast<std::size_t>(slices / 6), std::int16_t{1600});
+    contents = boneScene(intensities<std::int16_t>(std::move(bone)));
+    contents.labels = fieldOf(blocks(grid));
+    for (int n = 0; n < kLabels; ++n)
+      contents.materials.push_back(
+          {appearance::TransferFunction::constant({red(n), green(n), 0.5F}, 0.5F, 0.0F)});
+    const double middle = 0.5 * (kWidth - spacing);
+    pose = from({middle, middle, 300.0}, {middle, middle, 60.0});
+    pose.viewUp = {0.0, 1.0, 0.0};
+    pose.parallelScale = 0.5 * kWidth;
+  }
+
+  static float red(int n) { return 0.1F + 0.05F * static_cast<float>(n % kColumns); }
+  static float green(int n) { return 0.1F + 0.05F * static_cast<float>(n / kColumns); }
+
+  // At 16 levels, so that the label field is large too.
+  static std::shared_ptr<const volume::LabelMap> blocks(const core::GridGeometry& grid)
+  {
+    auto voxels = volume::makeZeroVolume<std::uint16_t>(grid);
+    const int cell = grid.dims()[0] / kColumns;
+    const int thickness = grid.dims()[2] / 30;
+    for (int n = 0; n < kLabels; ++n)
+    {
+      const int left = n % kColumns * cell + cell / 4;
+      const int front = n / kColumns * cell + cell / 4;
+      const int first = (6 + n % 16) * thickness;
+      for (int k = first; k < first + thickness; ++k)
+        for (int j = front; j < front + cell / 2; ++j)
+          std::fill_n(&voxels->at(left, j, k), cell / 2, static_cast<std::uint16_t>(n + 1));
+    }
+    return std::make_shared<volume::LabelMap>(volume::makeLabelMap(std::move(voxels), {}));
+  }
+
+  static std::shared_ptr<const volume::LabelField>
+  fieldOf(const std::shared_ptr<const volume::LabelMap>& labels)
+  {
+    std::vector<volume::LabelSource> sources;
+    for (int n = 1; n <= kLabels; ++n)
+      sources.push_back(
+          {labels, static_cast<std::uint16_t>(n), static_cast<std::uint8_t>(n), true});
+    return volume::makeLabelField(sources);
+  }
+
+  // Every label in its colour, and bone beside it.
+  void expectAllIn(const Picture& picture) const
+  {
+    const auto at = [&](int n)
+    {
+      return std::pair{kCell * (n % kColumns) + kCell / 2,
+                       kPixels - kCell * (n / kColumns) - kCell / 2};
+    };
+    const auto isBone = [&](int column, int row)
+    {
+      const std::uint8_t* pixel = picture.pixel(column, row);
+      return pixel[0] > pixel[1] && pixel[1] > pixel[2] && pixel[0] > 190;
+    };
+    for (int n = 0; n < kLabels; ++n)
+    {
+      const auto [column, row] = at(n);
+      const std::uint8_t* pixel = picture.pixel(column, row);
+      EXPECT_NEAR(pixel[0], 255.0 * red(n), 3.0) << "label " << n + 1;
+      EXPECT_NEAR(pixel[1], 255.0 * green(n), 3.0) << "label " << n + 1;
+      EXPECT_NEAR(pixel[2], 127.5, 3.0) << "label " << n + 1;
+      if (n % kColumns > 0)
+        EXPECT_TRUE(isBone(column - kCell / 2, row)) << "beside label " << n + 1;
+    }
+    const auto [column, row] = at(kLabels); // no label has this place
+    EXPECT_TRUE(isBone(column, row));
+  }
+
+  SceneContents contents;
+  core::CameraPose pose;
+};
 
 } // namespace
 
@@ -310,4 +401,20 @@ TEST(RendererStress, LooksAlongTheAxesOfTheGrid)
     const SceneContents contents = boneScene(ball(cube(48, 0.5), 14.0), 0.35F);
     expectAgreement(agreementOf(contents, pose));
   }
+}
+
+TEST(RendererStress, DrawsAllOf255Labels)
+{
+  const LabelBlocks scene(256, 150);
+  const Shot whole =
+      shoot(scene.contents, scene.pose, {}, LabelBlocks::kPixels, LabelBlocks::kPixels);
+  EXPECT_TRUE(whole.statistics.notes.empty());
+  scene.expectAllIn(whole.picture);
+
+  RenderQuality small;
+  small.largestTexture = 128; // as on a graphics card without room for more
+  const Shot reduced =
+      shoot(scene.contents, scene.pose, small, LabelBlocks::kPixels, LabelBlocks::kPixels);
+  EXPECT_EQ(reduced.statistics.notes.size(), 2U); // CT and label field
+  scene.expectAllIn(reduced.picture);
 }

@@ -48,19 +48,14 @@ TEST_F(ViewCommand, HoldsTheHandpieceForAnApproachAsTheCaseIsLookedAt)
   const auto behind = run("view ear --view left --handpiece retrosigmoid");
   EXPECT_EQ(behind.code, 2);
   EXPECT_NE(behind.err.find("--view surgical-right"), std::string::npos) << behind.err;
-<<<<<<< HEAD
-  EXPECT_EQ(json("view ear")["tool"], left["tool"]);
+  EXPECT_EQ(json("view ear")["handpiece"], left["handpiece"]);
   const auto noHand = run("view ear --handpiece usual --left-hand");
   EXPECT_EQ(noHand.code, 2);
   EXPECT_NE(noHand.err.find("--left-hand"), std::string::npos) << noHand.err;
-  EXPECT_EQ(json("view ear")["tool"], left["tool"]);
-  EXPECT_TRUE(json("view ear --handpiece usual")["tool"]["handpiece"].is_null());
-=======
   EXPECT_EQ(json("view ear")["handpiece"], left["handpiece"]);
   const Json usual = json("view ear --handpiece usual");
   EXPECT_TRUE(usual["handpiece"].is_null());
   EXPECT_TRUE(usual["tool"].is_null());
->>>>>>> i2
 }
 
 TEST_F(ViewCommand, RenderAndSliceShowWhatIsSaved)

@@ -183,16 +183,9 @@ void change(scene::Case& value, const ViewCommandOptions& options,
     view.tool->burr.diameter = options.diameter.value_or(view.tool->burr.diameter);
     view.tool->burr.rpm = options.rpm.value_or(view.tool->burr.rpm);
     view.tool->thrust = options.thrust.value_or(view.tool->thrust);
-<<<<<<< HEAD
-    if (options.handpiece == kUsual && options.leftHand)
-      throw UsageError("--left-hand: the usual handpiece is in no hand; give an approach");
-    if (options.handpiece == kUsual)
-      view.tool->handpiece.reset();
-    else if (!options.handpiece.empty())
-      view.tool->handpiece = handpieceFor(value, options);
-=======
->>>>>>> i2
   }
+  if (options.handpiece == kUsual && options.leftHand)
+    throw UsageError("--left-hand: the usual handpiece is in no hand; give an approach");
   if (options.handpiece == kUsual)
     view.handpiece.reset();
   else if (!options.handpiece.empty())

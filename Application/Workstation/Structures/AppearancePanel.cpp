@@ -161,6 +161,7 @@ void AppearancePanel::addPointRow(QBoxLayout& layout)
 {
   m_pointName = new QLabel;
   m_pointName->setObjectName("pointName");
+  wrapWords(*m_pointName);
   m_add = button(tr("&Add"), "addPoint", tr("A point halfway to the next one (Ins in the plot)"));
   m_remove = button(tr("&Remove"), "removePoint",
                     tr("Removes the selected point (Del in the "
@@ -169,6 +170,7 @@ void AppearancePanel::addPointRow(QBoxLayout& layout)
                    tr("Colour of the selected point; without one, of the whole "
                       "structure, whose points keep their shades"));
   m_color->setAccessibleName(tr("Colour"));
+  m_color->setStyleSheet("QPushButton { padding: 6px; }");
   const auto pointOr = [this](double otherwise, auto get)
   {
     return m_editor.selected() && m_editor.point()
@@ -222,6 +224,7 @@ void AppearancePanel::addPointRow(QBoxLayout& layout)
   {
     auto* label = new QLabel(text);
     label->setBuddy(widget);
+    wrapWords(*label); // large letters
     grid->addWidget(label, row, 2 * column);
     grid->addWidget(widget, row, 2 * column + 1);
     grid->setColumnStretch(2 * column + 1, 1);

@@ -97,6 +97,7 @@ void StructuresPanel::addSearch(QVBoxLayout& layout)
 {
   m_search->setObjectName("structuresSearch");
   m_search->setPlaceholderText(tr("Search names, presets and kinds (/)"));
+  m_search->setToolTip(m_search->placeholderText()); // which is elided where it has no room
   m_search->setAccessibleName(tr("Search structures"));
   m_search->setClearButtonEnabled(true);
   m_search->installEventFilter(this);

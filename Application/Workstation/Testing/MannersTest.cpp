@@ -24,6 +24,7 @@
 #include <QProgressDialog>
 #include <QPushButton>
 #include <QScreen>
+#include <QScrollArea>
 #include <QScrollBar>
 #include <QSettings>
 #include <QStandardPaths>
@@ -261,7 +262,7 @@ protected:
         const int has =
             line->style()->subElementRect(QStyle::SE_LineEditContents, &option, line).width();
         const int wanted = line->fontMetrics().horizontalAdvance(hint);
-        if (wanted > has)
+        if (wanted > has && !line->toolTip().contains(hint)) // it is elided
           add(*line, hint, wanted, has);
         continue;
       }
@@ -838,13 +839,15 @@ TEST_F(Manners, NoTextOfADialogIsCutOffInEnglishAndGerman)
   }
 }
 
+struct UsualTheme
+{
+  ~UsualTheme() { applyTheme(*qApp); }
+};
+
 // As above, with the letters' size of the settings.
 TEST_F(Manners, NoTextOfADialogIsCutOffWithLargeLetters)
 {
-  struct UsualTheme
-  {
-    ~UsualTheme() { applyTheme(*qApp); }
-  } const after;
+  const UsualTheme after;
   saveMany("sixty", 24, 3, true);
   std::ofstream(folder() / "settings.conf") << "[look]\nfont_scale=1.25\n";
   const int usual = QFontMetrics(QApplication::font()).height();
@@ -855,6 +858,51 @@ TEST_F(Manners, NoTextOfADialogIsCutOffWithLargeLetters)
   for (const char* name : {"nodes", "describeCase", "catalogueDialog"})
     EXPECT_TRUE(seen.count(name)) << name;
   closeWindow();
+}
+
+TEST_F(Manners, NoTextOfAPanelOfStructuresIsCutOffWithLargeLettersInGerman)
+{
+  if (!hasLanguage("de"))
+    GTEST_SKIP() << "built without lrelease";
+  const UsualTheme after;
+  QTranslator german;
+  ASSERT_TRUE(german.load(":/translations/petrous_de.qm"));
+  QApplication::installTranslator(&german);
+  saveMany("sixty", 24, 3, true);
+  std::ofstream(folder() / "settings.conf") << "[look]\nfont_scale=1.25\n";
+  openWindow("sixty");
+  ASSERT_EQ(fontScale(), 1.25);
+  for (const char* name : {"structuresDock", "appearanceDock"})
+  {
+    auto* dock = window().findChild<QDockWidget*>(name);
+    ASSERT_TRUE(dock) << name;
+    dock->show();
+    dock->raise();
+    window().resize(1280, 680);
+    QTest::qWait(50);
+    expectWhole(*dock, name);
+    dock->hide();
+  }
+  QApplication::removeTranslator(&german);
+}
+
+// On a screen of 1280 x 720 already at 125 %.
+TEST_F(Manners, PanelsScrollWhereTheScreenIsLowForTheLetters)
+{
+  const UsualTheme after;
+  saveBall("ball");
+  std::ofstream(folder() / "settings.conf") << "[look]\nfont_scale=2\n";
+  openWindow("ball");
+  ASSERT_EQ(fontScale(), 2.0);
+  const int height = window().screen()->availableSize().height();
+  if (height >= 1400)
+    GTEST_SKIP() << "a high screen";
+  for (QDockWidget* dock : docks())
+  {
+    EXPECT_TRUE(qobject_cast<QScrollArea*>(dock->widget())) << dock->objectName().toStdString();
+    EXPECT_LE(dock->widget()->minimumSizeHint().height(), height / 3)
+        << dock->objectName().toStdString();
+  }
 }
 
 TEST_F(Manners, TabGoesThroughAllOfAPanel)

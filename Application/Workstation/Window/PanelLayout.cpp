@@ -14,6 +14,8 @@
 #include <QTreeView>
 #include <QVBoxLayout>
 
+#include "Theme.h"
+
 namespace petrous::workstation
 {
 
@@ -182,8 +184,8 @@ private:
 
 QWidget* scrolledPanel(QWidget* panel)
 {
-  constexpr int kLow = 700; // px
-  return roomFor(*panel).height() < kLow ? new WholePanel(panel) : panel;
+  constexpr int kLow = 700; // px, with the system's letters
+  return roomFor(*panel).height() < kLow * fontScale() ? new WholePanel(panel) : panel;
 }
 
 QSize leastOfScreen(const QWidget& widget, const QSize& wanted)

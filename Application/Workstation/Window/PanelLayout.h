@@ -16,7 +16,7 @@ void layOutPanel(QWidget& panel, QWidget* inside, QWidget* foot);
 /// becomes narrower.
 int wholeWidthOf(const QTreeView& tree);
 
-/// What a dock holds: the panel, which scrolls as a whole on a low screen.
+/// What a dock holds: the panel, which scrolls as a whole on a screen that is low for the letters.
 QWidget* scrolledPanel(QWidget* panel);
 
 /// This size, or less on a small screen.

@@ -221,6 +221,12 @@ void applyTheme(QApplication& application, const Theme& theme)
   application.setStyleSheet(styleSheet(theme));
 }
 
+double fontScale()
+{
+  const QApplication* application = qApp;
+  return appliedTheme(*application).value_or(Theme()).fontScale;
+}
+
 QColor warningColor()
 {
   return QApplication::palette().color(QPalette::LinkVisited);

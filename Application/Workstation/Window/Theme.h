@@ -39,6 +39,7 @@ inline bool operator==(const Theme& a, const Theme& b)
 /// (DecimalPoint.h), characters that stay in their field (TextKeys.h). Call before the first
 /// widget.
 void applyTheme(QApplication& application, const Theme& theme = {});
+double fontScale(); ///< of the theme that was applied last
 
 /// Of text in the present theme that tells of something doubtful, or of harm.
 QColor warningColor();

@@ -80,6 +80,32 @@ protected:
     return result;
   }
 
+  /// Adds labels on voxels of the CT's lattice. By how much they may be off where they are asked
+  /// about, mm; nullopt: they were added.
+  std::optional<double> unrepairedBy(scene::Case& value, const core::Index3& first,
+                                     const core::Index3& size) const
+  {
+    const core::GridGeometry& ct = value.ct.geometry;
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(
+        core::GridGeometry(size, ct.spacing(),
+                           ct.patientFromVoxel(Vector3d(first[0], first[1], first[2])),
+                           ct.direction()),
+        std::uint16_t{0});
+    voxels->at(3, 3, 2) = 1;
+    imaging::writeLabelFile(m_folder / "stack.nrrd", volume::makeLabelMap(voxels, {}));
+    presenters::PartSources parts;
+    parts.labels = {{"vein", m_folder / "stack.nrrd"}};
+    try
+    {
+      presenters::addParts(value, parts, {});
+    }
+    catch (const presenters::LabelsUnrepaired& unrepaired)
+    {
+      return unrepaired.apart;
+    }
+    return std::nullopt;
+  }
+
   /// A CT (`file` is "ct") or MR series of this patient.
   PartSource writeSeriesOf(const std::string& file, const std::string& id,
                            const std::string& name) const
@@ -298,27 +324,15 @@ TEST_F(CaseBuilder, AsksAboutLabelsOnTheGappedStackOfARepairedCt)
   ASSERT_GE(dims[2], 8);
   const auto isAsked = [&](int first, int slices, int interpolated)
   {
-    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(
-        core::GridGeometry({dims[0], dims[1], slices}, ct.spacing(),
-                           ct.patientFromVoxel(Vector3d(0, 0, first)), ct.direction()),
-        std::uint16_t{0});
-    voxels->at(3, 3, 2) = 1;
-    imaging::writeLabelFile(m_folder / "stack.nrrd", volume::makeLabelMap(voxels, {}));
-    presenters::PartSources parts;
-    parts.labels = {{"vein", m_folder / "stack.nrrd"}};
     scene::Case with = value;
     if (interpolated > 0)
       with.ct.provenance.interpolated = {{3, 2 + interpolated}};
-    try
+    const auto apart = unrepairedBy(with, {0, 0, first}, {dims[0], dims[1], slices});
+    if (apart)
     {
-      presenters::addParts(with, parts, {});
+      EXPECT_NEAR(*apart, interpolated * ct.spacing()[2], 1e-9);
     }
-    catch (const presenters::LabelsUnrepaired& unrepaired)
-    {
-      EXPECT_NEAR(unrepaired.apart, interpolated * ct.spacing()[2], 1e-9);
-      return true;
-    }
-    return false;
+    return apart.has_value();
   };
   EXPECT_TRUE(isAsked(0, dims[2] - 2, 2));
   EXPECT_TRUE(isAsked(0, dims[2] - 1, 2)); // one of them was guessed before it was written
@@ -337,25 +351,8 @@ TEST_F(CaseBuilder, AsksAboutLabelsOnTheStraightStackOfARepairedCt)
   value.ct.provenance.shift = 2.4 * ct.spacing()[1];
   const auto isAsked = [&](const core::Index3& first, const core::Index3& size)
   {
-    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(
-        core::GridGeometry(size, ct.spacing(),
-                           ct.patientFromVoxel(Vector3d(first[0], first[1], first[2])),
-                           ct.direction()),
-        std::uint16_t{0});
-    voxels->at(3, 3, 2) = 1;
-    imaging::writeLabelFile(m_folder / "stack.nrrd", volume::makeLabelMap(voxels, {}));
-    presenters::PartSources parts;
-    parts.labels = {{"vein", m_folder / "stack.nrrd"}};
     scene::Case with = value;
-    try
-    {
-      presenters::addParts(with, parts, {});
-    }
-    catch (const presenters::LabelsUnrepaired&)
-    {
-      return true;
-    }
-    return false;
+    return unrepairedBy(with, first, size).has_value();
   };
   EXPECT_TRUE(isAsked({0, 0, 0}, {dims[0], dims[1] - 3, dims[2]}));
   EXPECT_TRUE(isAsked({0, 3, 0}, {dims[0], dims[1] - 3, dims[2]})) << "it leans the other way";
@@ -370,18 +367,10 @@ TEST_F(CaseBuilder, AsksNotAboutLabelsOnTheVoxelsOfARepairedCt)
 {
   auto value = presenters::buildCase("ear", m_sources, {});
   value.ct.provenance.shift = 20.0;
-  const core::GridGeometry& ct = value.ct.geometry;
-  for (const Vector3d& first : {Vector3d(2, 3, 1), Vector3d(-2, 0, 0)})
+  for (const core::Index3& first : {core::Index3{2, 3, 1}, core::Index3{-2, 0, 0}})
   {
-    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(
-        core::GridGeometry({6, 5, 4}, ct.spacing(), ct.patientFromVoxel(first), ct.direction()),
-        std::uint16_t{0});
-    voxels->at(3, 3, 2) = 1;
-    imaging::writeLabelFile(m_folder / "part.nrrd", volume::makeLabelMap(voxels, {}));
-    presenters::PartSources parts;
-    parts.labels = {{"vein", m_folder / "part.nrrd"}};
     scene::Case with = value;
-    presenters::addParts(with, parts, {});
+    EXPECT_FALSE(unrepairedBy(with, first, {6, 5, 4}));
     EXPECT_EQ(with.labels.size(), 1U);
   }
 }

@@ -1471,7 +1471,8 @@ std::optional<bool> CaseDocumentController::askSide(const fs::path& path)
   return std::nullopt;
 }
 
-// The image on which structures were drawn: "ct" or an MR's name; empty: the user does not know.
+// On which image structures were drawn, or that they lie where they belong. False: the user does
+// not know.
 bool CaseDocumentController::askDrawnOn(presenters::PartSource& source)
 {
   const QString primary = presenters::primaryName(m_model.value());

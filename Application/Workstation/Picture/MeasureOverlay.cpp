@@ -207,6 +207,8 @@ std::vector<Eigen::Vector3d> MeasureOverlay::handles() const
 // In the world, across the line of sight: each eye sees them where the point is.
 void MeasureOverlay::placeHandles(const DrawnMeasure& measure, Drawn& drawn, double scale)
 {
+  if (measure.handles.empty())
+    return;
   vtkCamera* camera = m_renderer->GetActiveCamera();
   const Eigen::Vector3d position(camera->GetPosition());
   const Eigen::Vector3d ahead(camera->GetDirectionOfProjection());
@@ -301,6 +303,8 @@ std::vector<MeasureOverlay::Disc> MeasureOverlay::discsOf(const rendering::ToolP
 void MeasureOverlay::place(const std::optional<rendering::ToolPose>& tool,
                            const std::vector<Eigen::Vector3d>& others)
 {
+  if (m_drawn.empty())
+    return;
   const std::vector<Disc> covered = tool ? discsOf(*tool) : std::vector<Disc>();
   struct Box
   {

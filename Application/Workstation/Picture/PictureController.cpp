@@ -73,7 +73,12 @@ PictureController::PictureController(presenters::WorkstationModel& model, ThreeD
   connect(m_actions.surgeonWindow, &QAction::triggered, this,
           [this](bool open) { open ? openSurgeonWindow() : closeSurgeonWindow(); });
   connect(&m_view.display(), &SceneDisplay::drawn, this, &PictureController::showSpeed);
-  connect(&m_view, &ThreeDView::cameraMoved, this, &PictureController::showNotes);
+  connect(&m_view, &ThreeDView::cameraMoved, this,
+          [this]
+          {
+            if (isBuried() != m_isBuried)
+              showNotes();
+          });
   connect(&m_view, &ThreeDView::toolModeSet, this,
           [this]
           {
@@ -216,11 +221,17 @@ void PictureController::showScene()
   }
 }
 
-void PictureController::showNotes()
+bool PictureController::isBuried() const
 {
   const SceneDisplay& display = m_view.display();
+  return presenters::isBuried(display.picture().camera(), display.contents());
+}
+
+void PictureController::showNotes()
+{
   QStringList lines = m_notes;
-  if (presenters::isBuried(display.picture().camera(), display.contents()))
+  m_isBuried = isBuried();
+  if (m_isBuried)
     lines += tr("The camera is inside tissue: zoom out");
   m_view.setNotes(lines);
 }

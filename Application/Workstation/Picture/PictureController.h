@@ -63,6 +63,7 @@ protected:
 
 private:
   void showScene();
+  bool isBuried() const; ///< the camera, in opaque tissue
   void showNotes();
   void lightChanged();
   void backgroundChanged();
@@ -80,6 +81,7 @@ private:
   WindowSettings& m_kept;
   const bool m_quadBuffer;
   QStringList m_notes;        ///< of the scene, wherever the camera is
+  bool m_isBuried = false;    ///< as the notes say
   bool m_isShowing = false;   ///< a case's settings, which are not the user's
   bool m_isAnnounced = false; ///< a picture whose scene is not there yet
   bool m_isFirst = false;     ///< the picture that is drawn next, after it was announced

@@ -1,6 +1,5 @@
 #include "ThicknessController.h"
 
-#include <algorithm>
 #include <utility>
 
 #include <QAction>
@@ -148,10 +147,7 @@ void ThicknessController::partsChanged()
 {
   const std::string measured = m_measured;
   caseChanged();
-  const scene::Case& value = m_model.value();
-  const bool isMesh = std::any_of(value.meshes.begin(), value.meshes.end(),
-                                  [&](const auto& mesh) { return mesh.name == measured; });
-  if (!measured.empty() && (isMesh || scene::findStructure(value, measured)))
+  if (m_model.lookOf(measured))
     measure(measured);
 }
 

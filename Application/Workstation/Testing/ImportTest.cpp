@@ -41,7 +41,13 @@ using namespace petrous;
 using namespace petrous::workstation;
 
 namespace fs = std::filesystem;
-using Import = GuiTest;
+class Import : public GuiTest
+{
+protected:
+  /// Drops what is to be added to the open case, and answers the question `box` by the button
+  /// `answer`. What was asked; empty: it was not.
+  QString askedOnDrop(const fs::path& path, const QString& box, const QString& answer);
+};
 using presenters::Content;
 
 TEST_F(Import, ADroppedFileIsOnTheScreenAndInTheLibrary)
@@ -421,6 +427,25 @@ QString answered(const OnDialog& onDialog, const QString& button, const std::fun
 }
 
 } // namespace
+
+QString Import::askedOnDrop(const fs::path& path, const QString& box, const QString& answer)
+{
+  QString asked;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (clicked(dialog, "Add to"))
+          return false;
+        if (dialog.objectName() != box)
+          return false;
+        asked = textOf(dialog);
+        buttonOf(dialog, answer)->click();
+        return true;
+      });
+  dropPath(path);
+  EXPECT_TRUE(waitFor([&] { return !asked.isEmpty(); }));
+  return asked;
+}
 
 TEST_F(Import, AnMrComesToTheOpenCase)
 {
@@ -1345,20 +1370,8 @@ TEST_F(Import, AnMrOfAnotherPatientIsAskedAbout)
   for (const char* answer : {"Cancel", "It is this"})
   {
     EXPECT_TRUE(window().model().value().mr.empty());
-    QString asked;
-    onDialog(
-        [&](QDialog& dialog)
-        {
-          if (clicked(dialog, "Add to"))
-            return false;
-          if (dialog.objectName() != "askOtherPatient")
-            return false;
-          asked = textOf(dialog);
-          buttonOf(dialog, answer)->click();
-          return true;
-        });
-    dropPath(folder() / "mr");
-    ASSERT_TRUE(waitFor([&] { return !asked.isEmpty(); }));
+    const QString asked = askedOnDrop(folder() / "mr", "askOtherPatient", answer);
+    ASSERT_FALSE(asked.isEmpty());
     EXPECT_FALSE(asked.contains("471")) << "a patient's ID";
     EXPECT_TRUE(asked.contains("What differs: patient ID.")) << asked.toStdString();
     EXPECT_TRUE(settled());
@@ -1424,20 +1437,8 @@ TEST_F(Import, LabelsOnAnotherGridThanARepairedCtAreAskedAbout)
   for (const char* answer : {"Cancel", "Add it as it lies"})
   {
     EXPECT_TRUE(window().model().value().labels.empty());
-    QString asked;
-    onDialog(
-        [&](QDialog& dialog)
-        {
-          if (clicked(dialog, "Add to"))
-            return false;
-          if (dialog.objectName() != "askAsTheyLie")
-            return false;
-          asked = textOf(dialog);
-          buttonOf(dialog, answer)->click();
-          return true;
-        });
-    dropPath(folder() / "vein.seg.nrrd");
-    ASSERT_TRUE(waitFor([&] { return !asked.isEmpty(); }));
+    const QString asked = askedOnDrop(folder() / "vein.seg.nrrd", "askAsTheyLie", answer);
+    ASSERT_FALSE(asked.isEmpty());
     EXPECT_TRUE(settled());
     EXPECT_TRUE(asked.contains("20.0 mm")) << asked.toStdString();
   }
@@ -1470,20 +1471,8 @@ TEST_F(Import, ASegmentationOfAnotherFrameIsAskedAbout)
   for (const char* answer : {"Cancel", "On the CT"})
   {
     EXPECT_TRUE(window().model().value().labels.empty());
-    QString asked;
-    onDialog(
-        [&](QDialog& dialog)
-        {
-          if (clicked(dialog, "Add to"))
-            return false;
-          if (dialog.objectName() != "askDrawnOn")
-            return false;
-          asked = textOf(dialog);
-          buttonOf(dialog, answer)->click();
-          return true;
-        });
-    dropPath(folder() / "seg.dcm");
-    ASSERT_TRUE(waitFor([&] { return !asked.isEmpty(); }));
+    const QString asked = askedOnDrop(folder() / "seg.dcm", "askDrawnOn", answer);
+    ASSERT_FALSE(asked.isEmpty());
     EXPECT_TRUE(settled());
   }
   ASSERT_TRUE(waitFor([this] { return window().model().value().labels.size() == 1; }));

@@ -113,20 +113,21 @@ protected:
   int m_events = 0;
 };
 
-/// 600 x 400 pixels, 10 a mm, seen along z: right is x, up is y.
+/// 10 pixels a mm, seen along z: right is x, up is y.
 struct FlatView
 {
-  FlatView()
+  explicit FlatView(int width = 600, int height = 400)
   {
     target->SetOffScreenRendering(1);
-    target->SetSize(600, 400);
+    target->SetMultiSamples(0);
+    target->SetSize(width, height);
     target->AddRenderer(renderer);
     vtkCamera* camera = renderer->GetActiveCamera();
     camera->ParallelProjectionOn();
     camera->SetPosition(0.0, 0.0, 100.0);
     camera->SetFocalPoint(0.0, 0.0, 0.0);
     camera->SetViewUp(0.0, 1.0, 0.0);
-    camera->SetParallelScale(20.0);
+    camera->SetParallelScale(0.05 * height);
     camera->SetClippingRange(1.0, 200.0);
   }
 
@@ -229,20 +230,8 @@ TEST(MeasureOverlay, LabelsLieOnNoHandleAndOverAllLines)
 // 4.5 px.
 TEST(MeasureOverlay, HandlesHaveFormsOfTheirOwn)
 {
-  vtkNew<vtkRenderWindow> target;
-  target->SetOffScreenRendering(1);
-  target->SetMultiSamples(0);
-  target->SetSize(200, 200);
-  vtkNew<vtkRenderer> renderer;
-  target->AddRenderer(renderer);
-  vtkCamera* camera = renderer->GetActiveCamera();
-  camera->ParallelProjectionOn();
-  camera->SetPosition(0.0, 0.0, 100.0);
-  camera->SetFocalPoint(0.0, 0.0, 0.0);
-  camera->SetViewUp(0.0, 1.0, 0.0);
-  camera->SetParallelScale(10.0); // 10 px a mm
-  camera->SetClippingRange(1.0, 200.0);
-  MeasureOverlay overlay(*renderer);
+  FlatView flat(200, 200);
+  MeasureOverlay overlay(*flat.renderer);
   DrawnMeasure measure;
   measure.points = {{0.0, 0.0, 0.0}};
   measure.handles = {0};
@@ -253,15 +242,15 @@ TEST(MeasureOverlay, HandlesHaveFormsOfTheirOwn)
     measure.form = form;
     overlay.set({measure});
     overlay.place();
-    target->Render();
+    flat.target->Render();
     vtkNew<vtkUnsignedCharArray> pixels;
-    target->GetRGBACharPixelData(0, 0, 199, 199, 0, pixels);
+    flat.target->GetRGBACharPixelData(0, 0, 199, 199, 0, pixels);
     int count = 0;
     for (vtkIdType n = 0; n < pixels->GetNumberOfTuples(); ++n)
       count += pixels->GetValue(4 * n) < 100 && pixels->GetValue(4 * n + 1) > 150;
     return count;
   };
-  const double scale = pixelsPerPoint(*renderer);
+  const double scale = pixelsPerPoint(*flat.renderer);
   const double squared = scale * scale * 4.5 * 4.5;
   EXPECT_NEAR(area(DrawnMeasure::Form::Square), 4.0 * squared, 0.2 * squared);
   EXPECT_NEAR(area(DrawnMeasure::Form::Dot), 3.06 * squared, 0.3 * squared);

@@ -1374,7 +1374,9 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
   const auto& presets = builtInPresets();
   imaging::LoadedLabels loaded;
   scene::LabelProvenance provenance;
-  if (imaging::isStructureSet(source.path))
+  const bool isStructureSet = imaging::isStructureSet(source.path);
+  const bool isDicom = isStructureSet || imaging::isDicomSegmentation(source.path);
+  if (isStructureSet)
     loaded = loadStructureSet(value, source, salted, progress, provenance);
   else
   {
@@ -1401,7 +1403,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
       if (source.axes && !source.axes->isIdentity())
         map = volume::onGrid(map, source.axes->applied(map.voxels->geometry()));
     SettledFrame frame;
-    if (imaging::isDicomSegmentation(source.path))
+    if (isDicom)
       frame = settleFrame(value, source, loaded.frameOfReferenceUid,
                           &loaded.maps.front().voxels->geometry(), salted, loaded.notes);
     provenance.isFrameAssumed = frame.isAssumed;
@@ -1565,8 +1567,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     if (part.drawnOn.value_or("").empty() && mayBeUnrepaired(map.voxels->geometry(), value.ct))
       if (const double apart = repairedBy(value.ct); apart > 0.0)
       {
-        if (!source.asTheyLie && !imaging::isDicomSegmentation(source.path) &&
-            !imaging::isStructureSet(source.path))
+        if (!source.asTheyLie && !isDicom)
           throw LabelsUnrepaired(source.path, apart);
         part.notes.push_back(repairedNote(apart));
       }
@@ -1753,10 +1754,9 @@ void addMesh(scene::Case& value, const PartSource& source, const scene::Identity
   if (source.isPerObject && !isSplit)
     part.name = meshName(value, source, part.notes);
   const scene::ImagePart* mr = scene::findMr(value, part.drawnOn);
-  const MeshImage image{mr ? mr->geometry : value.ct.geometry,
-                        mr ? "the MR on which it was drawn"
-                           : std::string("the ") + primaryName(value)};
   const scene::ImagePart& drawn = mr ? *mr : value.ct;
+  const MeshImage image{drawn.geometry, mr ? "the MR on which it was drawn"
+                                           : std::string("the ") + primaryName(value)};
   const core::AxesCorrection& ofImage = drawn.provenance.axes;
   if (!source.axes && !ofImage.isIdentity() && source.drawnOn.empty())
     throw FrameUnclear(source.path, drawn.name, ofImage, "--mesh-axes");

@@ -6,7 +6,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include "petrous/Presenters/NearbyStructures.h"
 #include "petrous/Presenters/StructureSurfaces.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/CaseField.h"
@@ -137,7 +136,6 @@ std::vector<DissectionDistance> dissectionDistances(const scene::Case& value,
                               value.dissection.mask(), progress);
   if (removed.empty())
     return distances;
-  const auto injured = injuredVolumes(value);
   const auto touched = scene::summaryOf(value, value.dissection.history().position()).structures;
   StructureSurfaces surfaces(value);
   for (std::size_t n = 0; n < surfaces.count(); ++n)
@@ -160,7 +158,6 @@ std::vector<DissectionDistance> dissectionDistances(const scene::Case& value,
                                     { return structure.name == one.name; });
     if (found != touched.end())
       one.removed = found->volume;
-    one.isInjured = one.removed > 0.0 && injured.count(one.name) > 0;
     one.place = nearest->place;
     one.onStructure =
         nearest->distance > 0.0 ? surfaces.nearestPoint(n, nearest->place) : nearest->place;

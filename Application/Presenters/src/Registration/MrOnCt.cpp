@@ -46,31 +46,37 @@ volume::Volume<T> resampled(const volume::IntensityVolume& mr, const core::GridG
   return result;
 }
 
-const char* reasonOf(segmentation::TubeDoubt doubt)
+struct DoubtWords
+{
+  const char* name;
+  const char* reason;
+};
+
+DoubtWords wordsOf(segmentation::TubeDoubt doubt)
 {
   using segmentation::TubeDoubt;
   switch (doubt)
   {
   case TubeDoubt::Faint:
-    return "it does not stand out from the noise";
+    return {"faint", "it does not stand out from the noise"};
   case TubeDoubt::Thin:
-    return "it is narrower than two voxels";
+    return {"thin", "it is narrower than two voxels"};
   case TubeDoubt::Wide:
-    return "what is seen is wider than the structure can be";
+    return {"wide", "what is seen is wider than the structure can be"};
   case TubeDoubt::Foreign:
-    return "the path runs through air or bone, not through a nerve";
+    return {"foreign", "the path runs through air or bone, not through a nerve"};
   case TubeDoubt::Uneven:
-    return "the path leads through something of another intensity";
+    return {"uneven", "the path leads through something of another intensity"};
   case TubeDoubt::Open:
-    return "a quarter of its circumference or more has no wall, as at an edge";
+    return {"open", "a quarter of its circumference or more has no wall, as at an edge"};
   case TubeDoubt::Stray:
-    return "the path is a long detour between two points; set another one between them";
+    return {"stray", "the path is a long detour between two points; set another one between them"};
   case TubeDoubt::Fragment:
-    return "what is seen is too short a piece of it";
+    return {"fragment", "what is seen is too short a piece of it"};
   case TubeDoubt::None:
     break;
   }
-  return "";
+  return {"none", ""};
 }
 
 } // namespace
@@ -125,29 +131,7 @@ scene::TracedTubes tracedTubes(const segmentation::Tube& tube, const segmentatio
 
 const char* nameOf(segmentation::TubeDoubt doubt)
 {
-  using segmentation::TubeDoubt;
-  switch (doubt)
-  {
-  case TubeDoubt::Faint:
-    return "faint";
-  case TubeDoubt::Thin:
-    return "thin";
-  case TubeDoubt::Wide:
-    return "wide";
-  case TubeDoubt::Foreign:
-    return "foreign";
-  case TubeDoubt::Uneven:
-    return "uneven";
-  case TubeDoubt::Open:
-    return "open";
-  case TubeDoubt::Stray:
-    return "stray";
-  case TubeDoubt::Fragment:
-    return "fragment";
-  case TubeDoubt::None:
-    break;
-  }
-  return "none";
+  return wordsOf(doubt).name;
 }
 
 std::vector<std::string> unresolvedTexts(const segmentation::Tube& tube,
@@ -158,7 +142,8 @@ std::vector<std::string> unresolvedTexts(const segmentation::Tube& tube,
   for (const segmentation::TubeStretch& stretch : segmentation::unresolvedStretches(tube))
     if (stretch.to - stretch.from >= kShort)
       texts.push_back("Not resolved from " + core::fixedText(stretch.from, 1) + " to " +
-                      core::fixedText(stretch.to, 1) + " mm: " + reasonOf(stretch.doubt) + ".");
+                      core::fixedText(stretch.to, 1) + " mm: " + wordsOf(stretch.doubt).reason +
+                      ".");
   if (segmentation::hasUsualRadius(tube, options))
     texts.push_back("Its radius of " + core::fixedText(tube.radius, 1) +
                     " mm is the usual one of its name, and nothing that the image shows.");

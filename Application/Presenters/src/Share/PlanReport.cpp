@@ -413,6 +413,12 @@ private:
     return look && !look->solid;
   }
 
+  // A lumen is opened, which is no injury.
+  bool isInjured(const DissectionDistance& one) const
+  {
+    return one.removed > 0.0 && !isLumen(one.name);
+  }
+
   ReportCell structureCell(const std::string& name) const
   {
     ReportCell cell = textCell(name);
@@ -634,10 +640,10 @@ private:
       if (*one.distance.value <= 0.0)
       {
         distance.text = say("reached");
-        distance.isWarning = one.isInjured;
+        distance.isWarning = isInjured(one);
       }
       ReportCell removed = numberCell(one.removed, 2, "mm³");
-      removed.isWarning = one.isInjured;
+      removed.isWarning = isInjured(one);
       removed.text = one.removed > 0.0 ? volumeText(one.removed) : say("nothing");
       table.table.rows.push_back({structureCell(one.name), distance, removed});
     }
@@ -811,11 +817,11 @@ private:
     constexpr double kNear = 5.0; // mm: of structures that are not guarded
     std::vector<DissectionDistance> found;
     for (const DissectionDistance& one : distances)
-      if (one.isInjured || isGuarded(one.name) ||
+      if (isInjured(one) || isGuarded(one.name) ||
           (*one.distance.value <= kNear && !isLumen(one.name)))
         found.push_back(one);
     const auto rank = [this](const DissectionDistance& one) {
-      return one.isInjured ? 0 : isGuarded(one.name) ? 1 : 2;
+      return isInjured(one) ? 0 : isGuarded(one.name) ? 1 : 2;
     };
     std::stable_sort(found.begin(), found.end(),
                      [&rank](const DissectionDistance& a, const DissectionDistance& b)

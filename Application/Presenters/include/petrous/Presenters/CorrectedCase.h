@@ -21,12 +21,6 @@ struct LeftBehind
   std::size_t measurements = 0;
   std::size_t attachments = 0;
   std::size_t savedViews = 0;
-
-  bool empty() const
-  {
-    return mr.empty() && drawnOnMr.empty() &&
-           strokes + measurements + attachments + savedViews == 0;
-  }
 };
 LeftBehind leftBehind(const scene::Case& value);
 

@@ -20,9 +20,8 @@ struct SurfaceUncertainty;
 struct DissectionDistance
 {
   std::string name;
-  Quantity distance;      ///< mm; 0: reached
-  double removed = 0.0;   ///< mm^3 removed from it by the finished strokes, as they recorded it
-  bool isInjured = false; ///< whether that is an injury: a lumen is opened
+  Quantity distance;    ///< mm; 0: reached
+  double removed = 0.0; ///< mm^3 removed from it by the finished strokes, as they recorded it
   Eigen::Vector3d place{0.0, 0.0, 0.0}; ///< of the tissue removed, patient LPS mm
   /// The point of the structure's surface that is nearest to `place`; where it was reached,
   /// `place`.

@@ -58,6 +58,7 @@ scene::Case caseOf(const BenchmarkPatient& patient)
   value.ct.name = "ct";
   value.ct.geometry = patient.ct->geometry();
   value.ct.volume = patient.ct;
+  value.ct.range = patient.ct->range();
   const auto presets = appearance::StructurePresets::builtIn();
   scene::LabelPart part;
   for (const volume::Segment& segment : patient.labelMap->segments)

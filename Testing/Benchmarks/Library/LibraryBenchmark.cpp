@@ -150,6 +150,7 @@ core::BenchmarkReport runLibraryBenchmark(const fs::path& work, bool quick,
   const auto voxels = layeredBall(edge);
   value.ct.geometry = voxels->geometry();
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(voxels);
+  value.ct.range = value.ct.volume.get()->range();
   library.save(value);
   const scene::Case saved = library.open("ear");
   const fs::path object = work / "library/objects" / saved.ct.object;
@@ -258,6 +259,7 @@ core::BenchmarkReport runLibraryBenchmark(const fs::path& work, bool quick,
   const auto small = layeredBall(16);
   one.ct.geometry = small->geometry();
   one.ct.volume = std::make_shared<const volume::IntensityVolume>(small);
+  one.ct.range = one.ct.volume.get()->range();
   many.save(one);
   for (std::size_t n = 1; n < cases; ++n)
     fs::copy_file(work / "many/cases/case 0.json",

@@ -47,6 +47,7 @@ core::BenchmarkReport runSaveBenchmark(const fs::path& work, bool quick,
   value.ct.geometry = grid;
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(
       std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{1500}));
+  value.ct.range = value.ct.volume.get()->range();
   Library library(work / "library");
   library.save(value);
   library.loadDissection(value);

@@ -251,6 +251,29 @@ TEST_F(BenchCommand, ReadsStructuresOfTheVolumeThatTheirFilesEnclose)
   expectPlots(out, {"structures.svg"});
 }
 
+// gzip, zip and tar are peers where they are installed.
+TEST_F(BenchCommand, ArchivesRestoresListsAndOpensALibraryToTheBit)
+{
+  const auto out = m_folder / "figures";
+  const auto report = json("bench library --quick --out " + quoted(out));
+  std::set<std::string> operations;
+  for (const auto& point : report.at("points"))
+  {
+    if (!point.at("peer").is_null())
+      continue;
+    const std::string scene = point.at("setting").at("scene");
+    operations.insert(scene.substr(0, scene.find_first_of(", ")));
+    // Of opening: what the system reads ahead, MB.
+    if (scene.find("open") != 0)
+    {
+      EXPECT_EQ(point.at("error").get<double>(), 0.0) << point;
+    }
+  }
+  operations.erase("open"); // needs OpenGL
+  EXPECT_EQ(operations, (std::set<std::string>{"archive", "list", "restore", "search", "verify"}));
+  expectPlots(out, {"library.svg"});
+}
+
 TEST_F(BenchCommand, FindsLandmarksOfATiltedScanWhereTheyAre)
 {
   const auto out = m_folder / "figures";

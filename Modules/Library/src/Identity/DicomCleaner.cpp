@@ -794,7 +794,8 @@ private:
     const Number* end = values + length / sizeof(Number);
     if (areLetters(text) || (isPrinted(text) && m_people.hasWord(text)))
       return false;
-    // Of the real numbers that are measured, one in a thousand has no bytes but those of ASCII.
+    // So are the bytes of one double in 700 of 0 to 1000, and of one pair of floats in 150: rather
+    // a number less than a name more.
     if (mayBeText(text) &&
         (std::is_integral_v<Number> || core::isUtf8(text) ||
          std::any_of(values, end,

@@ -813,6 +813,28 @@ TEST_F(CommandLine, AListedNameDoesNotTurnItsLineAround)
   EXPECT_NE(outcome.out.find("ear\ufffdknab"), std::string::npos) << outcome.out;
 }
 
+// Nor does a terminal obey it, whatever malformed character stands before.
+TEST_F(CommandLine, ATerminalObeysNothingThatIsPrinted)
+{
+  makePatient();
+  json("new ear --ct " + quoted(m_folder / "patient/ct"));
+  const std::string name = "ear\xe2"
+                           "A\x1b[2J\xc2\x9b"
+                           "31m";
+  std::ofstream(library() / "cases" / (name + ".json")) << "{";
+  for (const std::string& arguments :
+       {std::string("library list"), std::string("library verify"), "info '" + name + "'",
+        "library delete '" + name + "'", "scan '/nowhere/" + name + "'"})
+  {
+    const auto outcome = run(arguments);
+    const std::string all = outcome.out + outcome.err;
+    EXPECT_FALSE(all.empty()) << arguments;
+    EXPECT_EQ(all.find('\x1b'), std::string::npos) << arguments << ": " << all;
+    EXPECT_EQ(all.find("\xc2\x9b"), std::string::npos) << arguments << ": " << all;
+  }
+  EXPECT_NE(run("library list").out.find("ear\ufffdA\ufffd[2J"), std::string::npos);
+}
+
 TEST_F(CommandLine, PipesAndDevicesAreRefusedAtOnce)
 {
   makePatient();

@@ -129,7 +129,7 @@ void addArchiveCommands(CLI::App& app, Context& context)
   command
       ->add_option("--level", out->level,
                    "Compression of images, 1 (fast) to 12 (small); default: as fast as makes each "
-                   "no larger than gzip -6 does, between 1 and 7")
+                   "no larger than gzip -6 does, between 1 and 7 (the smallest if none does)")
       ->check(CLI::Range(1, 12));
 
   auto in = std::make_shared<RestoreCommandOptions>();

@@ -7,6 +7,7 @@
 
 #include "CommandDefinitions.h"
 #include "petrous/Network/NodeList.h"
+#include "petrous/Scene/PlainText.h"
 
 namespace petrous::cli
 {
@@ -42,8 +43,7 @@ std::vector<std::string> wordsIn(const std::string& value)
 void propose(const std::string& candidate, const std::string& meaning = {})
 {
   // A line that a shell can neither take apart nor run.
-  const auto isControl = [](unsigned char c) { return std::iscntrl(c) != 0; };
-  if (candidate.empty() || std::any_of(candidate.begin(), candidate.end(), isControl))
+  if (candidate.empty() || scene::hasControls(candidate))
     return;
   std::cout << candidate << (meaning.empty() ? "" : "\t" + meaning) << '\n';
 }

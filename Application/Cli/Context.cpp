@@ -16,6 +16,7 @@
 #include "petrous/Library/DefaultFolder.h"
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/TimeLeft.h"
+#include "petrous/Scene/PlainText.h"
 
 namespace petrous::cli
 {
@@ -125,7 +126,7 @@ void Context::startLog(const std::string& program, const std::string& command)
   setup.warn = [program, quiet = m_quiet](const std::string& text)
   {
     if (!quiet)
-      std::cerr << program << ": " << text << '\n';
+      std::cerr << program << ": " << terminalText(text) << '\n';
   };
   core::log::start(setup);
   m_command = command;
@@ -230,7 +231,7 @@ void Context::print(const std::string& line) const
 {
   refuseDamaged();
   if (!m_json && !m_quiet)
-    std::cout << line << '\n';
+    std::cout << terminalText(line) << '\n';
 }
 
 void Context::printJson(const nlohmann::json& object) const
@@ -245,6 +246,11 @@ void Context::printJson(const nlohmann::json& object) const
   std::cout << jsonText(std::move(whole));
 }
 
+std::string terminalText(const std::string& text)
+{
+  return scene::withVisibleControls(text, "\n\t");
+}
+
 std::string jsonText(nlohmann::json object)
 {
   object["schema_version"] = kSchemaVersion;
@@ -254,7 +260,7 @@ std::string jsonText(nlohmann::json object)
 void Context::warn(const std::string& line) const
 {
   if (!m_quiet)
-    std::cerr << line << '\n';
+    std::cerr << terminalText(line) << '\n';
 }
 
 core::Progress Context::progress(core::Progress::Listener listener) const
@@ -292,7 +298,7 @@ core::Progress Context::progress() const
           return;
         bar->shown = percent;
         bar->left = std::move(left);
-        std::cerr << '\r' << percent << " % " << text;
+        std::cerr << '\r' << percent << " % " << terminalText(text);
         if (!bar->left.empty())
           std::cerr << ", " << bar->left;
         std::cerr << "\033[K" << std::flush;

@@ -103,6 +103,10 @@ private:
   mutable bool m_gave = false;
 };
 
+/// `text` as a terminal is given it: with U+FFFD in place of control characters other than line
+/// ends and tabs, and of those that reorder others. Names come from files of other programs.
+std::string terminalText(const std::string& text);
+
 /// `object` as printed by --json, with its schema version.
 std::string jsonText(nlohmann::json object);
 

@@ -75,7 +75,7 @@ Failure failureOf(const std::exception& error)
 // there.
 int complain(const Program& program, const std::string& text, const Failure& failure, bool json)
 {
-  std::cerr << program.name << ": " << text << '\n';
+  std::cerr << program.name << ": " << terminalText(text) << '\n';
   if (json)
     std::cout << jsonText(
                      {{"error",

@@ -8889,6 +8889,10 @@
         <translation>view_angle_deg muss zwischen 0 und 180 Grad liegen</translation>
     </message>
     <message>
+        <source>a number is no integer, or out of its range</source>
+        <translation>eine Zahl ist keine ganze oder außerhalb ihres Bereichs</translation>
+    </message>
+    <message>
         <source>measuring what was laid open</source>
         <translation>das Freigelegte wird vermessen</translation>
     </message>
@@ -8947,10 +8951,6 @@
     <message>
         <source>MR '%1' is not registered, and the region is one of the CT's space; register or remove it first</source>
         <translation>das MR „%1“ ist nicht registriert, und der Bereich gehört zum Raum des CT; registrieren oder entfernen Sie es erst</translation>
-    </message>
-    <message>
-        <source>a number is no integer, or out of its range</source>
-        <translation>eine Zahl ist keine ganze oder außerhalb ihres Bereichs</translation>
     </message>
     <message>
         <source>registration: moments that no error has</source>
@@ -9217,12 +9217,12 @@
         <translation>Ansicht: %~1</translation>
     </message>
     <message>
-        <source>window_width, of the slices' grey window, must be above 0, to 1e9</source>
-        <translation>window_width, vom Graufenster der Schichten, muss über 0 bis 1e9 sein</translation>
+        <source>window_width, of the slices' grey window, must be above 0, to 6.8e38</source>
+        <translation>window_width, vom Graufenster der Schichten, muss über 0 bis 6.8e38 sein</translation>
     </message>
     <message>
-        <source>window_level, of the slices' grey window, must be -1e9 to 1e9</source>
-        <translation>window_level, vom Graufenster der Schichten, muss -1e9 bis 1e9 sein</translation>
+        <source>window_level, of the slices' grey window, must be -3.4e38 to 3.4e38</source>
+        <translation>window_level, vom Graufenster der Schichten, muss -3.4e38 bis 3.4e38 sein</translation>
     </message>
     <message>
         <source>crosshair_mm must lie within 10 km</source>

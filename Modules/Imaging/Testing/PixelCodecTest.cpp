@@ -860,7 +860,8 @@ TEST(PixelForms, FloatingPointHasItsRescalePaddingAndRounding)
   EXPECT_EQ(image.at(3, 2, 1), static_cast<double>(static_cast<float>(10.1)));
   EXPECT_EQ(image.at(1, 5, 2), 15.0);
   ASSERT_EQ(notes.size(), 1U);
-  EXPECT_NE(notes[0].find("rounded to 32-bit floating point, by up to 0.00000038"), std::string::npos)
+  EXPECT_NE(notes[0].find("rounded to 32-bit floating point, by up to 0.00000038"),
+            std::string::npos)
       << notes[0]; // 10.1 in float is 10.1000003815
   writeSeries(folder.path(), 3,
               [](int, TestSlice& s)

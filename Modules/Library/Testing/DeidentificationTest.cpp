@@ -495,7 +495,9 @@ TEST_F(Deidentification, KnowsThePatientsNumberInAnyFormOfANumber)
   EXPECT_EQ(binary.count("00189073"), 0U);
   EXPECT_EQ(binary.count("00189328"), 1U);
   EXPECT_EQ(binary.count("00189220"), 1U) << "not a number is not the patient's";
-  for (const char* id : {"MRN4711471", "MRN 4711471/A", "0815-X-4711471"})
+  for (const char* id :
+       {"MRN4711471", "MRN 4711471/A", "0815-X-4711471", "4711471-3", "2024/4711471",
+        "2024/4711471-3", "X1.4711471.2", "471-14-71", "4711_471", "12 47 11 471 5"})
     EXPECT_EQ(cleaned(element(0x00100020, id) + element(0x00200013, "4711471")).at("00200013"), "")
         << id;
   EXPECT_EQ(cleaned(element(0x00100020, "00012") + element(0x00200013, "12")).at("00200013"), "12")
@@ -513,8 +515,34 @@ TEST_F(Deidentification, KeepsNoTextInPlaceOfNumbers)
     EXPECT_EQ(found.count("00189328"), 0U) << name;
     EXPECT_EQ(found.count("00209157"), 0U) << name;
   }
-  EXPECT_EQ(cleaned(element(0x00189305, "Zq4711kw")).count("00189305"), 0U)
-      << "a revolution of 1.8e267 s, and no word of the file";
+  // Of Revolution Time, FD; none is a word of the file.
+  for (const std::string text :
+       {"Zq4711kw", "Zqkw4711", "Room 12 ", "M\xfcller  ", "M\xfcller 7", "M\xc3\xbcller ",
+        "Jos\xc3\xa9 Ro", "Ward 12A", "Ward 12B", "Sr. Eva\xc3", "O'Neil7\0"})
+  {
+    const std::string eight = (text + std::string(8, '\0')).substr(0, 8);
+    EXPECT_EQ(cleaned(element(0x00189305, eight)).count("00189305"), 0U) << text;
+  }
+  // Object Pixel Spacing in Center of Beam, FL
+  for (const std::string text : {"Room 12 ", "WARD 12A", "M\xfcller 7"})
+    EXPECT_EQ(cleaned(element(0x00189404, text)).count("00189404"), 0U) << text;
+  // A name of the patient's that is shorter than what is told by itself
+  EXPECT_EQ(cleaned(element(0x00100010, "Wong^Li") + element(0x00209057, "Wong")).count("00209057"),
+            0U);
+}
+
+TEST_F(Deidentification, KeepsRealNumbers)
+{
+  for (const double value : {0.0, 0.1, -0.6, 1.0 / 3.0, 127.724321, 1e-9, 6.123233995736766e-17,
+                             -2.5e-20, 299792458.0, 6.02e14, 123456.789})
+  {
+    std::string eight(sizeof value, '\0');
+    std::memcpy(eight.data(), &value, sizeof value);
+    EXPECT_EQ(cleaned(element(0x00189305, eight)).count("00189305"), 1U) << value;
+    const float pair[] = {static_cast<float>(value), 0.4f};
+    std::memcpy(eight.data(), pair, sizeof pair);
+    EXPECT_EQ(cleaned(element(0x00189404, eight)).count("00189404"), 1U) << value;
+  }
 }
 
 TEST_F(Deidentification, LeavesOutLookupTablesThatHoldMoreThanTheyState)
@@ -583,6 +611,28 @@ TEST_F(Deidentification, KeepsSafePrivateAttributesOnlyOnRequest)
   EXPECT_EQ(safe.at("00190010"), "SIEMENS MR HEADER");
   for (const char* tag : {"00191008", "00290010", "00291010"})
     EXPECT_EQ(safe.count(tag), 0U) << tag;
+  // Without a VR in the file, as private attributes are in implicit VR: UN to most readers.
+  const std::string reals = element(0x20050010, "Philips MR Imaging DD 001"); // (2005,xx0d): FL
+  const auto stays = [&](const std::string& value)
+  {
+    return cleaned(element(0x00100020, "4711471") + element(0x00100010, "M\xfcller^Hans") + reals +
+                       element(0x2005100d, value),
+                   options)
+               .count("2005100d") == 1;
+  };
+  const auto single = [](float value)
+  {
+    std::string bytes(sizeof value, '\0');
+    std::memcpy(bytes.data(), &value, sizeof value);
+    return bytes;
+  };
+  EXPECT_TRUE(stays(single(1.5f)));
+  EXPECT_TRUE(stays(single(0.1f) + single(-3e-5f)));
+  EXPECT_FALSE(stays(single(4711471.0f)));
+  EXPECT_FALSE(stays("M\xfcller  "));
+  EXPECT_FALSE(stays("M\xfcllerin"));
+  EXPECT_FALSE(stays("Doe Jane"));
+  EXPECT_FALSE(stays(std::string("Hans\0\0\0\0", 8)));
 }
 
 TEST_F(Deidentification, ReducesDescriptionsToTheVocabulary)

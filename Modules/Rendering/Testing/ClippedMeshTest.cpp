@@ -246,6 +246,24 @@ TEST(ClippedMesh, FollowsPlanesThatMove)
   EXPECT_EQ(scene.resources().at("meshes.sinus"), bytes);
 }
 
+// Far in front of the CT, which alone was left in the frame before.
+TEST(ClippedMesh, IsWholeInTheFirstFrameWithoutACut)
+{
+  ScenePicture scene;
+  scene.setCamera(above());
+  OffscreenView view(kWidth, kHeight);
+  SceneContents contents = meshScene();
+  contents.meshes[0].mesh = ballMesh(kMiddle + Vector(0.0, 0.0, 40.0), kRadius, 96);
+  contents.clipping = {planeAt(-20.0, {0.0, 0.0, -1.0})};
+  scene.setContents(contents);
+  EXPECT_EQ(countBlue(view.render(scene)), 0);
+  contents.clipping.clear();
+  scene.setContents(contents);
+  const Picture whole = view.render(scene);
+  EXPECT_GT(countBlue(whole), 0);
+  EXPECT_EQ(whole.rgb, draw(contents, above()).rgb);
+}
+
 TEST(ClippedMesh, IsCutByTheCropBox)
 {
   SceneContents contents = meshScene();

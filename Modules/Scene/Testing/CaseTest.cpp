@@ -219,6 +219,26 @@ TEST(PlainText, NamesHaveOnlyWhatIsSeen)
     words.diagnosis = name;
     EXPECT_THROW(scene::checkDescription(words), core::InvalidParameter);
   }
+  // A malformed character ends where the next begins: what follows it is seen.
+  for (const std::string lead : {"\xe2", "\xc3", "\xf0\x9f", "\xe2\x80", "\xf8", "\xff", "\x80"})
+  {
+    const std::string name = "ear" + lead + "A\x1b[2J";
+    std::string replaced;
+    for (std::size_t n = 0; n < lead.size(); ++n)
+      replaced += "\ufffd";
+    EXPECT_TRUE(scene::hasInvisible(name));
+    EXPECT_TRUE(scene::hasControls(name));
+    EXPECT_TRUE(scene::hasControls("ear" + lead + "\x1b[2J"));
+    EXPECT_EQ(scene::withVisible(name), "ear" + replaced + "A\ufffd[2J");
+    EXPECT_EQ(scene::withVisible("ear" + lead + "\x1b[2J"), "ear" + replaced + "\ufffd[2J");
+    EXPECT_EQ(scene::withVisible("ear" + lead), "ear" + replaced);
+    EXPECT_EQ(scene::withVisibleControls(lead + "\x1b[2J").find('\x1b'), std::string::npos);
+    EXPECT_EQ(scene::withoutInvisible(name).find('\x1b'), std::string::npos);
+  }
+  EXPECT_EQ(scene::withVisible("\xc0\x9b"), "\ufffd\ufffd") << "an overlong ESC";
+  EXPECT_EQ(scene::withVisibleControls("a\tb\n\x1b[2J\u202eoh\u00adr\xfc", "\n\t"),
+            "a\tb\n\ufffd[2J\ufffdoh\u00adr\xfc")
+      << "a path of another character set stays as it is";
   // A note may be pasted from anywhere, but obeys nothing and reorders nothing.
   scene::Description words;
   words.note = "co\u00adchlea\u200b\n\tnext line";

@@ -382,17 +382,43 @@ TEST(Manifest, RefusesANumberOfTheViewThatIsOutOfItsRangeAndNamesIt)
   refused("/view/clipping/planes/0/point_mm/0", 1e308, "point_mm");
 }
 
+// An image without a calibration may have any values of its type, and its window is their range.
+TEST(Manifest, KeepsTheWindowOfAnImageOfAnyFloat)
+{
+  scene::Case value = fullCase();
+  const double largest = std::numeric_limits<float>::max();
+  for (const auto& [width, level] : {std::pair(3e9, 5e9), std::pair(1e30, -2e30),
+                                     std::pair(2.0 * largest, 0.0), std::pair(1e-30, -largest)})
+  {
+    value.view.slices = scene::ViewState::Slices{{1.0, 2.0, 3.0}, width, level};
+    value.view.saved["weit"] = {core::CameraPose{}, value.view.slices, std::nullopt};
+    const scene::Case back = scene::fromManifest(scene::toManifest(value), "m.json");
+    EXPECT_EQ(back.view.slices->width, width);
+    EXPECT_EQ(back.view.slices->level, level);
+    EXPECT_EQ(back.view.saved.at("weit").slices->width, width);
+  }
+}
+
 // Not as what is left of it in the bits of its type.
 TEST(Manifest, RefusesAnIntegerThatIsTooLarge)
 {
-  const auto good = nlohmann::json::parse(scene::toManifest(fullCase()));
+  scene::Case value = fullCase();
+  value.view.clipping.crop = core::IndexBox{{0, 1, 2}, {1, 2, 3}};
+  value.view.branches["zweiter Zugang ü"] = {core::CameraPose{}, std::nullopt, value.view.clipping};
+  const auto good = nlohmann::json::parse(scene::toManifest(value));
   EXPECT_EQ(scene::fromManifest(good.dump(), "m").ct.geometry.dims(),
             fullCase().ct.geometry.dims());
   for (const auto& [place, wrong] :
        {std::pair("/ct/grid/dims/0", "4294967297"), std::pair("/ct/grid/dims/0", "-4294967295"),
         std::pair("/labels/0/structures/0/index", "65537"),
         std::pair("/labels/0/structures/0/index", "1.5"),
-        std::pair("/labels/0/structures/0/voxels", "-1")})
+        std::pair("/labels/0/structures/0/voxels", "-1"),
+        std::pair("/view/clipping/crop/lower/0", "4294967296"),
+        std::pair("/view/clipping/crop/upper/2", "4294967299"),
+        std::pair("/view/branches/zweiter Zugang ü/clipping/crop/upper/0", "4294967297"),
+        std::pair("/view/clipping/crop/upper/1", "2.5"),
+        std::pair("/dissection/strokes/0/bytes", "-1"),
+        std::pair("/dissection/strokes/0/bytes", "1.5")})
   {
     auto j = good;
     ASSERT_TRUE(j.contains(nlohmann::json::json_pointer(place))) << place;

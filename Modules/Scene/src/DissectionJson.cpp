@@ -139,7 +139,7 @@ dissection::Stroke strokeIn(const json& j)
 {
   dissection::Stroke stroke;
   stroke.object = j.at("object").get<std::string>();
-  stroke.bytes = j.at("bytes").get<std::size_t>();
+  stroke.bytes = integerIn<std::size_t>(j.at("bytes"));
   stroke.info.startedAt = plainIn(j.at("started_at"));
   stroke.info.duration = j.at("duration_s").get<double>();
   stroke.info.burr.kind = dissection::parseBurrKind(j.at("burr").get<std::string>())

@@ -27,23 +27,6 @@ core::RigidTransform poseIn(const nlohmann::json& j);
 namespace
 {
 
-// json's own conversion lets what is too large for the type wrap around.
-template <class Number>
-Number integerIn(const nlohmann::json& j)
-{
-  using Limits = std::numeric_limits<Number>;
-  const bool isNegative =
-      j.is_number_integer() && j.get<std::int64_t>() < 0 && !j.is_number_unsigned();
-  const bool isWithin =
-      isNegative
-          ? Limits::is_signed && j.get<std::int64_t>() >= static_cast<std::int64_t>(Limits::min())
-          : j.is_number_integer() &&
-                j.get<std::uint64_t>() <= static_cast<std::uint64_t>(Limits::max());
-  if (!isWithin)
-    throw core::InvalidParameter("a number is no integer, or out of its range");
-  return j.get<Number>();
-}
-
 template <std::size_t count>
 std::array<int, count> integersIn(const nlohmann::json& j)
 {
@@ -671,8 +654,8 @@ ViewState::Clipping clippingIn(const json& j)
   if (j.contains("crop"))
   {
     clipping.crop.emplace();
-    clipping.crop->lower = j.at("crop").at("lower").get<core::Index3>();
-    clipping.crop->upper = j.at("crop").at("upper").get<core::Index3>();
+    clipping.crop->lower = integersIn<3>(j.at("crop").at("lower"));
+    clipping.crop->upper = integersIn<3>(j.at("crop").at("upper"));
   }
   return clipping;
 }
@@ -1152,7 +1135,7 @@ Case caseIn(const json& j)
   for (const json& stroke : drilled.at("strokes"))
     strokes.push_back(std::make_shared<const dissection::Stroke>(strokeIn(stroke)));
   const auto history =
-      j.at("petrous_case").get<int>() < kFirstFormatWithBranches
+      integerIn<int>(j.at("petrous_case")) < kFirstFormatWithBranches
           ? dissection::History::line(strokes.size(), integerIn<std::size_t>(drilled.at("applied")))
           : historyIn(drilled.at("history"));
   value.dissection = dissection::Dissection(std::move(strokes), history);

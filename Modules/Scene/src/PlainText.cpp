@@ -2,17 +2,20 @@
 
 #include <cstddef>
 
+#include "petrous/Core/NumberText.h"
+
 namespace petrous::scene
 {
 
 namespace
 {
 
-/// A character of UTF-8: its code point, and its bytes. Of a malformed one: its first byte alone.
+/// A character of UTF-8: its code point, and its bytes. Where the text is malformed: one byte.
 struct Character
 {
   char32_t code = 0;
   std::size_t bytes = 1;
+  bool isWhole = true; ///< false: a byte of no character
 };
 
 Character characterAt(std::string_view text, std::size_t at)
@@ -20,8 +23,8 @@ Character characterAt(std::string_view text, std::size_t at)
   const auto byte = [text](std::size_t n) { return static_cast<unsigned char>(text[n]); };
   const unsigned first = byte(at);
   const std::size_t bytes = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : first >= 0xc0 ? 2 : 1;
-  if (bytes == 1 || at + bytes > text.size())
-    return {first, 1};
+  if (bytes == 1 || !core::isUtf8(text.substr(at, bytes)))
+    return {first, 1, first < 0x80};
   char32_t code = first & (0xffU >> (bytes + 1));
   for (std::size_t n = 1; n < bytes; ++n)
     code = code << 6 | (byte(at + n) & 0x3fU);
@@ -46,6 +49,25 @@ bool isInvisible(char32_t code)
          isWithin(code, 0xe0000, 0xe007f);
 }
 
+bool isOneOf(std::string_view allowed, const Character& one)
+{
+  return one.code < 0x80 && allowed.find(static_cast<char>(one.code)) != allowed.npos;
+}
+
+template <class IsHidden>
+std::string withReplaced(std::string_view text, const IsHidden& isHidden)
+{
+  constexpr std::string_view kReplacement = "\ufffd";
+  std::string seen;
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const Character one = characterAt(text, at);
+    seen += isHidden(one) ? kReplacement : text.substr(at, one.bytes);
+    at += one.bytes;
+  }
+  return seen;
+}
+
 } // namespace
 
 bool hasControls(std::string_view text, std::string_view allowed) noexcept
@@ -53,7 +75,7 @@ bool hasControls(std::string_view text, std::string_view allowed) noexcept
   for (std::size_t at = 0; at < text.size();)
   {
     const Character one = characterAt(text, at);
-    if (isControl(one.code) && (one.bytes > 1 || allowed.find(text[at]) == allowed.npos))
+    if (isControl(one.code) && !isOneOf(allowed, one))
       return true;
     at += one.bytes;
   }
@@ -89,15 +111,14 @@ std::string withoutInvisible(std::string_view text)
 
 std::string withVisible(std::string_view text)
 {
-  constexpr std::string_view kReplacement = "\ufffd";
-  std::string seen;
-  for (std::size_t at = 0; at < text.size();)
-  {
-    const Character one = characterAt(text, at);
-    seen += isInvisible(one.code) ? kReplacement : text.substr(at, one.bytes);
-    at += one.bytes;
-  }
-  return seen;
+  return withReplaced(text,
+                      [](const Character& one) { return !one.isWhole || isInvisible(one.code); });
+}
+
+std::string withVisibleControls(std::string_view text, std::string_view allowed)
+{
+  return withReplaced(text, [allowed](const Character& one)
+                      { return isControl(one.code) && !isOneOf(allowed, one); });
 }
 
 } // namespace petrous::scene

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <string_view>
 #include <tuple>
 
@@ -38,11 +39,11 @@ bool isWithin(double value, double lower, double upper)
 
 void checkSlices(const Slices& slices)
 {
-  constexpr double kLargest = 1e9; // of intensities
-  require(slices.width > 0.0 && slices.width <= kLargest,
-          "window_width, of the slices' grey window, must be above 0, to 1e9");
+  constexpr double kLargest = std::numeric_limits<float>::max(); // of an image's values
+  require(slices.width > 0.0 && slices.width <= 2.0 * kLargest,
+          "window_width, of the slices' grey window, must be above 0, to 6.8e38");
   require(isWithin(slices.level, -kLargest, kLargest),
-          "window_level, of the slices' grey window, must be -1e9 to 1e9");
+          "window_level, of the slices' grey window, must be -3.4e38 to 3.4e38");
   require(isPlace(slices.crosshair), "crosshair_mm must lie within 10 km");
   if (slices.planes)
     for (const Slices::Plane& plane : *slices.planes)

@@ -18,17 +18,18 @@ namespace
 
 constexpr double kAir = -1000.0, kTissue = 50.0, kBone = 1200.0, kNoise = 30.0;
 
-core::GridGeometry grid()
+core::GridGeometry grid(double spacing = 0.5)
 {
-  return {{60, 40, 40}, Vector3d::Constant(0.5), Vector3d::Zero()};
+  return {{60, 40, 40}, Vector3d::Constant(spacing), Vector3d::Zero()};
 }
 
-/// Air to x = 10 mm, tissue to 20 mm, then bone, with noise; a voxel's width of partial volume.
-volume::IntensityVolume layers()
+/// Air to x = 10 mm, tissue to 20 mm, then bone, with noise; a voxel's width of partial volume. The
+/// same voxels of another size where `spacing` is not 0.5 mm.
+volume::IntensityVolume layers(double spacing = 0.5)
 {
   std::mt19937 random(4);
   std::normal_distribution<double> noise(0.0, kNoise);
-  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid());
+  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid(spacing));
   const auto share = [](double depth) { return std::min(1.0, std::max(0.0, 0.5 + depth / 0.5)); };
   for (int k = 0; k < 40; ++k)
     for (int j = 0; j < 40; ++j)
@@ -124,6 +125,21 @@ TEST(SurroundingsOf, ABorderHasTheMeansOfBothAndAPlaceInside)
   EXPECT_GT(found->inside->x(), 11.0);
   EXPECT_LE((*found->inside - seed).norm(), 2.5);
   EXPECT_FALSE(surroundingsOf(image, *found->inside));
+}
+
+// Down to those of a micro-CT, and to what no scanner makes: the search is one of a few voxels.
+TEST(SurroundingsOf, APlaceInsideIsFoundForVoxelsOfAnySize)
+{
+  for (const double spacing : {0.02, 0.008, 1e-10})
+  {
+    const auto image = layers(spacing);
+    const auto found = surroundingsOf(image, Vector3d(21.0, 20.0, 20.0) * spacing);
+    ASSERT_TRUE(found) << spacing;
+    EXPECT_TRUE(found->isBorder) << spacing;
+    ASSERT_TRUE(found->inside) << spacing;
+    EXPECT_GT(found->inside->x(), 22.0 * spacing) << spacing;
+    EXPECT_LE((*found->inside - Vector3d(21.0, 20.0, 20.0) * spacing).norm(), 12.0 * spacing);
+  }
 }
 
 TEST(SurroundingsOf, TwoVoxelsFromABorderTheSeedIsOnNone)

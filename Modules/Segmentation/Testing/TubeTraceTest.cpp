@@ -432,7 +432,25 @@ TEST(TubeTrace, WhereNothingIsSeenTheRadiusIsTheUsualOne)
   EXPECT_FALSE(hasUsualRadius(tube, given)) << "it is the user's";
   EXPECT_EQ(usualFor("Chorda tympani"), 0.2);
   EXPECT_FALSE(usualFor("sigmoid sinus"));
-  for (const char* other : {"facial recess", "Facial_Ridge", "facial vein", "Arteria facialis"})
+  for (const char* name :
+       {"facial_nerve", "FacialNerve left", "N. facialis", "Nervus facialis", "facial left",
+        "Fazialis", "Fazialis links", "N. fazialis", "Fazialiskanal", "Gesichtsnerv", "CN VII",
+        "cn_7", "N. VII", "fallopian canal", "facial nerve, tympanic segment"})
+  {
+    EXPECT_EQ(usualFor(name), 0.6) << name;
+    EXPECT_EQ(widestFor(name), 1.3) << name;
+    EXPECT_TRUE(lumenFor(name)) << name;
+  }
+  EXPECT_EQ(usualFor("Paukensaite"), 0.2);
+  for (const char* name : {"vestibular nerve", "CN VIII", "N. VIII", "H\u00f6rnerv"})
+  {
+    EXPECT_TRUE(lumenFor(name)) << name;
+    EXPECT_FALSE(usualFor(name)) << name;
+    EXPECT_EQ(widestFor(name), TubeOptions{}.widest) << name;
+  }
+  for (const char* other : {"facial recess", "Facial_Ridge", "facial vein", "Arteria facialis",
+                            "facial bones", "midfacial", "facial skeleton", "facial muscle",
+                            "facial colliculus", "A. facialis", "V. facialis", "innervation"})
   {
     EXPECT_FALSE(usualFor(other)) << other;
     EXPECT_FALSE(lumenFor(other)) << other;

@@ -18,7 +18,7 @@ void requireMemory(const std::filesystem::path& path, std::uint64_t bytes,
   fail(FileError::Reason::Unreadable, path,
        "needs " + roughText(static_cast<double>(bytes) / 1e9) +
            " GB of memory, which is not free; close programs or " + advice,
-       core::Fault::Internal);
+       core::Fault::Refused);
 }
 
 } // namespace petrous::imaging

@@ -128,7 +128,7 @@ std::shared_ptr<void> allocate(const std::filesystem::path& path, std::size_t by
   fail(FileError::Reason::Unreadable, path,
        "needs " + roughText(static_cast<double>(bytes) / 1e9) +
            " GB of memory, which the system refuses; close programs or " + advice,
-       core::Fault::Internal);
+       core::Fault::Refused);
 }
 
 } // namespace

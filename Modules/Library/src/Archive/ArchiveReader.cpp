@@ -736,7 +736,7 @@ ArchiveIndex archiveIndex(std::string_view text, const fs::path& file)
   {
     refuseBloated(file, text, kIndexEntry);
     const nlohmann::json all = nlohmann::json::parse(text);
-    const int format = all.at("petrous_archive").get<int>();
+    const auto format = all.at("petrous_archive").get<std::int64_t>();
     if (format > kArchiveFormat)
       throw LibraryError(Reason::Damaged, core::printable(file) +
                                               ": was written by a newer version "

@@ -451,7 +451,16 @@ bool isLetter(char c)
 }
 
 constexpr std::size_t kTellingBytes = 6;
-constexpr double kMostPlausible = 1e15; // no quantity of an image is larger; text read as one is
+
+// Whether a real number is too large or too small for a quantity of an image, as most are whose
+// bytes are text. The last byte of a double has the exponent (IEEE 754, little endian): a blank, a
+// digit or a sign before it in ASCII stands for less than 2^-95, a letter from 'D' on for 2^65 and
+// more.
+bool isImplausible(double value)
+{
+  constexpr double kLeast = 1e-25, kMost = 1e15;
+  return std::abs(value) > kMost || (value != 0.0 && std::abs(value) < kLeast);
+}
 
 // Numbers whose bytes are those of a name.
 bool areLetters(const std::string& text)
@@ -461,12 +470,17 @@ bool areLetters(const std::string& text)
   return text.size() >= kTellingBytes && std::all_of(text.begin(), text.end(), isOfName);
 }
 
+bool isPrinted(const std::string& text)
+{
+  return std::all_of(text.begin(), text.end(),
+                     [](unsigned char c) { return c >= 0x20 && c != 0x7f; });
+}
+
 // Numbers that have no other bytes than text has, in any character set; real numbers may, too.
 bool mayBeText(const std::string& text)
 {
-  const auto isPrinted = [](unsigned char c) { return c >= 0x20 && c != 0x7f; };
   const auto letters = std::count_if(text.begin(), text.end(), isLetter);
-  return text.size() >= kTellingBytes && std::all_of(text.begin(), text.end(), isPrinted) &&
+  return text.size() >= kTellingBytes && isPrinted(text) &&
          2 * static_cast<std::size_t>(letters) >= text.size();
 }
 
@@ -701,11 +715,8 @@ private:
     if (isNumber(listed))
     {
       constexpr std::size_t kMatrix = 9 * 8;
-      if (vr == listed)
-        return element.getLength() <= kMatrix && arePlainNumbers(element);
-      const auto isPrint = [](unsigned char c) { return c >= 0x20 && c < 0x7f; };
-      return value.size() <= kMatrix && value.size() % DcmVR(listed).getValueWidth() == 0 &&
-             !std::all_of(value.begin(), value.end(), isPrint);
+      return element.getLength() <= kMatrix &&
+             (vr == listed ? arePlainNumbers(element) : arePlainNumbers(value, listed));
     }
     if (vr != EVR_UN)
       value = valueOf(element);
@@ -775,29 +786,34 @@ private:
         });
   }
 
-  // With no bytes after the last whole one, which no reader shows, and neither text nor an
-  // identifier of the patient.
+  // Neither text nor an identifier of the patient.
+  template <class Number>
+  bool arePlain(const Number* values, std::size_t length) const
+  {
+    const std::string text = textIn(values, length);
+    const Number* end = values + length / sizeof(Number);
+    if (areLetters(text) || (isPrinted(text) && m_people.hasWord(text)))
+      return false;
+    // So are the bytes of one double in 700 of 0 to 1000, and of one pair of floats in 150: rather
+    // a number less than a name more.
+    if (mayBeText(text) &&
+        (std::is_integral_v<Number> || core::isUtf8(text) ||
+         std::any_of(values, end,
+                     [](Number value) { return isImplausible(static_cast<double>(value)); })))
+      return false;
+    return std::none_of(values, end,
+                        [this](Number value)
+                        { return m_people.isIdentifier(static_cast<double>(value)); });
+  }
+
+  // And with no bytes after the last whole one, which no reader shows.
   bool arePlainNumbers(DcmElement& element) const
   {
     const std::size_t width = DcmVR(element.getVR()).getValueWidth();
     const std::size_t length = element.getLength();
     if (width > 1 && length % width != 0)
       return false;
-    const auto arePlain = [&](const auto* values)
-    {
-      using Number = std::remove_const_t<std::remove_pointer_t<decltype(values)>>;
-      const std::string text = textIn(values, length);
-      const Number* end = values + length / sizeof(Number);
-      const bool isImplausible = std::any_of(
-          values, end,
-          [](Number value) { return std::abs(static_cast<double>(value)) > kMostPlausible; });
-      return !areLetters(text) &&
-             !(mayBeText(text) &&
-               (std::is_integral_v<Number> || isImplausible || m_people.hasWord(text))) &&
-             std::none_of(values, end,
-                          [this](Number value)
-                          { return m_people.isIdentifier(static_cast<double>(value)); });
-    };
+    const auto arePlain = [&](const auto* values) { return this->arePlain(values, length); };
     Uint16* u16 = nullptr;
     Sint16* s16 = nullptr;
     Uint32* u32 = nullptr;
@@ -826,6 +842,37 @@ private:
       return length <= width && (element.getUint64Array(u64).bad() || !u64 || arePlain(u64));
     case EVR_SV:
       return length <= width && (element.getSint64Array(s64).bad() || !s64 || arePlain(s64));
+    default:
+      return false;
+    }
+  }
+
+  // Of an attribute without a VR (UN): little endian (PS3.5 6.2.2).
+  template <class Number>
+  bool arePlainIn(const std::string& bytes) const
+  {
+    std::vector<Number> values(bytes.size() / sizeof(Number));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(Number));
+    return bytes.size() % sizeof(Number) == 0 && arePlain(values.data(), bytes.size());
+  }
+
+  bool arePlainNumbers(const std::string& bytes, DcmEVR listed) const
+  {
+    switch (listed)
+    {
+    case EVR_US:
+    case EVR_AT:
+      return arePlainIn<Uint16>(bytes);
+    case EVR_SS:
+      return arePlainIn<Sint16>(bytes);
+    case EVR_UL:
+      return arePlainIn<Uint32>(bytes);
+    case EVR_SL:
+      return arePlainIn<Sint32>(bytes);
+    case EVR_FL:
+      return arePlainIn<Float32>(bytes);
+    case EVR_FD:
+      return arePlainIn<Float64>(bytes);
     default:
       return false;
     }

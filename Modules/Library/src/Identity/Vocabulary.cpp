@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <functional>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -200,17 +200,31 @@ void IdentityWords::addIdentifier(const std::string& text)
   const std::string whole = trimmed(text);
   if (whole.size() >= kTelling)
     m_identifiers.insert(upper(whole));
-  std::string digits; // "943-476-919"
-  std::remove_copy_if(whole.begin(), whole.end(), std::back_inserter(digits),
-                      [](char c) { return c == ' ' || c == '-' || c == '/' || c == '.'; });
+  // Runs of digits, and what those give together that only separators divide: "943-476-919" is
+  // 943476919, and of "4711471-3" and "2024/4711471" the number may be 4711471 alone.
   constexpr const char* kDigits = "0123456789";
-  for (std::size_t from = digits.find_first_of(kDigits); from != std::string::npos;)
+  constexpr std::size_t kMostDigits = 20;
+  std::vector<std::string> open; // that end where the next run begins
+  for (std::size_t from = whole.find_first_of(kDigits), before = from; from != std::string::npos;)
   {
-    const std::size_t to = std::min(digits.find_first_not_of(kDigits, from), digits.size());
-    if (const auto number = core::parseDouble(digits.substr(from, to - from));
-        number && *number >= kMinNumber)
-      m_numbers.insert(*number);
-    from = digits.find_first_of(kDigits, to);
+    const std::size_t to = std::min(whole.find_first_not_of(kDigits, from), whole.size());
+    if (std::any_of(whole.begin() + static_cast<std::ptrdiff_t>(before),
+                    whole.begin() + static_cast<std::ptrdiff_t>(from),
+                    [](unsigned char c) { return isPartOfWord(c); }))
+      open.clear();
+    open.emplace_back();
+    for (std::string& digits : open)
+    {
+      digits.append(whole, from, to - from);
+      if (const auto number = core::parseDouble(digits); number && *number >= kMinNumber)
+        m_numbers.insert(*number);
+    }
+    open.erase(std::remove_if(open.begin(), open.end(),
+                              [](const std::string& digits)
+                              { return digits.size() >= kMostDigits; }),
+               open.end());
+    before = to;
+    from = whole.find_first_of(kDigits, to);
   }
 }
 

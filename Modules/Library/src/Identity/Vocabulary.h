@@ -26,8 +26,9 @@ public:
   /// One of the words.
   bool hasWord(const std::string& text) const;
 
-  /// An identifier of at least five characters, all of it, or a number in it (MRN4711471) in any
-  /// form (blanks around it, leading zeros, a sign, ".0", an exponent).
+  /// An identifier of at least five characters, all of it, or a number in it (MRN4711471,
+  /// 4711471-3; with its separators or without: 943-476-919) in any form (blanks around it, leading
+  /// zeros, a sign, ".0", an exponent).
   bool isIdentifier(const std::string& text) const;
   bool isIdentifier(double number) const;
 

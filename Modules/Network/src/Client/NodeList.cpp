@@ -1,6 +1,7 @@
 #include "petrous/Network/NodeList.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include <nlohmann/json.hpp>
 
@@ -31,6 +32,12 @@ fs::path fileIn(const fs::path& library)
                                ": is not a list of DICOM nodes; remove it and add them again");
 }
 
+// A number that the type does not hold does not become another port: checkNode refuses it.
+int portIn(const json& j)
+{
+  return static_cast<int>(std::clamp<std::int64_t>(j.get<std::int64_t>(), -1, 65536));
+}
+
 std::vector<Node> readNodes(const fs::path& library)
 {
   const fs::path file = fileIn(library);
@@ -42,7 +49,7 @@ std::vector<Node> readNodes(const fs::path& library)
   try
   {
     const json root = json::parse(text);
-    const int format = root.at("format").get<int>();
+    const auto format = root.at("format").get<std::int64_t>();
     if (format < 1)
       refuseList(file);
     if (format > kFormat)
@@ -54,10 +61,10 @@ std::vector<Node> readNodes(const fs::path& library)
       Node node;
       node.name = entry.at("name").get<std::string>();
       node.host = entry.at("host").get<std::string>();
-      node.port = entry.at("port").get<int>();
+      node.port = portIn(entry.at("port"));
       node.aeTitle = entry.at("ae_title").get<std::string>();
       node.callingAeTitle = entry.at("calling_ae_title").get<std::string>();
-      node.movePort = entry.value("move_port", 0);
+      node.movePort = entry.contains("move_port") ? portIn(entry.at("move_port")) : 0;
       node.moveHost = entry.value("move_host", "");
       if (entry.contains("tls"))
       {

@@ -425,7 +425,9 @@ ProgramSetter ScenePicture::Implementation::shadowsOn(bool isTool)
 
 void ScenePicture::Implementation::startFrame()
 {
-  // The clipping range follows the props, whoever moved them or the camera.
+  for (const auto& mesh : meshes)
+    mesh->update(interactive);
+  // The clipping range follows the props, whoever moved them, cut them or moved the camera.
   renderer->ResetCameraClippingRange();
   if (tile)
     aimAtTile(renderer, pose, *tile);
@@ -442,8 +444,6 @@ void ScenePicture::Implementation::startFrame()
                                m_falloff > 0.0 ? 1.0 / (atLamp * m_falloff * m_falloff) : 0.0);
   foveated.reset();
   drawn = quality;
-  for (const auto& mesh : meshes)
-    mesh->update(interactive);
   if (interactive || progressive)
     coarsen();
   mapper->SetQuality(drawn);

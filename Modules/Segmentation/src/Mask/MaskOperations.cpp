@@ -157,6 +157,7 @@ std::optional<ProposedRegion> proposedRegion(const volume::IntensityVolume& imag
   constexpr double kRadius = 1.5;      // mm
   constexpr double kMostVolume = 20e3; // mm^3; a larger region has run into its surroundings
   constexpr int kBorder = 2;           // voxels
+  constexpr double kMostVoxels = 16.0; // of the radius; all of it down to voxels of 0.1 mm
   const volume::IntensityHistogram histogram(image);
   if (histogram.bins().size() < 3 || !(histogram.range().max > histogram.range().min))
     return std::nullopt;
@@ -171,7 +172,8 @@ std::optional<ProposedRegion> proposedRegion(const volume::IntensityVolume& imag
     const int border = inner.size()[a] > 2 * kBorder ? kBorder : 0;
     inner.lower[a] += border;
     inner.upper[a] -= border;
-    reach[a] = static_cast<int>(kRadius / grid.spacing()[static_cast<Eigen::Index>(a)]);
+    reach[a] = static_cast<int>(
+        std::min(kRadius / grid.spacing()[static_cast<Eigen::Index>(a)], kMostVoxels));
   }
   // The ball as rows along the first axis.
   struct Row

@@ -49,11 +49,12 @@ std::optional<Eigen::Vector3d> insideOf(const volume::IntensityVolume& image,
                                         const core::Index3& seed,
                                         const SeedSurroundings& surroundings)
 {
-  constexpr double kReach = 2.5; // mm
+  constexpr double kReach = SeedSurroundings::kReach;
   const core::GridGeometry& grid = image.geometry();
   core::Index3 reach;
   for (std::size_t a = 0; a < 3; ++a)
-    reach[a] = static_cast<int>(kReach / grid.spacing()[static_cast<Eigen::Index>(a)]);
+    reach[a] = static_cast<int>(std::min(kReach / grid.spacing()[static_cast<Eigen::Index>(a)],
+                                         double{SeedSurroundings::kMostVoxels}));
   const core::IndexBox box = around(seed, reach, grid);
   const std::vector<std::uint8_t> own = ownVoxels(image, seed, box, surroundings);
   double nearest = kReach;

@@ -13,6 +13,7 @@
 
 #include "TubePath.h"
 #include "TubeRefinement.h"
+#include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/Error.h"
 
 namespace petrous::segmentation
@@ -247,16 +248,35 @@ std::vector<std::uint8_t> straysOf(const Tube& tube, const std::vector<double>& 
   return strays;
 }
 
-/// Whether a nerve is called by one of these words, in lower case, and not what is named after it,
-/// such as the facial recess, an air space, and the facial artery.
-bool isNamed(std::string_view name, std::initializer_list<const char*> words)
+enum class NerveKind
 {
-  const std::string lower = lowerCase(name);
-  const auto has = [&lower](const char* word) { return lower.find(word) != lower.npos; };
-  constexpr std::array<const char*, 8> kNamedAfter{"recess", "ridge", "sinus",  "vein",
-                                                   "vena",   "arter", "muscle", "collicul"};
-  return std::any_of(words.begin(), words.end(), has) &&
-         std::none_of(kNamedAfter.begin(), kNamedAfter.end(), has);
+  None,
+  Other,
+  Facial,
+  ChordaTympani
+};
+
+/// By the words of the catalogue of structures: what is named after a nerve is none (facial recess,
+/// vein, artery, muscle, bones).
+NerveKind nerveOf(std::string_view name)
+{
+  constexpr const char* kFacialNerve = "56052001"; // SNOMED CT
+  static const auto presets = appearance::StructurePresets::builtIn();
+  const std::string whole(name), lower = lowerCase(name);
+  const auto hasOneOf = [&lower](std::initializer_list<const char*> words)
+  {
+    return std::any_of(words.begin(), words.end(),
+                       [&](const char* word) { return lower.find(word) != lower.npos; });
+  };
+  const std::string preset = presets.lookFor(whole).preset;
+  if (preset != "nerve")
+    return NerveKind::None;
+  if (hasOneOf({"chorda", "paukensaite"}))
+    return NerveKind::ChordaTympani;
+  return presets.codeFor(whole, preset).type == kFacialNerve ||
+                 hasOneOf({"facial", "fazial", "fallopian", "gesichtsnerv"})
+             ? NerveKind::Facial
+             : NerveKind::Other;
 }
 
 /// Half of the segments on either side of a vertex, mm.
@@ -534,23 +554,25 @@ std::vector<TubeStretch> unresolvedStretches(const Tube& tube)
 
 std::optional<volume::ValueRange> lumenFor(std::string_view name)
 {
-  if (isNamed(name, {"nerv", "chorda", "facial"}))
+  if (nerveOf(name) != NerveKind::None)
     return volume::ValueRange{-500.0, 700.0}; // soft tissue 40, air -1000, cortical bone 1400 HU
   return std::nullopt;
 }
 
 double widestFor(std::string_view name)
 {
-  if (isNamed(name, {"chorda"}))
-    return 0.5;
-  return isNamed(name, {"facial"}) ? 1.3 : TubeOptions{}.widest;
+  const NerveKind nerve = nerveOf(name);
+  return nerve == NerveKind::ChordaTympani ? 0.5
+         : nerve == NerveKind::Facial      ? 1.3
+                                           : TubeOptions{}.widest;
 }
 
 std::optional<double> usualFor(std::string_view name)
 {
-  if (isNamed(name, {"chorda"}))
-    return 0.2;
-  return isNamed(name, {"facial"}) ? std::optional(0.6) : std::nullopt;
+  const NerveKind nerve = nerveOf(name);
+  return nerve == NerveKind::ChordaTympani ? std::optional(0.2)
+         : nerve == NerveKind::Facial      ? std::optional(0.6)
+                                           : std::nullopt;
 }
 
 std::size_t insertionIndex(const Tube& tube, const Vector3d& point)

@@ -10,8 +10,8 @@ namespace petrous::core
 enum class Fault
 {
   BadInput,  ///< invalid file or value from outside (exit 3)
-  Refused,   ///< not done because it would lose data (exit 4)
-  Cancelled, ///< cancelled by the user (exit 4)
+  Refused,   ///< not done because it would lose data, or as disk or memory do not suffice (exit 4)
+  Cancelled, ///< cancelled by the user (exit 130)
   Internal   ///< defect of the program, or failure of the machine (exit 1)
 };
 

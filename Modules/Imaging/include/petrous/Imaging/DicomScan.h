@@ -27,10 +27,10 @@ struct DicomError : core::Error
     BitsUnclear,  ///< values of more than the bits stored: ReadOptions::undeclaredBits
     Unsupported,  ///< colour, palette, or an unknown compression
     OutsideRoi,   ///< the requested box does not intersect the volume
-    TooLarge      ///< more than fits the memory that is free; a fault of the machine
+    TooLarge      ///< more than fits the memory that is free; the input is sound
   };
   DicomError(Reason reason, const std::string& message)
-    : core::Error(reason == Reason::TooLarge ? core::Fault::Internal : core::Fault::BadInput,
+    : core::Error(reason == Reason::TooLarge ? core::Fault::Refused : core::Fault::BadInput,
                   message)
     , m_reason(reason)
   {

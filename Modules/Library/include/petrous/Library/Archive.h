@@ -35,7 +35,8 @@ struct ArchiveOptions
   /// restored where the very same CT is.
   bool planOnly = false;
   /// Of the images' compression, 1 (fast) to 12 (small). nullopt: the fastest mix of two levels
-  /// up to 7 that makes the image no larger than gzip -6 does, by samples of it.
+  /// up to 7 that makes the image no larger than gzip -6 does, by samples of it; where none does,
+  /// as of white noise, the smallest.
   std::optional<int> level = {};
   bool withoutNotes = false; ///< Description::note stays here
   /// Dates, times (of the operation, attachments and strokes) and who signed registrations go

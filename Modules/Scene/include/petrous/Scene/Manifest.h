@@ -25,7 +25,9 @@ struct ManifestError : core::Error
 /// crosshair and grey window; 7: measurements, saved views, planes that were turned, slabs; 8:
 /// bookmarks and stills of videos; 9: an instrument; 10: of the views of branches more than the
 /// camera, and axes of a file that were corrected. Older formats can be opened; a case is written
-/// in the lowest format from 3 that holds it, which older programs open.
+/// in the lowest format from 3 that holds it, which older programs open; of how it is looked at,
+/// they drop what they do not know where they save (record 3: exposure, tone curve, edges,
+/// handpiece).
 constexpr int kManifestFormat = 10;
 
 /// The case as JSON: everything but the voxels, which are referenced by object name. Equal cases

@@ -19,8 +19,12 @@ bool hasInvisible(std::string_view text) noexcept;
 /// The text without such characters, and without spaces at its ends.
 std::string withoutInvisible(std::string_view text);
 
-/// The text with U+FFFD in place of each such character, for lists: a file that another program
-/// named may have them, and they would turn the line around, or hide.
+/// The text with U+FFFD in place of each such character, and of each byte that is of no character
+/// of UTF-8, for lists: a file that another program named may have them, and they would turn the
+/// line around, or hide.
 std::string withVisible(std::string_view text);
+
+/// The text with U+FFFD in place of each character that hasControls() finds, for a terminal.
+std::string withVisibleControls(std::string_view text, std::string_view allowed = {});
 
 } // namespace petrous::scene

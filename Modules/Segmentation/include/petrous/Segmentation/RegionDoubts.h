@@ -15,13 +15,16 @@ namespace petrous::segmentation
 /// Two classes of intensity around a seed, in its 5^3 neighbourhood.
 struct SeedSurroundings
 {
+  static constexpr double kReach = 2.5;  ///< mm
+  static constexpr int kMostVoxels = 12; ///< along an axis; kReach down to voxels of 0.2 mm
+
   double limit = 0.0;                    ///< below it the darker class
   double darker = 0.0, brighter = 0.0;   ///< the means of both
   bool isBrighter = false;               ///< the seed's class is the brighter one
   bool isBorder = false;                 ///< one of the 26 voxels next to the seed is of the other
   std::optional<Eigen::Vector3d> inside; ///< if a border: where the seed would lie inside of its
                                          ///< class and connected with it (isNearOwn), nearest
-                                         ///< within 2.5 mm, patient, LPS mm
+                                         ///< within kReach and kMostVoxels, patient, LPS mm
 
   double width = 0.0; ///< of a class: half of the step between the means, or three times the
                       ///< deviation within them where that is more

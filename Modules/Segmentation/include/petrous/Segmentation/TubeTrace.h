@@ -55,8 +55,10 @@ struct TubeOptions
   /// is on the line: the surgeon knows better than an image that shows nothing nearby.
   double reach = 1.5;
 
-  /// Contrast, in standard deviations of the noise, from which on the structure counts as resolved;
-  /// and in deviations of the lumen from that of the rest of the tube.
+  /// Contrast, in standard deviations of the noise, from which on the structure counts as resolved,
+  /// c. It does not where its lumen differs from that of the rest of the tube either:
+  ///
+  ///   |lumen - median lumen| > median contrast / c
   double resolvedContrast = 3.0;
 
   /// What the lumen of the structure can be, in the image's units; outside of it the tube is not
@@ -160,10 +162,10 @@ struct TubeStretch
 /// The parts of a tube that the image does not resolve, in their order.
 std::vector<TubeStretch> unresolvedStretches(const Tube& tube);
 
-/// TubeOptions::lumen for a structure of this name on a CT in Hounsfield units: of a nerve ("nerv",
-/// "chorda" or "facial" in its name) half of the way from soft tissue to air and to cortical bone,
-/// as partial volume and blur take a resolved lumen no farther. Of any other unset, as of what is
-/// named after a nerve: recess, ridge, sinus, vein, artery, muscle, colliculus.
+/// TubeOptions::lumen for a structure of this name on a CT in Hounsfield units: of a nerve (by the
+/// words of appearance::StructurePresets) half of the way from soft tissue to air and to cortical
+/// bone, as partial volume and blur take a resolved lumen no farther. Of any other unset, as of
+/// what is named after a nerve: recess, ridge, vein, artery, muscle, bones.
 std::optional<volume::ValueRange> lumenFor(std::string_view name);
 
 /// TubeOptions::widest for a structure of this name, mm: a chorda tympani or its canal is below 0.5

@@ -14,11 +14,11 @@
 #include "petrous/Core/NumberText.h"
 #include "petrous/Presenters/Measuring.h"
 #include "petrous/Presenters/SceneAssembly.h"
+#include "petrous/Rendering/SceneField.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Volume/LabelBorders.h"
 #include "petrous/Volume/MeshInside.h"
 #include "petrous/Volume/MeshTree.h"
-#include "petrous/Volume/TissueField.h"
 
 namespace petrous::presenters
 {
@@ -115,13 +115,8 @@ class Surroundings
 public:
   Surroundings(const scene::Case& value, const rendering::SceneContents& contents)
     : m_labels(contents.labels)
-    , m_bone(contents.ct, {}, contents.mask,
-             {contents.boneShown ? contents.iso : kNoBone, scene::kFieldScale})
-    , m_structures(contents.ct,
-                   contents.labels && contents.labels->occupancy
-                       ? std::vector<volume::TissueField::SolidUnion>{contents.labels->occupancy}
-                       : std::vector<volume::TissueField::SolidUnion>{},
-                   contents.mask, {kNoBone, scene::kFieldScale})
+    , m_bone(rendering::boneField(contents))
+    , m_structures(rendering::structureField(contents))
   {
     for (const scene::StructurePart* part :
          scene::labelSources(value, [](const auto& look) { return look.shown; }).structures)
@@ -171,8 +166,6 @@ public:
   }
 
 private:
-  static constexpr double kNoBone = 1e300; // HU
-
   struct Mesh
   {
     std::string name;

@@ -56,6 +56,19 @@ void addEdges(std::vector<DrawnMeasure>& parts, const HandledBox& box)
         add(parts, {corner(from), corner(from | along)});
 }
 
+// The clipping with these faces of its box dragged from a place to another.
+auto draggedBox(const CropFrame& frame, const scene::ViewState::Clipping& before,
+                const presenters::BoxFaces& faces,
+                const Eigen::Vector3d& from = Eigen::Vector3d::Zero())
+{
+  return [=](const Eigen::Vector3d& to)
+  {
+    scene::ViewState::Clipping clipping = before;
+    clipping.crop = frame.dragged(before.crop, faces, from, to);
+    return clipping;
+  };
+}
+
 } // namespace
 
 ClippingController::ClippingController(presenters::WorkstationModel& model, SliceColumn& slices,
@@ -77,14 +90,7 @@ ClippingController::ClippingController(presenters::WorkstationModel& model, Slic
           [this](const presenters::BoxFaces& faces, const Eigen::Vector3d& from)
           {
             const CropFrame frame(m_model.value().ct.geometry);
-            const Clipping before = m_model.value().view.clipping;
-            beginDrag(
-                [frame, before, faces, from](const Eigen::Vector3d& to)
-                {
-                  Clipping clipping = before;
-                  clipping.crop = frame.dragged(before.crop, faces, from, to);
-                  return clipping;
-                });
+            beginDrag(draggedBox(frame, m_model.value().view.clipping, faces, from));
           });
   connect(&slices, &SliceColumn::boxDragged, this, &ClippingController::drag);
   connect(&slices, &SliceColumn::boxReleased, this, &ClippingController::endDrag);
@@ -103,7 +109,6 @@ void ClippingController::caseChanged()
 {
   m_drag = {};
   m_held.reset();
-  forgetZooms();
   m_actions.cropBox->setChecked(false);
   if (m_dialog)
     m_dialog->close();
@@ -187,49 +192,14 @@ void ClippingController::showBox(bool shown)
   if (!m_model.hasCase())
     return;
   if (shown && !m_model.value().view.clipping.crop)
-    showWholeSlices(); // its edges are the image's
+    m_slices.showWhole(); // its edges are the image's
   else if (!shown)
-    zoomAsBefore();
+    m_slices.showAsBefore();
   refresh();
   if (shown && toolHasView())
     emit statusMessage(tr("The crop box comes when the tool is put away"));
   else if (shown)
     tellSize();
-}
-
-void ClippingController::showWholeSlices()
-{
-  for (std::size_t n = 0; n < m_zooms.size(); ++n)
-    m_zooms[n] = m_slices.views()[n]->plane();
-  m_slices.fit();
-}
-
-// As the box showed it: it was not zoomed since.
-bool ClippingController::isStillWhole(std::size_t slice) const
-{
-  const scene::ViewState::Slices::Plane now = m_slices.views()[slice]->plane();
-  return now.zoom == 1.0 && now.offset.isZero(0.0);
-}
-
-void ClippingController::zoomAsBefore()
-{
-  for (std::size_t n = 0; n < m_zooms.size(); ++n)
-    if (m_zooms[n] && isStillWhole(n))
-      m_slices.views()[n]->setPlane(*m_zooms[n]);
-  forgetZooms();
-}
-
-void ClippingController::takeOff(scene::ViewState::Slices& slices) const
-{
-  if (slices.planes)
-    for (std::size_t n = 0; n < m_zooms.size(); ++n)
-      if (m_zooms[n] && isStillWhole(n))
-        (*slices.planes)[n] = *m_zooms[n];
-}
-
-void ClippingController::forgetZooms()
-{
-  m_zooms = {};
 }
 
 void ClippingController::enterBox()
@@ -377,12 +347,7 @@ ClippingController::Handle ClippingController::handleOf(const FaceHandle& face, 
   handle.at = face.at;
   handle.direction = face.normal;
   handle.alongSight = tr("Turn the patient: this face is dragged along the line of sight");
-  handle.dragged = [frame, before, faces](const Eigen::Vector3d& step)
-  {
-    Clipping clipping = before;
-    clipping.crop = frame.dragged(before.crop, faces, Eigen::Vector3d::Zero(), step);
-    return clipping;
-  };
+  handle.dragged = draggedBox(frame, before, faces);
   handle.reading = [box = frame.box(before.crop).box, face]
   {
     const auto axis = static_cast<Eigen::Index>(face.axis);
@@ -404,12 +369,7 @@ ClippingController::Handle ClippingController::handleOfMiddle() const
   faces.upper.fill(true);
   Handle handle;
   handle.at = box.patientFromBox * box.box.center();
-  handle.dragged = [frame, before, faces](const Eigen::Vector3d& step)
-  {
-    Clipping clipping = before;
-    clipping.crop = frame.dragged(before.crop, faces, Eigen::Vector3d::Zero(), step);
-    return clipping;
-  };
+  handle.dragged = draggedBox(frame, before, faces);
   handle.reading = [middle = Eigen::Vector3d(box.box.center())]
   {
     return tr("middle at x = %1, y = %2, z = %3 mm")

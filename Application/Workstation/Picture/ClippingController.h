@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -38,10 +37,6 @@ public:
   void caseChanged(); ///< or closed
   void refresh();     ///< the clipping, or whether the view is taken, may have changed
 
-  /// Puts the zooms back that the slices had before the box showed the whole of them.
-  void takeOff(scene::ViewState::Slices& slices) const;
-  void forgetZooms(); ///< since the slices were set to be seen otherwise
-
   /// Whether a tool other than the drill's has the clicks in the 3D view, which then has no
   /// handles.
   std::function<bool()> viewTaken;
@@ -57,9 +52,6 @@ private:
 
   void cutHere();
   void showBox(bool shown);
-  void showWholeSlices();
-  void zoomAsBefore();
-  bool isStillWhole(std::size_t slice) const;
   void enterBox();
   void change(const Clipping& clipping, const std::string& continues = {});
   void record(const Clipping& before, const std::string& continues = {});
@@ -111,8 +103,6 @@ private:
     Handle handle;      ///< as it was taken
   };
   std::optional<Held> m_held;
-  /// Of each slice, before the box showed the whole of it.
-  std::array<std::optional<scene::ViewState::Slices::Plane>, 3> m_zooms;
   std::optional<QPointF> m_pressed; ///< until it is dragged
 };
 

@@ -49,6 +49,9 @@ public:
   void softWindow();     ///< width 400, level 40 HU
   void temporalWindow(); ///< width 2800, level 600 HU
   void fit();
+  void showWhole();    ///< fits for a while
+  void showAsBefore(); ///< as before showWhole, each slice that was not zoomed since
+  void keepAsSeen();   ///< what was before showWhole does not come back; also by fit and setShown
 
   const presenters::SlicePlanes& planes() const noexcept { return m_planes; }
   void setPlanes(const presenters::SlicePlanes& planes);
@@ -69,6 +72,7 @@ public:
   /// Crosshair, grey window, zoom and offsets; the MR over them is the RegistrationController's.
   void setShown(const scene::ViewState::Slices& slices);
   scene::ViewState::Slices shown() const;
+  scene::ViewState::Slices lasting() const; ///< with the zooms of before showWhole
 
   /// nullptr: the CT alone. `shown`: the images that are seen so.
   void setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay,
@@ -120,6 +124,7 @@ signals:
 private:
   void frameTissue();
   void zoomTogether();
+  bool isStillWhole(std::size_t slice) const;
   void setGreyWindow(const presenters::GreyWindow& window);
   void showReadout();
   void passTool();
@@ -136,6 +141,8 @@ private:
   bool m_measuring = false;
   presenters::SlicePlanes m_planes;
   presenters::Slab m_slab;
+  /// Before showWhole, of each slice.
+  std::array<std::optional<scene::ViewState::Slices::Plane>, 3> m_before;
   bool m_isZoomTogether = false;
   const SliceView* m_zoomed = nullptr; ///< whose scale the others take
   std::string m_suggestedOf;           ///< the MR of which m_suggested is the window at first

@@ -867,12 +867,7 @@ void MainWindow::connectActions()
   on(m_actions->boneWindow, [this] { m_slices->boneWindow(); });
   on(m_actions->softWindow, [this] { m_slices->softWindow(); });
   on(m_actions->temporalWindow, [this] { m_slices->temporalWindow(); });
-  on(m_actions->fitSlices,
-     [this]
-     {
-       m_clipping->forgetZooms();
-       m_slices->fit();
-     });
+  on(m_actions->fitSlices, [this] { m_slices->fit(); });
   on(m_actions->otherKind, [this] { m_bar->nextBurr(); });
   constexpr double kTurn = 5.0; // degrees
   on(m_actions->turnLeft, [this] { m_drill->turnHandpiece(kTurn, 0.0); });
@@ -1046,9 +1041,6 @@ void MainWindow::connectMeasure()
   m_measure->viewTaken = [this]
   { return m_view->tool().GetDrillMode() || m_view->tool().GetProbeMode(); };
   m_clipping->viewTaken = [this] { return m_measure->active() || m_segment->active(); };
-  m_viewState->lasting = [this](scene::ViewState::Slices& slices) { m_clipping->takeOff(slices); };
-  connect(m_viewState, &ViewStateController::slicesSet, m_clipping,
-          &ClippingController::forgetZooms);
   connect(m_measure, &MeasureController::stateChanged, m_clipping, &ClippingController::refresh);
   connect(m_segment, &SegmentController::stateChanged, m_clipping, &ClippingController::refresh);
   connect(m_measure, &MeasureController::stateChanged, this, &MainWindow::showUndo);

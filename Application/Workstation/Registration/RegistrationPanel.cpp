@@ -59,14 +59,6 @@ QString stateStyle(const scene::ImagePart* mr)
   return mr && mr->registered && !good ? QString(kWarningStyle) : QString();
 }
 
-QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
-{
-  auto* row = new QHBoxLayout;
-  row->setSpacing(4);
-  for (QWidget* widget : widgets)
-    row->addWidget(widget);
-  return row;
-}
 } // namespace
 
 RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, QWidget* parent)

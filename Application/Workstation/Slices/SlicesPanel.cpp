@@ -34,14 +34,6 @@ using scene::Side;
 constexpr double kThickest = 100.0; // mm
 constexpr std::size_t kLongestName = 60;
 
-QCheckBox* checkBox(const QString& text, const char* name, const QString& tip)
-{
-  auto* box = new QCheckBox(text);
-  box->setObjectName(name);
-  box->setToolTip(tip);
-  return box;
-}
-
 } // namespace
 
 QString windowName(const std::string& name)

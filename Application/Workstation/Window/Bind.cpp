@@ -6,6 +6,7 @@
 #include <QAbstractButton>
 #include <QAbstractItemView>
 #include <QAction>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QKeyEvent>
@@ -183,6 +184,14 @@ QSlider* percentSlider(const char* name, const QString& tip)
 QComboBox* choiceBox(const char* name, const QString& tip)
 {
   auto* box = new QComboBox;
+  box->setObjectName(name);
+  box->setToolTip(tip);
+  return box;
+}
+
+QCheckBox* checkBox(const QString& text, const char* name, const QString& tip)
+{
+  auto* box = new QCheckBox(text);
   box->setObjectName(name);
   box->setToolTip(tip);
   return box;

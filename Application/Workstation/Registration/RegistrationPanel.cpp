@@ -313,6 +313,7 @@ void RegistrationPanel::refresh()
       tr("Mutual information of %1 and MR as they lie now; higher is better").arg(primary));
   m_overlay->setItemText(0, tr("%1 alone").arg(primary));
   m_overlay->setItemText(2, tr("%1's edges over the MR").arg(primary));
+  showWhole(*m_overlay, m_overlay->count());
   m_bound.refresh();
   m_state->setText(m_session.part()       ? phrase(m_session.stateText())
                    : !m_session.hasCase() ? tr("Open a case first")

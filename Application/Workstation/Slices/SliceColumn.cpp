@@ -66,6 +66,9 @@ SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
     connect(view, &SliceView::boxDragged, this, &SliceColumn::boxDragged);
     connect(view, &SliceView::boxReleased, this, &SliceColumn::boxReleased);
     connect(view, &SliceView::boxResetAsked, this, &SliceColumn::boxResetAsked);
+    connect(view, &SliceView::cutTaken, this, &SliceColumn::cutTaken);
+    connect(view, &SliceView::cutDragged, this, &SliceColumn::cutDragged);
+    connect(view, &SliceView::cutReleased, this, &SliceColumn::cutReleased);
   }
 }
 
@@ -353,10 +356,10 @@ void SliceColumn::setBox(const std::optional<SliceBox>& box)
     view->setBox(box);
 }
 
-void SliceColumn::setCuts(const std::vector<scene::ViewState::Clipping::Plane>& planes)
+void SliceColumn::setCuts(const std::vector<SliceCut>& cuts)
 {
   for (SliceView* view : m_views)
-    view->setCuts(planes);
+    view->setCuts(cuts);
 }
 
 double SliceColumn::mmPerPixel(SliceOrientation plane) const

@@ -10,6 +10,7 @@
 
 #include "BackgroundWork.h"
 #include "petrous/Presenters/BoxHandles.h"
+#include "petrous/Presenters/ClippingHandles.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Presenters/SlicePresenter.h"
@@ -21,6 +22,7 @@ namespace petrous::workstation
 class SliceView;
 struct DrawnMeasure;
 struct SliceBox;
+struct SliceCut;
 struct SliceDrawing;
 struct SliceMark;
 struct SliceTool;
@@ -88,7 +90,7 @@ public:
   void setDrawing(const SliceDrawing& drawing);
   void setMeasures(const std::vector<DrawnMeasure>& measures);
   void setBox(const std::optional<SliceBox>& box);
-  void setCuts(const std::vector<scene::ViewState::Clipping::Plane>& planes);
+  void setCuts(const std::vector<SliceCut>& cuts);
   void setDraft(const std::shared_ptr<const presenters::DraftLayer>& draft);
   /// A structure that is not shown, as its draft is; empty: none.
   void setHidden(const std::string& structure);
@@ -120,6 +122,10 @@ signals:
   void boxDragged(const Eigen::Vector3d& patient);
   void boxReleased();
   void boxResetAsked();
+  void cutTaken(std::size_t plane, petrous::presenters::CutPart part,
+                const Eigen::Vector3d& patient, petrous::presenters::SliceOrientation slice);
+  void cutDragged(const Eigen::Vector3d& patient);
+  void cutReleased();
 
 private:
   void frameTissue();

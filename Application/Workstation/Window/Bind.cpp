@@ -1,5 +1,6 @@
 #include "Bind.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -195,6 +196,16 @@ QCheckBox* checkBox(const QString& text, const char* name, const QString& tip)
   box->setObjectName(name);
   box->setToolTip(tip);
   return box;
+}
+
+void showWhole(QComboBox& box, int rows)
+{
+  const QFontMetrics metrics = box.fontMetrics();
+  int width = 0;
+  for (int row = 0; row < std::min(rows, box.count()); ++row)
+    width = std::max(width, metrics.boundingRect(box.itemText(row)).width());
+  const int letter = metrics.horizontalAdvance('X'); // in which Qt measures the length
+  box.setMinimumContentsLength((width + letter - 1) / letter);
 }
 
 QPushButton* button(const QString& text, const char* name, const QString& tip)

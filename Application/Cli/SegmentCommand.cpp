@@ -166,19 +166,16 @@ Made region(const SegmentOptions& options, const scene::Case& value, const scene
 Made tube(const SegmentOptions& options, const scene::Case& value, const scene::ImagePart& source,
           const core::Progress& progress)
 {
-  segmentation::TubeOptions tracing;
-  tracing.widest = segmentation::widestFor(options.name);
-  tracing.usual = segmentation::usualFor(options.name);
-  if (&source == &value.ct && presenters::displayOf(value).hounsfield)
-    tracing.lumen = segmentation::lumenFor(options.name);
+  std::optional<double> given;
   if (options.radius != kAutomatic)
   {
-    const double radius = parseNumbers(options.radius, 1, "--radius")[0];
+    given = parseNumbers(options.radius, 1, "--radius")[0];
     const core::NumberRange allowed = segmentation::TubeOptions::kRadii;
-    if (!allowed.contains(radius))
-      throw UsageError("--radius: " + allowed.refusal(radius, kAutomatic));
-    tracing.radius = radius;
+    if (!allowed.contains(*given))
+      throw UsageError("--radius: " + allowed.refusal(*given, kAutomatic));
   }
+  const segmentation::TubeOptions tracing = segmentation::tubeOptionsFor(
+      options.name, given, &source == &value.ct && presenters::displayOf(value).hounsfield);
   const segmentation::Tube tube =
       presenters::traceOnCt(*source.volume.get(), source.mrFromCt, readPoints(options.tube),
                             tracing, progress.part(0.0, 0.6));

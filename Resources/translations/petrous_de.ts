@@ -2433,6 +2433,14 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>%1 mm behind the bone&apos;s surface, moved by %2 mm</source>
         <translation>%1 mm hinter der Knochenoberfläche, um %2 mm verschoben</translation>
     </message>
+    <message>
+        <source>The plane does not cut this slice: it is turned in another</source>
+        <translation>Die Ebene schneidet diese Schicht nicht: Gedreht wird sie in einer anderen</translation>
+    </message>
+    <message>
+        <source>turned by %1°</source>
+        <translation>um %1° gedreht</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ColorChooser</name>
@@ -3978,6 +3986,18 @@ Ohne ihn dreht Ziehen den Patienten.</translation>
     <message>
         <source>While it is shown; in the 3D view drag the middle of a face. A double click on an edge shows all of the image</source>
         <translation>Solange er gezeigt wird; in der 3D-Ansicht die Mitte einer Fläche ziehen. Ein Doppelklick auf eine Kante zeigt das ganze Bild</translation>
+    </message>
+    <message>
+        <source>Clipping plane</source>
+        <translation>Schnittebene</translation>
+    </message>
+    <message>
+        <source>drag its line</source>
+        <translation>an ihrer Linie ziehen</translation>
+    </message>
+    <message>
+        <source>By a disc near an end it turns within the slice</source>
+        <translation>An einer Scheibe nahe dem Ende dreht sie sich in der Schicht</translation>
     </message>
 </context>
 <context>
@@ -9983,6 +10003,18 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>Of an image that is mirrored or lies otherwise than its letters say: a new case of it with the right ones</source>
         <translation>Bei einem Bild, das gespiegelt ist oder anders liegt, als seine Buchstaben sagen: ein neuer Fall daraus mit den richtigen</translation>
+    </message>
+    <message>
+        <source>By a degree, within the slice that has the keyboard; in the 3D view about the vertical of the picture</source>
+        <translation>Um ein Grad, in der Schicht, der die Tastatur gehört; in der 3D-Ansicht um die Senkrechte des Bildes</translation>
+    </message>
+    <message>
+        <source>Turn the cut counterclockwise</source>
+        <translation>Schnitt gegen den Uhrzeigersinn drehen</translation>
+    </message>
+    <message>
+        <source>Turn the cut clockwise</source>
+        <translation>Schnitt im Uhrzeigersinn drehen</translation>
     </message>
 </context>
 </TS>

@@ -3024,6 +3024,10 @@
         <translation>die Struktur wird angelegt</translation>
     </message>
     <message>
+        <source>looking for a free way</source>
+        <translation>freier Weg wird gesucht</translation>
+    </message>
+    <message>
         <source>a film has 2 to %#1 frames, not %#2</source>
         <translation>ein Film hat 2 bis %#1 Bilder, nicht %#2</translation>
     </message>

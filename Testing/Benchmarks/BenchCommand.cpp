@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -53,6 +54,28 @@ struct BenchOptions
   std::optional<double> seconds;
   bool quick = false;
 };
+
+constexpr char kAll[] = "all";
+
+std::string joined(const std::vector<std::string>& names)
+{
+  std::string all;
+  for (const std::string& name : names)
+    all += (all.empty() ? "" : ", ") + name;
+  return all;
+}
+
+// Those asked for; of all benchmarks, those of this one.
+std::set<std::string> partsOf(const BenchOptions& options, const std::vector<std::string>& known)
+{
+  std::set<std::string> parts;
+  for (const std::string& part : options.parts)
+    if (std::find(known.begin(), known.end(), part) != known.end())
+      parts.insert(part);
+    else if (options.name != kAll)
+      throw UsageError("bench " + options.name + ": there is no part '" + part + "'");
+  return parts;
+}
 
 struct Benchmark
 {
@@ -132,13 +155,10 @@ constexpr Benchmark kBenchmarks[] = {
      [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      {
        std::map<std::string, std::string> notes;
-       const auto input = registrationScenes({options.quick,
-                                              options.pairs,
-                                              options.data,
-                                              options.rire,
-                                              {options.parts.begin(), options.parts.end()},
-                                              work},
-                                             notes, progress.part(0.0, 0.05));
+       const auto input =
+           registrationScenes({options.quick, options.pairs, options.data, options.rire,
+                               partsOf(options, registration::benchmarkParts()), work},
+                              notes, progress.part(0.0, 0.05));
        auto report = registration::runRegistrationBenchmark(input, progress.part(0.05, 1.0));
        report.machine.insert(notes.begin(), notes.end());
        return report;
@@ -149,17 +169,8 @@ constexpr Benchmark kBenchmarks[] = {
      { return segmentation::runSegmentBenchmark(options.quick, progress); }},
     {"renderer", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      {
-       const std::vector<std::string> parts =
-           options.name == "renderer" ? options.parts : std::vector<std::string>();
-       const auto& known = rendererParts();
-       for (const std::string& part : parts)
-         if (std::find(known.begin(), known.end(), part) == known.end())
-           throw UsageError("bench renderer: there is no part '" + part + "'");
-       return runRendererBenchmark({options.quick,
-                                    options.edges,
-                                    options.data,
-                                    {parts.begin(), parts.end()},
-                                    options.paraview,
+       return runRendererBenchmark({options.quick, options.edges, options.data,
+                                    partsOf(options, rendererParts()), options.paraview,
                                     work / "paraview"},
                                    progress);
      }}};
@@ -243,19 +254,22 @@ void drawPlots(const Context& context, const std::string& folder)
                  "' draws them (needs python3-matplotlib) or says what is missing");
 }
 
+std::vector<std::string> benchmarkNames()
+{
+  std::vector<std::string> names;
+  for (const Benchmark& benchmark : kBenchmarks)
+    names.emplace_back(benchmark.name);
+  names.emplace_back(kAll);
+  return names;
+}
+
 void bench(const Context& context, const BenchOptions& options)
 {
   const std::string& name = options.name;
   const std::string& out = options.out;
-  std::string names;
-  bool any = false;
-  for (const Benchmark& benchmark : kBenchmarks)
-  {
-    names += (names.empty() ? "" : ", ") + std::string(benchmark.name);
-    any = any || name == "all" || name == benchmark.name;
-  }
-  if (!any)
-    throw UsageError("bench: '" + name + "' is unknown; there are: " + names + ", all");
+  const std::vector<std::string> names = benchmarkNames();
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw UsageError("bench: '" + name + "' is unknown; there are: " + joined(names));
   std::error_code error;
   std::filesystem::create_directories(out, error);
   if (error)
@@ -263,7 +277,7 @@ void bench(const Context& context, const BenchOptions& options)
   nlohmann::json all = nlohmann::json::array();
   for (const Benchmark& benchmark : kBenchmarks)
   {
-    if (name != "all" && name != benchmark.name)
+    if (name != kAll && name != benchmark.name)
       continue;
     const WorkFolder work(out);
     const auto report = benchmark.run(work.path, options, context.progress());
@@ -278,7 +292,7 @@ void bench(const Context& context, const BenchOptions& options)
       context.print(lineOf(point));
   }
   drawPlots(context, out);
-  context.printJson(name == "all" ? nlohmann::json{{"benchmarks", all}} : all.front());
+  context.printJson(name == kAll ? nlohmann::json{{"benchmarks", all}} : all.front());
 }
 
 } // namespace
@@ -289,13 +303,7 @@ void addBenchCommand(CLI::App& app, Context& context)
   CLI::App* command =
       context.addCommand(app, "bench", "Benchmarks: run time against error, as JSON and SVG",
                          [options, &context] { bench(context, *options); });
-  command
-      ->add_option("NAME", options->name,
-                   "import, structures, tilt, cut, distance, history, save, library, node, qp, "
-                   "touch, servo, devices, "
-                   "removal, registration, "
-                   "nerve, segment, renderer or all")
-      ->required();
+  command->add_option("NAME", options->name, joined(benchmarkNames()))->required();
   command
       ->add_option("--out", options->out,
                    "Folder for NAME.json and NAME*.svg (needs python3-matplotlib)")
@@ -324,9 +332,8 @@ void addBenchCommand(CLI::App& app, Context& context)
       ->type_name("FILE");
   command
       ->add_option("--part", options->parts,
-                   "Of registration: pairs, capture, schedule, conditions, calibration, stress; of "
-                   "renderer: frames, interaction, sweep, features, stereo, edits, soft, "
-                   "paraview, shapes")
+                   "Of registration: " + joined(registration::benchmarkParts()) +
+                       "; of renderer: " + joined(rendererParts()))
       ->delimiter(',');
   command
       ->add_option("--seconds", options->seconds,

@@ -228,10 +228,6 @@ BenchmarkInput registrationScenes(const RegistrationScenes& scenes,
   input.parts = scenes.parts;
   input.process = [work = scenes.work](const RegistrationPair& pair)
   { return registerInProcess(pair, work); };
-  const auto& known = registration::benchmarkParts();
-  for (const std::string& part : scenes.parts)
-    if (std::find(known.begin(), known.end(), part) == known.end())
-      throw UsageError("bench registration: there is no part '" + part + "'");
   if (!scenes.rire.empty())
   {
     input.rire = registration::rirePairs(scenes.rire);

@@ -22,7 +22,7 @@ struct RegistrationScenes
 };
 
 /// The phantom and, if available, a real CT, pairs of files, and RIRE. Missing data are listed in
-/// `notes`. Throws UsageError for an unknown part, Error for damaged files.
+/// `notes`. Throws Error for damaged files.
 registration::BenchmarkInput registrationScenes(const RegistrationScenes& scenes,
                                                 std::map<std::string, std::string>& notes,
                                                 const core::Progress& progress);

@@ -83,6 +83,22 @@ scene::Case canalCase(const std::vector<shapes::Shape>& others = {})
   return value;
 }
 
+// A closed box.
+scene::MeshPart boxPart(const std::string& name, const Vector3d& low, const Vector3d& high)
+{
+  core::TriangleMesh mesh;
+  for (int n = 0; n < 8; ++n)
+    mesh.vertices.emplace_back(
+        Vector3d(n & 1 ? high.x() : low.x(), n & 2 ? high.y() : low.y(), n & 4 ? high.z() : low.z())
+            .cast<float>());
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  scene::MeshPart part;
+  part.name = name;
+  part.mesh = std::make_shared<const core::TriangleMesh>(std::move(mesh));
+  return part;
+}
+
 double lowest(const Flight& flight)
 {
   double least = 1e9;
@@ -183,4 +199,69 @@ TEST(Flight, LeavesOutWhatShowsNothing)
     EXPECT_LT(highest(flight), 18.5);
   else
     EXPECT_LT(lowest(flight), 8.0);
+}
+
+// The meshes that stay are still met when one was hidden: without the tube, the nerve's way in the
+// open shows nothing.
+TEST(Flight, MeetsTheMeshesThatStayWhenOneIsHidden)
+{
+  const shapes::Inside nerve = shapes::cylinder(kFrom, kTo, 1.5);
+  const auto flown = [&](const std::vector<scene::MeshPart>& meshes)
+  {
+    scene::Case value =
+        shapes::shapeCase(kGrid, {{"nerve", nerve}},
+                          [nerve](const Vector3d& at) { return at.x() < 18.0 && !nerve(at); });
+    value.meshes = meshes;
+    return flightAlong(value, "nerve", 20);
+  };
+  const scene::MeshPart plug = boxPart("plug", {10.0, 5.0, 5.0}, {11.0, 7.0, 7.0});
+  std::vector<scene::MeshPart> tube; // of four walls, around what lies in the open
+  for (int n = 0; n < 4; ++n)
+  {
+    Vector3d low(19.0, 2.0, 2.0);
+    Vector3d high(35.0, 10.0, 10.0);
+    (n % 2 ? low : high)[1 + n / 2] = n % 2 ? 9.0 : 3.0;
+    tube.push_back(boxPart("wall " + std::to_string(n), low, high));
+  }
+  const Flight open = flown({plug});
+  EXPECT_EQ(open.hidden, std::vector<std::string>{"plug"});
+  std::vector<scene::MeshPart> all = tube;
+  all.push_back(plug);
+  const Flight within = flown(all);
+  EXPECT_EQ(within.hidden, std::vector<std::string>{"plug"});
+  EXPECT_GT(within.flown, open.flown + 5.0) << open.flown;
+  // As it is where there never was one.
+  EXPECT_NEAR(within.flown, flown(tube).flown, 0.05);
+}
+
+TEST(Flight, TellsHowFarItIsAndIsCancelledOnItsWay)
+{
+  std::vector<double> fractions;
+  const std::vector<shapes::Shape> plug{{"plug", shapes::ball({18.0, 6.0, 6.0}, 1.5)}};
+  scene::Case value = canalCase(plug);
+  flightAlong(
+      value, "canal", 20,
+      core::Progress([&](double fraction, const std::string&) { fractions.push_back(fraction); }));
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  const auto onWay =
+      std::count_if(fractions.begin(), fractions.end(),
+                    [](double fraction) { return fraction > 0.6 && fraction < 0.8; });
+  EXPECT_GT(onWay, 100) << "a sample every 0.1 mm of 30";
+
+  const auto token = std::make_shared<core::CancelToken>();
+  int after = 0;
+  scene::Case other = canalCase(plug);
+  EXPECT_THROW(flightAlong(other, "canal", 20,
+                           core::Progress(
+                               [&](double fraction, const std::string&)
+                               {
+                                 after += token->isCancelled() ? 1 : 0;
+                                 if (fraction > 0.65)
+                                   token->cancel();
+                               },
+                               token)),
+               core::CancelledError);
+  EXPECT_TRUE(token->isCancelled());
+  EXPECT_LE(after, 1);
+  EXPECT_TRUE(scene::findStructure(other, "plug")->look.shown) << "it was not that far";
 }

@@ -113,3 +113,77 @@ TEST(DepthOfAPlane, IsThatBehindTheSurfaceAlongItsNormal)
   EXPECT_NEAR(*depth({5.0, 5.0, 3.0}, {1.0, 0.0, -1.0}), 3.0 * std::sqrt(2.0), 1e-9) << "along it";
   EXPECT_FALSE(depth({5.0, 5.0, 3.0}, Vector3d::UnitX()));
 }
+
+TEST(PartAt, IsAnEndOrTheLineWithinReach)
+{
+  const presenters::CutLine line{{0.0, 100.0}, {300.0, 100.0}, {0.0, 1.0}};
+  const auto ends = presenters::endsOf(line);
+  ASSERT_EQ(ends.size(), 2U);
+  for (const Eigen::Vector2d& end : ends)
+  {
+    EXPECT_EQ(end[1], 100.0);
+    EXPECT_GT(end[0], 20.0) << "not under the letters at the picture's edge";
+    EXPECT_LT(end[0], 280.0);
+    EXPECT_EQ(presenters::partAt(line, end + Eigen::Vector2d(3.0, 3.0), 6.0),
+              presenters::CutPart::End);
+  }
+  EXPECT_EQ(presenters::partAt(line, {150.0, 104.0}, 6.0), presenters::CutPart::Line);
+  EXPECT_FALSE(presenters::partAt(line, {150.0, 108.0}, 6.0));
+  EXPECT_FALSE(presenters::partAt(line, {310.0, 100.0}, 6.0)) << "beyond the line";
+  EXPECT_TRUE(presenters::endsOf({{0.0, 40.0}, {40.0, 0.0}, {0.7, 0.7}}).empty());
+}
+
+// Against the definition: the line turns in the slice by the angle of the drag, about a point that
+// stays on it, whatever the plane's slope.
+TEST(TurnedPlane, FollowsTheEndThatIsDraggedInASlice)
+{
+  const core::GridGeometry grid({101, 101, 101}, {1.0, 1.0, 1.0}, {0.0, 0.0, 0.0});
+  const presenters::SliceGeometry slice(presenters::SliceOrientation::Sagittal,
+                                        Vector3d::Constant(50.0), 0.25, 500, 400);
+  const Vector3d axis = slice.axes().right.cross(slice.axes().down);
+  for (int n = 0; n < 12; ++n)
+  {
+    const Vector3d normal = Vector3d(0.4 * std::sin(n), std::cos(2.3 * n), std::sin(0.7 * n));
+    const ViewState::Clipping::Plane plane{
+        slice.center() + Vector3d(4.0, 5.0 * std::cos(n), 5.0 * std::sin(2.0 * n)),
+        normal.normalized()};
+    const auto line = presenters::lineInSlice(plane, slice);
+    ASSERT_TRUE(line) << n;
+    const Eigen::Vector2d end = presenters::endsOf(*line)[n % 2 ? 1 : 0];
+    const Vector3d pivot = presenters::pivotInSlice(plane, grid, slice);
+    EXPECT_NEAR(plane.normal.dot(pivot - plane.point), 0.0, 1e-9) << n;
+    EXPECT_NEAR(slice.axes().next.dot(pivot - slice.center()), 0.0, 1e-9) << n;
+    const Vector3d from = slice.patientFromPixel(end[0], end[1]);
+    const Vector3d to = from + 3.0 * slice.axes().right - 4.0 * slice.axes().down;
+    const double angle = presenters::draggedAngle(axis, pivot, from, to);
+    const auto turned = presenters::turnedPlane(plane, axis, pivot, angle, grid);
+    EXPECT_NEAR(turned.normal.dot(to - turned.point), 0.0, 1e-9) << n << ": under the pointer";
+    EXPECT_NEAR(turned.normal.dot(pivot - turned.point), 0.0, 1e-9) << n;
+    EXPECT_NEAR(turned.normal.dot(axis), plane.normal.dot(axis), 1e-12) << n << ": as steep";
+    EXPECT_NEAR(turned.normal.norm(), 1.0, 1e-12);
+  }
+  // Clockwise as it is seen: what points to the right points down.
+  EXPECT_NEAR(presenters::draggedAngle(axis, slice.center(), slice.center() + slice.axes().right,
+                                       slice.center() + slice.axes().down),
+              0.5 * 3.14159265358979323846, 1e-12);
+}
+
+TEST(TurnedPlane, StillCutsTheImage)
+{
+  const core::GridGeometry grid({11, 11, 11}, {1.0, 1.0, 1.0}, {0.0, 0.0, 0.0});
+  const ViewState::Clipping::Plane plane{{1.0, 5.0, 5.0}, Vector3d::UnitX()};
+  // About a point far above the image, in the plane: by 60 degrees it would leave it.
+  const auto turned = presenters::turnedPlane(plane, Vector3d::UnitY(), {1.0, 5.0, 60.0},
+                                              3.14159265358979323846 / 3.0, grid);
+  EXPECT_NEAR(turned.normal.dot(plane.normal), 0.5, 1e-12);
+  double least = 1e9;
+  double most = -1e9;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Vector3d at(corner & 1 ? 10.0 : 0.0, corner & 2 ? 10.0 : 0.0, corner & 4 ? 10.0 : 0.0);
+    least = std::min(least, turned.normal.dot(at - turned.point));
+    most = std::max(most, turned.normal.dot(at - turned.point));
+  }
+  EXPECT_LE(least, 1e-9);
+  EXPECT_GE(most, -1e-9);
+}

@@ -61,13 +61,6 @@ QString leftText(const presenters::LeftBehind& left)
   QStringList lines;
   const auto add = [&lines](const QString& line)
   { lines += QString::fromUtf8("\xe2\x80\xa2 ") + line; };
-  const auto listed = [](const std::vector<std::string>& names)
-  {
-    QStringList all;
-    for (const std::string& name : names)
-      all += words(name);
-    return all.join(", ");
-  };
   if (!left.mr.empty())
     add(AxesDialog::tr("MRs with their registrations: %1").arg(listed(left.mr)));
   if (!left.drawnOnMr.empty())

@@ -12,7 +12,6 @@
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Library/NewerVersion.h"
-#include "petrous/Scene/PlainText.h"
 
 namespace petrous::workstation
 {
@@ -176,26 +175,13 @@ int CasesModel::columnCount(const QModelIndex& parent) const
   return parent.isValid() ? 0 : ColumnCount;
 }
 
-QString tagsText(const library::CaseSummary& one)
-{
-  QStringList tags;
-  for (const std::string& tag : one.description.tags)
-    tags += words(tag);
-  return tags.join(", ");
-}
-
 namespace
 {
-
-QString caseName(const library::CaseSummary& one)
-{
-  return words(scene::withVisible(one.name));
-}
 
 QString textOf(const library::CaseSummary& one, int column, bool isNewer = false)
 {
   if (column == CasesModel::Name)
-    return caseName(one);
+    return caseName(one.name);
   if (one.damaged)
     return column != CasesModel::Structures ? QString()
            : isNewer                        ? CasesModel::tr("newer version")
@@ -211,7 +197,7 @@ QString textOf(const library::CaseSummary& one, int column, bool isNewer = false
   case CasesModel::Planned:
     return dateText(one.description.date);
   case CasesModel::Tags:
-    return tagsText(one);
+    return listed(one.description.tags);
   case CasesModel::Structures:
     return QString::number(one.structures);
   case CasesModel::Strokes:
@@ -230,12 +216,12 @@ QString tipOf(const library::CaseSummary& one, bool open, bool isNewer)
   if (isNewer)
     return CasesModel::tr("%1: was written by a newer version of Petrous; open it with that one. "
                           "Here it is left alone.")
-        .arg(caseName(one));
+        .arg(caseName(one.name));
   if (one.damaged)
     return CasesModel::tr("%1: its file cannot be read. It can still be renamed and deleted; "
                           "Library > Verify says what is wrong.")
-        .arg(caseName(one));
-  QStringList lines{caseName(one) + (open ? CasesModel::tr(" (open)") : QString())};
+        .arg(caseName(one.name));
+  QStringList lines{caseName(one.name) + (open ? CasesModel::tr(" (open)") : QString())};
   lines += CasesModel::tr("changed %1").arg(localTime(one.modified));
   lines += CasesModel::tr("%1 voxels, %2 structures")
                .arg(textOf(one, CasesModel::Voxels))
@@ -274,7 +260,7 @@ QVariant CasesModel::data(const QModelIndex& index, int role) const
   {
     if (index.column() != Name)
       return {};
-    QStringList all{caseName(one), operationText(one), tagsText(one)};
+    QStringList all{caseName(one.name), operationText(one), listed(one.description.tags)};
     all.removeAll(QString());
     return all.join(", ");
   }

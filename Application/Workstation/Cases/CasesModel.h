@@ -97,9 +97,6 @@ constexpr QSize kCasePicture{64, 48}; ///< px, of the thumbnails in the list
 /// The side and the planned date, as far as they are known, in a line.
 QString operationText(const library::CaseSummary& one);
 
-/// The tags, separated by commas.
-QString tagsText(const library::CaseSummary& one);
-
 /// A time of the library (UTC, ISO 8601) for the user: local, to the minute.
 QString localTime(const std::string& utc);
 

@@ -16,6 +16,7 @@
 #include "HintedLine.h"
 #include "PanelLayout.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -61,11 +62,8 @@ DescriptionDialog::DescriptionDialog(const QString& name, const scene::Descripti
   m_date->setPlaceholderText(tr("a day, such as 2026-12-31 or 31.12.2026"));
   m_date->setToolTip(tr("Of the planned operation, year-month-day or day.month.year. It stays here "
                         "when the case is archived or sent"));
-  QStringList tags;
-  for (const std::string& tag : description.tags)
-    tags += words(tag);
   m_tags->setObjectName("tags");
-  m_tags->setText(tags.join(", "));
+  m_tags->setText(listed(description.tags));
   m_tags->setPlaceholderText(tr("separated by commas"));
   m_note->setObjectName("note");
   m_note->setTabChangesFocus(true);

@@ -33,14 +33,6 @@ QString megabytes(std::uintmax_t bytes)
   return LibraryController::tr("%1 MB").arg(numberText(1e-6 * static_cast<double>(bytes), 1));
 }
 
-QString listed(const std::vector<std::string>& names)
-{
-  QStringList list;
-  for (const std::string& name : names)
-    list += words(name);
-  return list.join(", ");
-}
-
 // What is damaged, the cases that need it, and the file, for each.
 QString damageText(const library::Inspection& found)
 {

@@ -23,7 +23,6 @@
 #include "WindowTexts.h"
 #include "petrous/Library/CaseSearch.h"
 #include "petrous/Presenters/WorkstationModel.h"
-#include "petrous/Scene/PlainText.h"
 
 namespace petrous::workstation
 {
@@ -82,10 +81,10 @@ public:
     QFont bold = option.font;
     bold.setBold(true);
     const QColor dim = palette.color(QPalette::PlaceholderText);
-    line(words(scene::withVisible(one.name)), bold, palette.color(QPalette::WindowText));
+    line(caseName(one.name), bold, palette.color(QPalette::WindowText));
     line(operationText(one), option.font, palette.color(QPalette::WindowText));
     line(StartPage::tr("changed %1").arg(localTime(one.modified)), option.font, dim);
-    line(tagsText(one), option.font, dim);
+    line(listed(one.description.tags), option.font, dim);
     painter->restore();
   }
 };
@@ -230,10 +229,9 @@ void StartPage::open(int row)
     const std::filesystem::path& folder = m_model.library().folder();
     const QString place = QFile::decodeName(folder.c_str());
     tell(std::filesystem::exists(folder)
-             ? tr("The case “%1” is no longer in the library %2.")
-                   .arg(words(scene::withVisible(name)), place)
+             ? tr("The case “%1” is no longer in the library %2.").arg(caseName(name), place)
              : tr("The case “%1” cannot be opened: the folder %2 is gone. Is its disk connected?")
-                   .arg(words(scene::withVisible(name)), place));
+                   .arg(caseName(name), place));
   };
   list();
 }

@@ -11,6 +11,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "Bind.h"
 #include "PanelLayout.h"
 #include "Passphrase.h"
 #include "PathRow.h"
@@ -19,39 +20,27 @@
 namespace petrous::workstation
 {
 
-namespace
-{
-
-QCheckBox* option(const char* name, const QString& text, const QString& tip)
-{
-  auto* box = new QCheckBox(text);
-  box->setObjectName(name);
-  box->setToolTip(tip);
-  return box;
-}
-
-} // namespace
-
 DeidentifyDialog::DeidentifyDialog(QWidget* parent)
   : QDialog(parent)
   , m_input(new PathRow("deidentifyInput", PathRow::Kind::Folder, tr("Folder of DICOM files")))
   , m_output(new PathRow("deidentifyOutput", PathRow::Kind::Folder, tr("New or empty folder")))
   , m_dates(new QComboBox)
-  , m_descriptors(option("keepDescriptors", tr("Descriptions, &reduced to medical words"),
-                         tr("Otherwise descriptions are removed")))
-  , m_device(option("keepDevice", tr("What identifies the de&vice"),
-                    tr("Model, software, names of sequences, kernels and coils")))
-  , m_patient(option("keepPatient", tr("Se&x, age, size and weight"), {}))
-  , m_private(option("keepPrivate", tr("Private attributes that the &standard lists as safe"),
-                     tr("PS3.15, Table E.3.10-1")))
-  , m_burnedIn(option("keepBurnedIn", tr("Images that may &have text in their pixels"),
-                      tr("Otherwise they are left out, and named")))
-  , m_maskFace(option("maskFace", tr("Put &air in place of the face in CT and MR series"),
-                      tr("In front of a plane about 50 mm behind the tip of the nose. Images that "
-                         "are in no such volume are left out, and named")))
-  , m_mapped(option("useMap", tr("Remember who is &behind the pseudonyms"),
-                    tr("In an encrypted file that stays here. The same file gives the same "
-                       "pseudonyms, UIDs and date shifts again")))
+  , m_descriptors(checkBox(tr("Descriptions, &reduced to medical words"), "keepDescriptors",
+                           tr("Otherwise descriptions are removed")))
+  , m_device(checkBox(tr("What identifies the de&vice"), "keepDevice",
+                      tr("Model, software, names of sequences, kernels and coils")))
+  , m_patient(checkBox(tr("Se&x, age, size and weight"), "keepPatient", {}))
+  , m_private(checkBox(tr("Private attributes that the &standard lists as safe"), "keepPrivate",
+                       tr("PS3.15, Table E.3.10-1")))
+  , m_burnedIn(checkBox(tr("Images that may &have text in their pixels"), "keepBurnedIn",
+                        tr("Otherwise they are left out, and named")))
+  , m_maskFace(
+        checkBox(tr("Put &air in place of the face in CT and MR series"), "maskFace",
+                 tr("In front of a plane about 50 mm behind the tip of the nose. Images that "
+                    "are in no such volume are left out, and named")))
+  , m_mapped(checkBox(tr("Remember who is &behind the pseudonyms"), "useMap",
+                      tr("In an encrypted file that stays here. The same file gives the same "
+                         "pseudonyms, UIDs and date shifts again")))
   , m_map(new PathRow("pseudonymMap", PathRow::Kind::NewFile, tr("File of the pseudonyms")))
   , m_first(passphraseLine("passphrase"))
   , m_second(passphraseLine("passphraseAgain"))

@@ -10,7 +10,6 @@
 #include <QPainter>
 #include <QPushButton>
 #include <QScopedValueRollback>
-#include <QToolButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
@@ -27,7 +26,6 @@ namespace
 {
 
 using scene::Measurement;
-constexpr int kToolsInRow = 3;
 constexpr int kDot = 11; // px
 
 enum Column
@@ -117,17 +115,6 @@ MeasurePanel::MeasurePanel(presenters::WorkstationModel& model,
                                          "surface to that of another one")))
   , m_quantities(new QTreeWidget)
 {
-  auto* grid = new QGridLayout;
-  grid->setSpacing(4);
-  for (std::size_t n = 0; n < tools.size(); ++n)
-  {
-    auto* tool = new QToolButton;
-    tool->setDefaultAction(tools[n]);
-    tool->setObjectName("measureTool");
-    tool->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    tool->setFocusPolicy(Qt::TabFocus);
-    grid->addWidget(tool, static_cast<int>(n) / kToolsInRow, static_cast<int>(n) % kToolsInRow);
-  }
   m_hint->setObjectName("measureHint");
   wrapWords(*m_hint, 2);
   m_hint->setTextFormat(Qt::PlainText);
@@ -213,7 +200,7 @@ MeasurePanel::MeasurePanel(presenters::WorkstationModel& model,
   auto* layout = new QVBoxLayout(inside);
   layout->setContentsMargins(10, 8, 10, 8);
   layout->setSpacing(6);
-  layout->addLayout(grid);
+  layout->addLayout(toolGrid(tools, "measureTool"));
   layout->addWidget(m_hint);
   layout->addWidget(m_list, 1);
   m_empty->setObjectName("dim");

@@ -32,7 +32,9 @@ using presenters::HandledBox;
 constexpr double kReach = 9.0; // px, to a handle in the 3D view
 constexpr double kClick = 3.0; // px, that a click may move
 constexpr double kStep = 0.5;  // mm, of a key
+constexpr double kTurn = 1.0;  // degrees, likewise
 constexpr double kArrow = 8.0; // mm, of a plane's arrow, at whose tip it is dragged
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 DrawnMeasure& add(std::vector<DrawnMeasure>& parts, std::vector<Eigen::Vector3d> points)
 {
@@ -56,6 +58,19 @@ void addEdges(std::vector<DrawnMeasure>& parts, const HandledBox& box)
         add(parts, {corner(from), corner(from | along)});
 }
 
+// The clipping with these faces of its box dragged from a place to another.
+auto draggedBox(const CropFrame& frame, const scene::ViewState::Clipping& before,
+                const presenters::BoxFaces& faces,
+                const Eigen::Vector3d& from = Eigen::Vector3d::Zero())
+{
+  return [=](const Eigen::Vector3d& to)
+  {
+    scene::ViewState::Clipping clipping = before;
+    clipping.crop = frame.dragged(before.crop, faces, from, to);
+    return clipping;
+  };
+}
+
 } // namespace
 
 ClippingController::ClippingController(presenters::WorkstationModel& model, SliceColumn& slices,
@@ -71,24 +86,22 @@ ClippingController::ClippingController(presenters::WorkstationModel& model, Slic
   connect(actions.clipOff, &QAction::triggered, this, [this] { change({}); });
   connect(actions.clipDeeper, &QAction::triggered, this, [this] { movePlanes(kStep); });
   connect(actions.clipLess, &QAction::triggered, this, [this] { movePlanes(-kStep); });
+  connect(actions.clipTurnLeft, &QAction::triggered, this, [this] { turnPlanes(-kTurn); });
+  connect(actions.clipTurnRight, &QAction::triggered, this, [this] { turnPlanes(kTurn); });
   connect(actions.cropBox, &QAction::triggered, this, &ClippingController::showBox);
   connect(actions.cropNumbers, &QAction::triggered, this, &ClippingController::enterBox);
   connect(&slices, &SliceColumn::boxTaken, this,
           [this](const presenters::BoxFaces& faces, const Eigen::Vector3d& from)
           {
             const CropFrame frame(m_model.value().ct.geometry);
-            const Clipping before = m_model.value().view.clipping;
-            beginDrag(
-                [frame, before, faces, from](const Eigen::Vector3d& to)
-                {
-                  Clipping clipping = before;
-                  clipping.crop = frame.dragged(before.crop, faces, from, to);
-                  return clipping;
-                });
+            beginDrag(draggedBox(frame, m_model.value().view.clipping, faces, from));
           });
   connect(&slices, &SliceColumn::boxDragged, this, &ClippingController::drag);
   connect(&slices, &SliceColumn::boxReleased, this, &ClippingController::endDrag);
   connect(&slices, &SliceColumn::boxResetAsked, this, [this] { setCrop(std::nullopt); });
+  connect(&slices, &SliceColumn::cutTaken, this, &ClippingController::takeCut);
+  connect(&slices, &SliceColumn::cutDragged, this, &ClippingController::drag);
+  connect(&slices, &SliceColumn::cutReleased, this, &ClippingController::endDrag);
   connect(&view, &ThreeDView::toolModeSet, this, &ClippingController::refresh);
   m_view.installEventFilter(this);
   refresh();
@@ -103,7 +116,7 @@ void ClippingController::caseChanged()
 {
   m_drag = {};
   m_held.reset();
-  forgetZooms();
+  m_heldCut.reset();
   m_actions.cropBox->setChecked(false);
   if (m_dialog)
     m_dialog->close();
@@ -130,8 +143,9 @@ void ClippingController::refresh()
   const bool hasPlane = m_model.hasCase() && !m_model.value().view.clipping.planes.empty();
   const QString why =
       m_model.hasCase() ? tr("Nothing is cut away by a plane") : tr("Open a case first");
-  enable(*m_actions.clipDeeper, hasPlane, why);
-  enable(*m_actions.clipLess, hasPlane, why);
+  for (QAction* action :
+       {m_actions.clipDeeper, m_actions.clipLess, m_actions.clipTurnLeft, m_actions.clipTurnRight})
+    enable(*action, hasPlane, why);
   if (!m_model.hasCase())
   {
     m_slices.setBox(std::nullopt);
@@ -144,8 +158,12 @@ void ClippingController::refresh()
   const bool isShown = showsBox();
   const bool isPart = m_model.value().view.clipping.crop.has_value();
   m_slices.setBox(isShown ? std::optional(SliceBox{box, false, false, isPart}) : std::nullopt);
-  m_slices.setCuts(toolHasView() ? std::vector<Clipping::Plane>()
-                                 : m_model.value().view.clipping.planes);
+  std::vector<SliceCut> cuts;
+  if (!toolHasView())
+    for (const Clipping::Plane& plane : m_model.value().view.clipping.planes)
+      cuts.push_back(
+          {plane, m_heldCut && m_heldCut->plane == cuts.size() ? m_heldCut->reading() : QString()});
+  m_slices.setCuts(std::move(cuts));
   std::vector<DrawnMeasure> parts;
   if (isShown)
     addEdges(parts, box);
@@ -187,49 +205,14 @@ void ClippingController::showBox(bool shown)
   if (!m_model.hasCase())
     return;
   if (shown && !m_model.value().view.clipping.crop)
-    showWholeSlices(); // its edges are the image's
+    m_slices.showWhole(); // its edges are the image's
   else if (!shown)
-    zoomAsBefore();
+    m_slices.showAsBefore();
   refresh();
   if (shown && toolHasView())
     emit statusMessage(tr("The crop box comes when the tool is put away"));
   else if (shown)
     tellSize();
-}
-
-void ClippingController::showWholeSlices()
-{
-  for (std::size_t n = 0; n < m_zooms.size(); ++n)
-    m_zooms[n] = m_slices.views()[n]->plane();
-  m_slices.fit();
-}
-
-// As the box showed it: it was not zoomed since.
-bool ClippingController::isStillWhole(std::size_t slice) const
-{
-  const scene::ViewState::Slices::Plane now = m_slices.views()[slice]->plane();
-  return now.zoom == 1.0 && now.offset.isZero(0.0);
-}
-
-void ClippingController::zoomAsBefore()
-{
-  for (std::size_t n = 0; n < m_zooms.size(); ++n)
-    if (m_zooms[n] && isStillWhole(n))
-      m_slices.views()[n]->setPlane(*m_zooms[n]);
-  forgetZooms();
-}
-
-void ClippingController::takeOff(scene::ViewState::Slices& slices) const
-{
-  if (slices.planes)
-    for (std::size_t n = 0; n < m_zooms.size(); ++n)
-      if (m_zooms[n] && isStillWhole(n))
-        (*slices.planes)[n] = *m_zooms[n];
-}
-
-void ClippingController::forgetZooms()
-{
-  m_zooms = {};
 }
 
 void ClippingController::enterBox()
@@ -292,6 +275,67 @@ void ClippingController::movePlanes(double step)
     emit statusMessage(readPlane(0, before));
 }
 
+// In the plane of the slice that has the keyboard, clockwise as it is seen, likewise.
+void ClippingController::turnPlanes(double degrees)
+{
+  if (!m_model.hasCase())
+    return;
+  const core::GridGeometry& grid = m_model.value().ct.geometry;
+  const auto orientation = focusedSlice ? focusedSlice() : std::nullopt;
+  const Clipping before = m_model.value().view.clipping;
+  Clipping clipping = before;
+  for (Clipping::Plane& plane : clipping.planes)
+    if (!orientation)
+    {
+      const Eigen::Vector3d up = m_view.picture().camera().viewUp.normalized();
+      plane = presenters::turnedPlane(plane, up, presenters::planeCenter(plane, grid),
+                                      degrees * kDegree, grid);
+    }
+    else
+    {
+      const auto slice = m_slices.views()[static_cast<std::size_t>(*orientation)]->slice();
+      if (!presenters::lineInSlice(plane, slice))
+        return emit statusMessage(tr("The plane does not cut this slice: it is turned in another"));
+      const Eigen::Vector3d axis = slice.axes().right.cross(slice.axes().down);
+      plane = presenters::turnedPlane(plane, axis, presenters::pivotInSlice(plane, grid, slice),
+                                      degrees * kDegree, grid);
+    }
+  change(clipping, "turn of the clipping plane");
+  if (!clipping.planes.empty())
+    emit statusMessage(readTurn(0, before));
+}
+
+// A step of the pointer moves the plane by its part along the normal, so that the line stays under
+// it; a turn is about the slice's normal.
+void ClippingController::takeCut(std::size_t n, presenters::CutPart part,
+                                 const Eigen::Vector3d& from,
+                                 presenters::SliceOrientation orientation)
+{
+  const core::GridGeometry& grid = m_model.value().ct.geometry;
+  const Clipping before = m_model.value().view.clipping;
+  if (n >= before.planes.size())
+    return;
+  if (part == presenters::CutPart::Line)
+  {
+    const Handle handle = handleOfPlane(n);
+    m_heldCut = HeldCut{n, handle.reading};
+    return beginDrag([from, dragged = handle.dragged](const Eigen::Vector3d& to)
+                     { return dragged(to - from); });
+  }
+  const auto slice = m_slices.views()[static_cast<std::size_t>(orientation)]->slice();
+  const Eigen::Vector3d axis = slice.axes().right.cross(slice.axes().down);
+  const Eigen::Vector3d pivot = presenters::pivotInSlice(before.planes[n], grid, slice);
+  m_heldCut = HeldCut{n, [this, n] { return readTurn(n, m_before); }};
+  beginDrag(
+      [before, n, grid, axis, pivot, from](const Eigen::Vector3d& to)
+      {
+        Clipping clipping = before;
+        clipping.planes[n] = presenters::turnedPlane(
+            before.planes[n], axis, pivot, presenters::draggedAngle(axis, pivot, from, to), grid);
+        return clipping;
+      });
+}
+
 void ClippingController::change(const Clipping& clipping, const std::string& continues)
 {
   if (!m_model.hasCase())
@@ -330,7 +374,9 @@ void ClippingController::drag(const Eigen::Vector3d& patient)
 
 void ClippingController::endDrag()
 {
-  const bool isRead = std::exchange(m_held, std::nullopt).has_value();
+  const bool isRead = m_held || m_heldCut;
+  m_held.reset();
+  m_heldCut.reset();
   if (!std::exchange(m_drag, {}) || !m_model.hasCase())
     return;
   record(m_before);
@@ -377,12 +423,7 @@ ClippingController::Handle ClippingController::handleOf(const FaceHandle& face, 
   handle.at = face.at;
   handle.direction = face.normal;
   handle.alongSight = tr("Turn the patient: this face is dragged along the line of sight");
-  handle.dragged = [frame, before, faces](const Eigen::Vector3d& step)
-  {
-    Clipping clipping = before;
-    clipping.crop = frame.dragged(before.crop, faces, Eigen::Vector3d::Zero(), step);
-    return clipping;
-  };
+  handle.dragged = draggedBox(frame, before, faces);
   handle.reading = [box = frame.box(before.crop).box, face]
   {
     const auto axis = static_cast<Eigen::Index>(face.axis);
@@ -404,12 +445,7 @@ ClippingController::Handle ClippingController::handleOfMiddle() const
   faces.upper.fill(true);
   Handle handle;
   handle.at = box.patientFromBox * box.box.center();
-  handle.dragged = [frame, before, faces](const Eigen::Vector3d& step)
-  {
-    Clipping clipping = before;
-    clipping.crop = frame.dragged(before.crop, faces, Eigen::Vector3d::Zero(), step);
-    return clipping;
-  };
+  handle.dragged = draggedBox(frame, before, faces);
   handle.reading = [middle = Eigen::Vector3d(box.box.center())]
   {
     return tr("middle at x = %1, y = %2, z = %3 mm")
@@ -456,6 +492,16 @@ QString ClippingController::readPlane(std::size_t n, const Clipping& before) con
                             .arg(numberText(-*depth, 1), moved)
                       : tr("%1 mm behind the bone's surface, moved by %2 mm")
                             .arg(numberText(*depth, 1), moved);
+}
+
+QString ClippingController::readTurn(std::size_t n, const Clipping& before) const
+{
+  const std::vector<Clipping::Plane>& planes = m_model.value().view.clipping.planes;
+  if (n >= planes.size() || n >= before.planes.size())
+    return {};
+  const double sine = before.planes[n].normal.cross(planes[n].normal).norm();
+  const double cosine = before.planes[n].normal.dot(planes[n].normal);
+  return tr("turned by %1°").arg(numberText(std::atan2(sine, cosine) / kDegree, 1));
 }
 
 std::vector<std::size_t> ClippingController::handlesAt(const std::vector<Handle>& all,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -10,6 +9,7 @@
 #include <QPointer>
 
 #include "petrous/Presenters/BoxHandles.h"
+#include "petrous/Presenters/ClippingHandles.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 class QMouseEvent;
@@ -24,8 +24,8 @@ class ThreeDView;
 class WindowActions;
 
 /// What is cut away from the picture of the open case: the clipping plane and the crop box, whose
-/// edges and faces are dragged in the slices and in the 3D view. Each drag is a step of undo. While
-/// a tool is in use all is shown, and there are no handles.
+/// line or edges are dragged in the slices, and arrow or faces in the 3D view. Each drag is a step
+/// of undo. While a tool is in use all is shown, and there are no handles.
 class ClippingController : public QObject
 {
   Q_OBJECT
@@ -38,10 +38,8 @@ public:
   void caseChanged(); ///< or closed
   void refresh();     ///< the clipping, or whether the view is taken, may have changed
 
-  /// Puts the zooms back that the slices had before the box showed the whole of them.
-  void takeOff(scene::ViewState::Slices& slices) const;
-  void forgetZooms(); ///< since the slices were set to be seen otherwise
-
+  /// In which the keys turn the plane; nullopt: in the 3D view, about its vertical.
+  std::function<std::optional<presenters::SliceOrientation>()> focusedSlice;
   /// Whether a tool other than the drill's has the clicks in the 3D view, which then has no
   /// handles.
   std::function<bool()> viewTaken;
@@ -57,14 +55,14 @@ private:
 
   void cutHere();
   void showBox(bool shown);
-  void showWholeSlices();
-  void zoomAsBefore();
-  bool isStillWhole(std::size_t slice) const;
   void enterBox();
   void change(const Clipping& clipping, const std::string& continues = {});
   void record(const Clipping& before, const std::string& continues = {});
   void setCrop(const std::optional<core::IndexBox>& crop);
   void movePlanes(double step);
+  void turnPlanes(double degrees);
+  void takeCut(std::size_t plane, presenters::CutPart part, const Eigen::Vector3d& from,
+               presenters::SliceOrientation slice);
   void beginDrag(std::function<Clipping(const Eigen::Vector3d& patient)> drag);
   void drag(const Eigen::Vector3d& patient);
   void endDrag();
@@ -86,6 +84,7 @@ private:
   Handle handleOfMiddle() const;
   Handle handleOfPlane(std::size_t plane) const;
   QString readPlane(std::size_t plane, const Clipping& before) const;
+  QString readTurn(std::size_t plane, const Clipping& before) const;
   /// Those under the pointer, the nearest first: numbers among `all`.
   std::vector<std::size_t> handlesAt(const std::vector<Handle>& all, const QPointF& position) const;
   /// Of a handle that was taken at `at`: where the pointer drags it.
@@ -111,8 +110,13 @@ private:
     Handle handle;      ///< as it was taken
   };
   std::optional<Held> m_held;
-  /// Of each slice, before the box showed the whole of it.
-  std::array<std::optional<scene::ViewState::Slices::Plane>, 3> m_zooms;
+  /// In a slice.
+  struct HeldCut
+  {
+    std::size_t plane;
+    std::function<QString()> reading;
+  };
+  std::optional<HeldCut> m_heldCut;
   std::optional<QPointF> m_pressed; ///< until it is dragged
 };
 

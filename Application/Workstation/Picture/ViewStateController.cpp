@@ -156,10 +156,7 @@ void ViewStateController::showSaved(const std::string& name)
   if (saved.camera)
     m_view.setCamera(*saved.camera);
   if (saved.slices)
-  {
-    emit slicesSet();
     m_slices.setShown(*saved.slices);
-  }
   emit statusMessage(tr("View “%1”").arg(words(name)));
 }
 
@@ -167,9 +164,7 @@ ViewStateController::State ViewStateController::present() const
 {
   State state;
   state.camera = m_view.picture().camera();
-  state.view.slices = m_slices.shown();
-  if (lasting)
-    lasting(*state.view.slices);
+  state.view.slices = m_slices.lasting();
   state.view.slices->overlay = m_registration.overlay();
   state.view.light = m_picture.settings().lightState();
   state.view.stereo = m_picture.settings().stereoState();
@@ -207,6 +202,17 @@ void ViewStateController::show()
   fillSaved();
 }
 
+// Camera and slices; returns the case's view with the latter.
+scene::ViewState ViewStateController::takePlace(const State& now, bool all)
+{
+  if ((all && !m_model.value().camera) || !isSame(now.camera, m_shown.camera))
+    m_model.setCamera(now.camera);
+  scene::ViewState view = m_model.value().view;
+  // A zoom that is still being sought is not the one that will be shown.
+  take(view.slices, now.view.slices, m_shown.view.slices, all && !m_slices.isFraming());
+  return view;
+}
+
 // A case that is saved for another reason gets all of the view, one that is saved as it was only
 // what was changed.
 void ViewStateController::collect()
@@ -215,13 +221,7 @@ void ViewStateController::collect()
     return;
   const bool all = m_model.unsaved();
   const State now = present();
-  const scene::Case& value = m_model.value();
-  if (all ? !value.camera || !isSame(now.camera, m_shown.camera)
-          : !isSame(now.camera, m_shown.camera))
-    m_model.setCamera(now.camera);
-  scene::ViewState view = value.view;
-  // A zoom that is still being sought is not the one that will be shown.
-  take(view.slices, now.view.slices, m_shown.view.slices, all && !m_slices.isFraming());
+  scene::ViewState view = takePlace(now, all);
   take(view.light, now.view.light, m_shown.view.light, all);
   take(view.stereo, now.view.stereo, m_shown.view.stereo, all);
   take(view.tool, now.view.tool, m_shown.view.tool, all);
@@ -235,13 +235,13 @@ void ViewStateController::collect()
 
 void ViewStateController::collectPlace()
 {
-  const scene::Case& value = m_model.value();
   const State now = present();
-  if (!value.camera || !isSame(now.camera, m_shown.camera))
-    m_model.setCamera(now.camera);
-  scene::ViewState view = value.view;
-  take(view.slices, now.view.slices, m_shown.view.slices, !m_slices.isFraming());
-  m_model.setView(view);
+  m_model.setView(takePlace(now, true));
+  placeShown(now);
+}
+
+void ViewStateController::placeShown(const State& now)
+{
   m_shown.camera = now.camera;
   m_shown.view.slices = now.view.slices;
 }
@@ -249,14 +249,12 @@ void ViewStateController::collectPlace()
 void ViewStateController::showPlace()
 {
   const scene::Case& value = m_model.value();
-  emit slicesSet();
+  m_slices.keepAsSeen(); // what was before is the other approach's
   if (value.camera)
     m_view.setCamera(*value.camera);
   if (value.view.slices)
     m_slices.setShown(scene::ViewState::Slices(*value.view.slices));
-  const State now = present();
-  m_shown.camera = now.camera;
-  m_shown.view.slices = now.view.slices;
+  placeShown(present());
 }
 
 } // namespace petrous::workstation

@@ -43,9 +43,6 @@ public:
   std::function<std::optional<scene::ViewState::Instrument>()> instrument;
   std::function<void(const std::optional<scene::ViewState::Instrument>&)> showInstrument;
 
-  /// Takes off what the slices show for a while only.
-  std::function<void(scene::ViewState::Slices&)> lasting;
-
   /// Likewise how the handpiece is held.
   std::function<std::optional<scene::ViewState::Handpiece>()> handpiece;
   std::function<void(const std::optional<scene::ViewState::Handpiece>&)> showHandpiece;
@@ -56,7 +53,6 @@ public:
 
 signals:
   void statusMessage(const QString& line);
-  void slicesSet(); ///< by a saved view or an approach
 
 private:
   struct State
@@ -65,6 +61,8 @@ private:
     scene::ViewState view;
   };
   State present() const;
+  scene::ViewState takePlace(const State& now, bool all);
+  void placeShown(const State& now);
   void fillSaved();
   void saveAs();
   void showSaved(const std::string& name);

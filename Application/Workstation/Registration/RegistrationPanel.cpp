@@ -59,14 +59,6 @@ QString stateStyle(const scene::ImagePart* mr)
   return mr && mr->registered && !good ? QString(kWarningStyle) : QString();
 }
 
-QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
-{
-  auto* row = new QHBoxLayout;
-  row->setSpacing(4);
-  for (QWidget* widget : widgets)
-    row->addWidget(widget);
-  return row;
-}
 } // namespace
 
 RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, QWidget* parent)
@@ -321,6 +313,7 @@ void RegistrationPanel::refresh()
       tr("Mutual information of %1 and MR as they lie now; higher is better").arg(primary));
   m_overlay->setItemText(0, tr("%1 alone").arg(primary));
   m_overlay->setItemText(2, tr("%1's edges over the MR").arg(primary));
+  showWhole(*m_overlay, m_overlay->count());
   m_bound.refresh();
   m_state->setText(m_session.part()       ? phrase(m_session.stateText())
                    : !m_session.hasCase() ? tr("Open a case first")

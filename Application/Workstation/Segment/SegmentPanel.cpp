@@ -9,7 +9,6 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
-#include <QGridLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
@@ -19,7 +18,6 @@
 #include <QSignalBlocker>
 #include <QStackedWidget>
 #include <QStandardItemModel>
-#include <QToolButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
@@ -36,22 +34,12 @@ namespace
 using presenters::SegmentEditor;
 using presenters::SegmentValues;
 
-constexpr int kToolsInRow = 3;
 constexpr int kImageName = Qt::UserRole + 1; // of the source images, without why not
 constexpr double kTubeRadius = 0.6;          // mm, until another one is entered
 constexpr int kLeastPointRows = 6;           // of the nerve's list, as many as are usually clicked
 constexpr int kMostPointRows = 12;           // then it scrolls
 constexpr int kNarrowButton = 34;            // px
 constexpr int kPreviewAfter = 300;           // ms; a shorter preview needs no progress
-
-QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
-{
-  auto* row = new QHBoxLayout;
-  row->setSpacing(4);
-  for (QWidget* widget : widgets)
-    row->addWidget(widget);
-  return row;
-}
 
 // Two widgets in a row; the label's key goes to the first.
 void addRow(QFormLayout& form, const QString& text, QWidget* first, QWidget* second)
@@ -68,14 +56,6 @@ QLabel* dimLabel(const QString& text)
   wrapWords(*label);
   label->setTextFormat(Qt::PlainText);
   return label;
-}
-
-QCheckBox* checkBox(const QString& text, const char* name, const QString& tip)
-{
-  auto* box = new QCheckBox(text);
-  box->setObjectName(name);
-  box->setToolTip(tip);
-  return box;
 }
 
 QString draftText(const SegmentEditor& editor)
@@ -193,18 +173,7 @@ void SegmentPanel::takeSource(const std::string& source)
 
 void SegmentPanel::addTools(QVBoxLayout& layout, const std::vector<QAction*>& tools)
 {
-  auto* grid = new QGridLayout;
-  grid->setSpacing(4);
-  for (std::size_t n = 0; n < tools.size(); ++n)
-  {
-    auto* tool = new QToolButton;
-    tool->setDefaultAction(tools[n]);
-    tool->setObjectName("segmentTool");
-    tool->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    tool->setFocusPolicy(Qt::TabFocus);
-    grid->addWidget(tool, static_cast<int>(n) / kToolsInRow, static_cast<int>(n) % kToolsInRow);
-  }
-  layout.addLayout(grid);
+  layout.addLayout(toolGrid(tools, "segmentTool"));
 }
 
 void SegmentPanel::change(const std::function<void(Values&)>& what)

@@ -1,5 +1,6 @@
 #include "SliceColumn.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "SliceView.h"
@@ -65,6 +66,9 @@ SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
     connect(view, &SliceView::boxDragged, this, &SliceColumn::boxDragged);
     connect(view, &SliceView::boxReleased, this, &SliceColumn::boxReleased);
     connect(view, &SliceView::boxResetAsked, this, &SliceColumn::boxResetAsked);
+    connect(view, &SliceView::cutTaken, this, &SliceColumn::cutTaken);
+    connect(view, &SliceView::cutDragged, this, &SliceColumn::cutDragged);
+    connect(view, &SliceView::cutReleased, this, &SliceColumn::cutReleased);
   }
 }
 
@@ -352,10 +356,10 @@ void SliceColumn::setBox(const std::optional<SliceBox>& box)
     view->setBox(box);
 }
 
-void SliceColumn::setCuts(const std::vector<scene::ViewState::Clipping::Plane>& planes)
+void SliceColumn::setCuts(const std::vector<SliceCut>& cuts)
 {
   for (SliceView* view : m_views)
-    view->setCuts(planes);
+    view->setCuts(cuts);
 }
 
 double SliceColumn::mmPerPixel(SliceOrientation plane) const
@@ -393,12 +397,41 @@ void SliceColumn::draftChanged(const core::PatientBox& box)
 void SliceColumn::fit()
 {
   m_zoomed = nullptr;
+  keepAsSeen();
   for (SliceView* view : m_views)
     view->fit();
 }
 
+void SliceColumn::showWhole()
+{
+  const std::optional<std::array<scene::ViewState::Slices::Plane, 3>> before = shown().planes;
+  fit();
+  std::copy(before->begin(), before->end(), m_before.begin());
+}
+
+// As showWhole left it: it was not zoomed since.
+bool SliceColumn::isStillWhole(std::size_t slice) const
+{
+  const scene::ViewState::Slices::Plane now = m_views[slice]->plane();
+  return now.zoom == 1.0 && now.offset.isZero(0.0);
+}
+
+void SliceColumn::showAsBefore()
+{
+  for (std::size_t n = 0; n < m_views.size(); ++n)
+    if (m_before[n] && isStillWhole(n))
+      m_views[n]->setPlane(*m_before[n]);
+  keepAsSeen();
+}
+
+void SliceColumn::keepAsSeen()
+{
+  m_before = {};
+}
+
 void SliceColumn::setShown(const scene::ViewState::Slices& slices)
 {
+  keepAsSeen();
   setGreyWindow({slices.width, slices.level});
   setPlanes(presenters::SlicePlanes::from(slices));
   presenters::Slab slab;
@@ -422,6 +455,15 @@ scene::ViewState::Slices SliceColumn::shown() const
   m_planes.store(slices);
   if (m_slab.thickness > 0.0)
     slices.slab = {m_slab.thickness, nameOf(m_slab.projection)};
+  return slices;
+}
+
+scene::ViewState::Slices SliceColumn::lasting() const
+{
+  scene::ViewState::Slices slices = shown();
+  for (std::size_t n = 0; n < m_views.size(); ++n)
+    if (m_before[n] && isStillWhole(n))
+      (*slices.planes)[n] = *m_before[n];
   return slices;
 }
 

@@ -10,6 +10,7 @@
 
 #include "BackgroundWork.h"
 #include "petrous/Presenters/BoxHandles.h"
+#include "petrous/Presenters/ClippingHandles.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Presenters/SlicePresenter.h"
@@ -21,6 +22,7 @@ namespace petrous::workstation
 class SliceView;
 struct DrawnMeasure;
 struct SliceBox;
+struct SliceCut;
 struct SliceDrawing;
 struct SliceMark;
 struct SliceTool;
@@ -49,6 +51,9 @@ public:
   void softWindow();     ///< width 400, level 40 HU
   void temporalWindow(); ///< width 2800, level 600 HU
   void fit();
+  void showWhole();    ///< fits for a while
+  void showAsBefore(); ///< as before showWhole, each slice that was not zoomed since
+  void keepAsSeen();   ///< what was before showWhole does not come back; also by fit and setShown
 
   const presenters::SlicePlanes& planes() const noexcept { return m_planes; }
   void setPlanes(const presenters::SlicePlanes& planes);
@@ -69,6 +74,7 @@ public:
   /// Crosshair, grey window, zoom and offsets; the MR over them is the RegistrationController's.
   void setShown(const scene::ViewState::Slices& slices);
   scene::ViewState::Slices shown() const;
+  scene::ViewState::Slices lasting() const; ///< with the zooms of before showWhole
 
   /// nullptr: the CT alone. `shown`: the images that are seen so.
   void setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay,
@@ -84,7 +90,7 @@ public:
   void setDrawing(const SliceDrawing& drawing);
   void setMeasures(const std::vector<DrawnMeasure>& measures);
   void setBox(const std::optional<SliceBox>& box);
-  void setCuts(const std::vector<scene::ViewState::Clipping::Plane>& planes);
+  void setCuts(const std::vector<SliceCut>& cuts);
   void setDraft(const std::shared_ptr<const presenters::DraftLayer>& draft);
   /// A structure that is not shown, as its draft is; empty: none.
   void setHidden(const std::string& structure);
@@ -116,10 +122,15 @@ signals:
   void boxDragged(const Eigen::Vector3d& patient);
   void boxReleased();
   void boxResetAsked();
+  void cutTaken(std::size_t plane, petrous::presenters::CutPart part,
+                const Eigen::Vector3d& patient, petrous::presenters::SliceOrientation slice);
+  void cutDragged(const Eigen::Vector3d& patient);
+  void cutReleased();
 
 private:
   void frameTissue();
   void zoomTogether();
+  bool isStillWhole(std::size_t slice) const;
   void setGreyWindow(const presenters::GreyWindow& window);
   void showReadout();
   void passTool();
@@ -136,6 +147,8 @@ private:
   bool m_measuring = false;
   presenters::SlicePlanes m_planes;
   presenters::Slab m_slab;
+  /// Before showWhole, of each slice.
+  std::array<std::optional<scene::ViewState::Slices::Plane>, 3> m_before;
   bool m_isZoomTogether = false;
   const SliceView* m_zoomed = nullptr; ///< whose scale the others take
   std::string m_suggestedOf;           ///< the MR of which m_suggested is the window at first

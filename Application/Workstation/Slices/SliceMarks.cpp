@@ -196,6 +196,19 @@ QRectF freePlace(const QRectF& wanted, const std::vector<QRectF>& taken, const Q
   return above.top() >= picture.top() ? above : below;
 }
 
+void paintLabel(QPainter& painter, const QRectF& box, const QString& text, const QColor& color,
+                bool framed)
+{
+  QColor back(10, 12, 15);
+  back.setAlphaF(0.72);
+  painter.setPen(framed ? QPen(color, 1.0) : QPen(Qt::NoPen));
+  painter.setBrush(back);
+  painter.drawRoundedRect(box, 3.0, 3.0);
+  painter.setPen(color.lighter(115));
+  painter.drawText(box, Qt::AlignCenter, text);
+  painter.setBrush(Qt::NoBrush);
+}
+
 } // namespace
 
 void paintMeasures(QPainter& painter, const std::vector<DrawnMeasure>& measures,
@@ -225,15 +238,20 @@ void paintMeasures(QPainter& painter, const std::vector<DrawnMeasure>& measures,
       continue;
     box = freePlace(box, taken, picture);
     taken.push_back(box);
-    QColor back(10, 12, 15);
-    back.setAlphaF(0.72);
-    painter.setPen(measure.chosen ? QPen(measure.color, 1.0) : QPen(Qt::NoPen));
-    painter.setBrush(back);
-    painter.drawRoundedRect(box, 3.0, 3.0);
-    painter.setPen(measure.color.lighter(115));
-    painter.drawText(box, Qt::AlignCenter, measure.label);
+    paintLabel(painter, box, measure.label, measure.color, measure.chosen);
   }
-  painter.setBrush(Qt::NoBrush);
+}
+
+QRectF paintReading(QPainter& painter, const QString& text, const QPointF& pointer,
+                    const QColor& color, const std::vector<QRectF>& taken)
+{
+  QFont font = painter.font();
+  font.setPixelSize(12);
+  painter.setFont(font);
+  const QRectF box =
+      freePlace(placeOfLabel(painter, text, pointer), taken, QRectF(painter.viewport()));
+  paintLabel(painter, box, text, color, true);
+  return box;
 }
 
 void paintCube(QPainter& painter, double edge, const presenters::SliceGeometry& slice,
@@ -320,6 +338,7 @@ void paintCut(QPainter& painter, const scene::ViewState::Clipping::Plane& plane,
 {
   constexpr double kTick = 7.0;   // px
   constexpr double kApart = 40.0; // px, from tick to tick
+  constexpr double kEnd = 4.0;    // px, of the disc at an end
   const auto line = presenters::lineInSlice(plane, slice);
   if (!line)
     return;
@@ -338,6 +357,11 @@ void paintCut(QPainter& painter, const scene::ViewState::Clipping::Plane& plane,
     const Eigen::Vector2d foot = line->from + on * along;
     painter.drawLine(at(foot), at(foot + kTick * line->kept));
   }
+  painter.setPen(QPen(QColor(0, 0, 0, 200), 1.0));
+  painter.setBrush(cutColor());
+  for (const Eigen::Vector2d& end : presenters::endsOf(*line))
+    painter.drawEllipse(at(end), kEnd, kEnd);
+  painter.setBrush(Qt::NoBrush);
 }
 
 } // namespace petrous::workstation

@@ -78,9 +78,15 @@ void paintCube(QPainter& painter, double edge, const presenters::SliceGeometry& 
 QRectF paintBox(QPainter& painter, const presenters::HandledBox& box, bool dims,
                 const presenters::SliceGeometry& slice, const std::vector<QRectF>& taken);
 
-/// Where a clipping plane cuts the slice, with short lines to the side that stays.
+/// Where a clipping plane cuts the slice, with short lines to the side that stays, and the ends by
+/// which it is turned.
 void paintCut(QPainter& painter, const scene::ViewState::Clipping::Plane& plane,
               const presenters::SliceGeometry& slice);
+
+/// What is told of something that is dragged, beside the pointer; it lies on none of `taken`.
+/// Returns its place.
+QRectF paintReading(QPainter& painter, const QString& text, const QPointF& pointer,
+                    const QColor& color, const std::vector<QRectF>& taken);
 
 /// In the painter's font, readable on bone and on air alike.
 void drawText(QPainter& painter, const QPointF& baseline, const QString& text, const QColor& color);

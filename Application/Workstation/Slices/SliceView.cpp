@@ -472,14 +472,15 @@ void SliceView::paintEvent(QPaintEvent*)
   paintMarks(painter, m_drawing.marks, picture, m_crosshair);
   paintInterpolated(painter);
   paintCrosshair(painter);
-  for (const scene::ViewState::Clipping::Plane& plane : m_cuts)
-    paintCut(painter, plane, picture);
+  for (const SliceCut& cut : m_cuts)
+    paintCut(painter, cut.plane, picture);
   const std::vector<EdgeText> texts = edgeTexts(painter.font());
   std::vector<QRectF> taken{placeOfScaleBar(size())};
   for (const EdgeText& one : texts)
     taken.push_back(one.place());
   if (m_box)
     taken.push_back(paintBox(painter, m_box->handled, m_box->dims, picture, taken));
+  paintCutReading(painter, taken);
   paintMeasures(painter, m_measures, picture, m_crosshair, shownReach(), std::move(taken));
   QFont font = painter.font();
   font.setPixelSize(12);
@@ -687,6 +688,8 @@ void SliceView::mousePressEvent(QMouseEvent* event)
     m_turning = true;
   else if (takeBox(event->localPos(), event->modifiers() & Qt::ShiftModifier))
     return;
+  else if (event->modifiers() == Qt::NoModifier && takeCut(event->localPos()))
+    return;
   else if (m_tool && !(event->modifiers() & Qt::ShiftModifier))
   {
     m_toolDown = true;
@@ -723,6 +726,14 @@ void SliceView::mouseReleaseEvent(QMouseEvent* event)
     m_boxDown = false;
     emit boxReleased();
     return;
+  }
+  if (event->button() == Qt::LeftButton && m_cutDown)
+  {
+    m_cutDown = false;
+    emit cutReleased();
+    if (std::exchange(m_pressed, std::nullopt)) // a click, as beside the line
+      pointCrosshair(event->localPos());
+    return update(); // without its reading
   }
   if (event->button() == Qt::RightButton && std::exchange(m_mayMenu, false))
     emit menuAsked(event->globalPos());
@@ -768,10 +779,49 @@ void SliceView::setBox(const std::optional<SliceBox>& box)
   update();
 }
 
-void SliceView::setCuts(std::vector<scene::ViewState::Clipping::Plane> planes)
+void SliceView::setCuts(std::vector<SliceCut> cuts)
 {
-  m_cuts = std::move(planes);
+  m_cuts = std::move(cuts);
+  if (m_cuts.empty() && std::exchange(m_cutDown, false))
+    emit cutReleased();
   update();
+}
+
+// As facesAt.
+std::optional<SliceView::Cut> SliceView::cutAt(const QPointF& position) const
+{
+  constexpr double kReach = 6.0; // px
+  if (!m_presenter || m_tool)
+    return std::nullopt;
+  std::optional<Cut> found;
+  for (std::size_t n = 0; n < m_cuts.size(); ++n)
+    if (const auto line = presenters::lineInSlice(m_cuts[n].plane, slice()))
+      if (const auto part =
+              presenters::partAt(*line, {position.x() - 0.5, position.y() - 0.5}, kReach);
+          part && (!found || *part == presenters::CutPart::End))
+        found = Cut{n, *part};
+  return found;
+}
+
+bool SliceView::takeCut(const QPointF& position)
+{
+  const auto cut = cutAt(position);
+  if (!cut)
+    return false;
+  m_cutDown = true;
+  m_pressed = position;
+  emit cutTaken(cut->plane, cut->part, patientAt(position), m_orientation);
+  return true;
+}
+
+// In the slice in which it is dragged.
+void SliceView::paintCutReading(QPainter& painter, std::vector<QRectF>& taken) const
+{
+  if (!m_cutDown || !m_pointer)
+    return;
+  for (const SliceCut& cut : m_cuts)
+    if (!cut.reading.isEmpty())
+      taken.push_back(paintReading(painter, cut.reading, *m_pointer, cutColor(), taken));
 }
 
 // A tool has the left button for itself.
@@ -805,7 +855,8 @@ bool SliceView::takeBox(const QPointF& position, bool whole)
 
 void SliceView::showCursorAt(const QPointF& position)
 {
-  setCursor(handleAt(position) || facesAt(position).any() ? Qt::SizeAllCursor : Qt::CrossCursor);
+  const bool isHandle = handleAt(position) || facesAt(position).any() || cutAt(position);
+  setCursor(isHandle ? Qt::SizeAllCursor : Qt::CrossCursor);
 }
 
 void SliceView::setMeasures(std::vector<DrawnMeasure> measures)
@@ -842,13 +893,15 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
       emit turnOthersAsked(m_orientation, turned);
     return;
   }
-  if (m_handleDown || m_boxDown)
+  if (m_handleDown || m_boxDown || m_cutDown)
   {
     if (m_pressed && (event->localPos() - *m_pressed).manhattanLength() < kClick)
       return;
     m_pressed.reset();
     if (m_boxDown)
       emit boxDragged(patientAt(event->localPos()));
+    else if (m_cutDown)
+      emit cutDragged(patientAt(event->localPos()));
     else
       emit handleDragged(shownAt(event->localPos()));
   }

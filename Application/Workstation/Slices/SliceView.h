@@ -35,6 +35,13 @@ struct SliceBox
   bool shiftMoves = false; ///< dragged with Shift inside or by an edge, all of it moves
 };
 
+/// A clipping plane, whose line can be dragged in the slices.
+struct SliceCut
+{
+  scene::ViewState::Clipping::Plane plane;
+  QString reading; ///< while it is dragged
+};
+
 /// What a tool shows in the slices besides its draft.
 struct SliceDrawing
 {
@@ -54,7 +61,8 @@ QString slabText(const presenters::Slab& slab);
 /// the tool's, and with Shift it moves the crosshair. A thick slab is drawn coarse first and then
 /// finer, in parts between other events. A double click asks to enlarge the view. Alt+arrow and
 /// Alt+Page up or down translate and rotate an MR overlay. A box is dragged by its edges and
-/// corners, with Shift as a whole.
+/// corners, with Shift as a whole; the line of a clipping plane as a whole, or by an end, which
+/// turns it.
 class SliceView : public QWidget
 {
   Q_OBJECT
@@ -96,7 +104,7 @@ public:
   void setDrawing(SliceDrawing drawing);
   void setMeasures(std::vector<DrawnMeasure> measures);
   void setBox(const std::optional<SliceBox>& box);
-  void setCuts(std::vector<scene::ViewState::Clipping::Plane> planes); ///< clipping planes
+  void setCuts(std::vector<SliceCut> cuts);
   /// What is being segmented; nullptr: nothing.
   void setDraft(std::shared_ptr<const presenters::DraftLayer> draft);
   void draftChanged(const core::PatientBox& box); ///< its voxels, in this box
@@ -134,6 +142,11 @@ signals:
   void boxDragged(const Eigen::Vector3d& patient);
   void boxReleased();
   void boxResetAsked(); ///< a double click on an edge
+  /// Likewise the line of a clipping plane, by its number, in the slice that it cuts.
+  void cutTaken(std::size_t plane, petrous::presenters::CutPart part,
+                const Eigen::Vector3d& patient, petrous::presenters::SliceOrientation slice);
+  void cutDragged(const Eigen::Vector3d& patient);
+  void cutReleased();
 
 protected:
   void paintEvent(QPaintEvent* event) override;
@@ -185,6 +198,14 @@ private:
   std::optional<Handle> handleAt(const QPointF& position) const;
   presenters::BoxFaces facesAt(const QPointF& position) const;
   bool takeBox(const QPointF& position, bool whole);
+  struct Cut
+  {
+    std::size_t plane;
+    presenters::CutPart part;
+  };
+  std::optional<Cut> cutAt(const QPointF& position) const;
+  bool takeCut(const QPointF& position);
+  void paintCutReading(QPainter& painter, std::vector<QRectF>& taken) const;
   void showCursorAt(const QPointF& position);
 
   presenters::SliceOrientation m_orientation;
@@ -236,11 +257,12 @@ private:
   std::optional<QPointF> m_pointer; // where the tool's ball is drawn
   bool m_toolDown = false;
   bool m_handleDown = false;
-  std::optional<QPointF> m_pressed; // a handle, until it is dragged
+  std::optional<QPointF> m_pressed; // what is held, until it is dragged
   std::vector<DrawnMeasure> m_measures;
   std::optional<SliceBox> m_box;
-  std::vector<scene::ViewState::Clipping::Plane> m_cuts;
   bool m_boxDown = false;
+  std::vector<SliceCut> m_cuts;
+  bool m_cutDown = false;
 };
 
 } // namespace petrous::workstation

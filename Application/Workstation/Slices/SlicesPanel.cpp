@@ -34,14 +34,6 @@ using scene::Side;
 constexpr double kThickest = 100.0; // mm
 constexpr std::size_t kLongestName = 60;
 
-QCheckBox* checkBox(const QString& text, const char* name, const QString& tip)
-{
-  auto* box = new QCheckBox(text);
-  box->setObjectName(name);
-  box->setToolTip(tip);
-  return box;
-}
-
 } // namespace
 
 QString windowName(const std::string& name)
@@ -235,6 +227,7 @@ void SlicesPanel::fillWindows()
   for (std::size_t n = 0; n < m_offered.size(); ++n)
     m_windows->addItem(static_cast<int>(n) < m_own ? windowName(m_offered[n].name)
                                                    : words(m_offered[n].name));
+  showWhole(*m_windows, m_own); // names of the user's may be long
   const presenters::IntensityDisplay display = m_slices.seenDisplay();
   for (QDoubleSpinBox* box : {m_width, m_level})
   {

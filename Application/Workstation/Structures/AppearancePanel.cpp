@@ -586,11 +586,7 @@ void AppearancePanel::chooseColor()
   const presenters::EditHistory::Hold hold(m_model.edits());
   const auto last = m_model.edits().last();
   const auto of = m_model.shownAs();
-  const auto takeBack = [&]
-  {
-    if (const auto tried = m_model.edits().last(); tried != last && m_model.shownAs() == of)
-      attempt([&] { m_model.takeBack(tried); });
-  };
+  const auto takeBack = [&] { attempt([&] { m_model.takeBackTried(last, of); }); };
   const auto paint = [&](const QColor& color)
   {
     if (!m_editor.point()) // a dark one in between would flatten the points' shades

@@ -451,11 +451,7 @@ void StructureEditor::chooseColor(const std::vector<std::string>& parts, const Q
   for (const std::string& part : parts)
     if (const auto* look = m_model.lookOf(part))
       looks.emplace(part, *look);
-  const auto takeBack = [this, before, of]
-  {
-    if (const auto tried = m_model.edits().last(); tried != before && m_model.shownAs() == of)
-      m_model.takeBack(tried);
-  };
+  const auto takeBack = [this, before, of] { m_model.takeBackTried(before, of); };
   const auto paint = [this, parts, of, takeBack, looks = std::move(looks)](const QColor& color)
   {
     if (m_model.shownAs() != of)

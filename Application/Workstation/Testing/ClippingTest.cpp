@@ -24,6 +24,7 @@
 #include "SliceView.h"
 #include "ThreeDView.h"
 #include "petrous/Presenters/BoxHandles.h"
+#include "petrous/Presenters/ClippingHandles.h"
 #include "petrous/Scene/Branches.h"
 
 using namespace petrous;
@@ -73,6 +74,30 @@ protected:
     Vector3d at = frame.box(crop).box.center();
     at[0] = frame.box(crop).box.max()[0];
     const Eigen::Vector2d pixel = axial().slice().pixelFromPatient(at);
+    return {static_cast<int>(std::lround(pixel[0])), static_cast<int>(std::lround(pixel[1]))};
+  }
+
+  /// The cut of a ball, seen from the patient's right: a vertical line in the axial view, in which
+  /// it is dragged.
+  void openUpright()
+  {
+    saveBall("ball");
+    openWindow("ball");
+    ASSERT_TRUE(waitFor([this] { return window().model().ready(); }));
+    action("Right")->trigger();
+    action("Cut away to the crosshair")->trigger();
+    ASSERT_EQ(clipping().planes.size(), 1U);
+    ASSERT_GT(std::abs(clipping().planes.front().normal.x()), 0.99);
+    ASSERT_TRUE(cutLine());
+  }
+
+  std::optional<presenters::CutLine> cutLine()
+  {
+    return presenters::lineInSlice(clipping().planes.front(), axial().slice());
+  }
+
+  static QPoint atPixel(const Eigen::Vector2d& pixel)
+  {
     return {static_cast<int>(std::lround(pixel[0])), static_cast<int>(std::lround(pixel[1]))};
   }
 
@@ -700,4 +725,93 @@ TEST_F(ClippingBox, ItsSizeInASliceLiesOnNoOtherText)
   EXPECT_FALSE(second.isEmpty());
   EXPECT_FALSE(second.intersects(first));
   EXPECT_TRUE(QRectF(image.rect()).contains(second));
+}
+
+TEST_F(ClippingBox, APlaneIsDraggedByItsLineInASlice)
+{
+  ASSERT_NO_FATAL_FAILURE(openUpright());
+  const scene::ViewState::Clipping before = clipping();
+  const scene::ViewState::Clipping::Plane plane = before.planes.front();
+  const presenters::CutLine line = *cutLine();
+  const Vector3d crosshair = window().model().crosshair();
+  const Eigen::Vector2d quarter = line.from + 0.25 * (line.to - line.from);
+  const QPoint from = atPixel(quarter);
+  const QPoint to = from + QPoint(30, 0);
+  drag(axial(), from, to);
+  const double mm = 30.0 * axial().slice().mmPerPixel();
+  ASSERT_EQ(clipping().planes.size(), 1U);
+  const Vector3d moved = clipping().planes.front().point - plane.point;
+  // To the left of the picture's right, the patient's left (+x).
+  EXPECT_NEAR(moved.dot(plane.normal), mm * plane.normal.x(), 1e-6);
+  EXPECT_LT((moved - moved.dot(plane.normal) * plane.normal).norm(), 1e-9);
+  EXPECT_EQ(clipping().planes.front().normal, plane.normal);
+  EXPECT_EQ(window().model().crosshair(), crosshair);
+  EXPECT_EQ(window().model().undoText(), "clipping plane");
+  undo(); // one step, however often the pointer moved
+  EXPECT_EQ(clipping(), before);
+
+  // A click on it is one beside it.
+  QTest::mouseClick(&axial(), Qt::LeftButton, Qt::NoModifier, from);
+  EXPECT_EQ(clipping(), before);
+  EXPECT_NE(window().model().crosshair(), crosshair);
+}
+
+TEST_F(ClippingBox, APlaneIsTurnedByAnEndOfItsLine)
+{
+  ASSERT_NO_FATAL_FAILURE(openUpright());
+  const scene::ViewState::Clipping before = clipping();
+  const auto ends = presenters::endsOf(*cutLine());
+  ASSERT_EQ(ends.size(), 2U);
+  const Eigen::Vector2d pivot = axial().slice().pixelFromPatient(presenters::pivotInSlice(
+      before.planes.front(), window().model().value().ct.geometry, axial().slice()));
+  const QPoint from = atPixel(ends[0]);
+  const QPoint to = from + QPoint(40, 0);
+  const auto angle = [&](const QPoint& at)
+  { return std::atan2(at.y() - pivot[1] - 0.5, at.x() - pivot[0] - 0.5); };
+  const double expected = std::abs(angle(to) - angle(from));
+  ASSERT_GT(expected, 0.05);
+  QTest::mousePress(&axial(), Qt::LeftButton, Qt::NoModifier, from);
+  moveTo(axial(), (from + to) / 2);
+  moveTo(axial(), to);
+  const QImage held = axial().grab().toImage();
+  QTest::mouseRelease(&axial(), Qt::LeftButton, Qt::NoModifier, to);
+  const QImage after = axial().grab().toImage();
+  EXPECT_GT(differentPixels(held, after), 300) << "the angle stands beside the pointer";
+  const scene::ViewState::Clipping::Plane turned = clipping().planes.front();
+  EXPECT_NEAR(std::acos(std::clamp(turned.normal.dot(before.planes.front().normal), -1.0, 1.0)),
+              expected, 1e-6);
+  EXPECT_NEAR(turned.normal.z(), before.planes.front().normal.z(), 1e-9) << "in the slice's plane";
+  undo();
+  EXPECT_EQ(clipping(), before);
+
+  // By keys, a degree each, held down one step.
+  axial().setFocus();
+  action("Turn the cut clockwise")->trigger();
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("turned by 1.0"))
+      << window().statusBar()->currentMessage().toStdString();
+  const Vector3d clockwise = clipping().planes.front().normal;
+  EXPECT_NEAR(clockwise.dot(before.planes.front().normal), std::cos(0.0174532925), 1e-9);
+  // What points to the picture's right points down by then.
+  const presenters::SliceGeometry slice = axial().slice();
+  const Vector3d normal = before.planes.front().normal;
+  const double cross = normal.dot(slice.axes().right) * clockwise.dot(slice.axes().down) -
+                       normal.dot(slice.axes().down) * clockwise.dot(slice.axes().right);
+  EXPECT_NEAR(cross, std::sin(0.0174532925), 1e-6);
+  action("Turn the cut counterclockwise")->trigger();
+  EXPECT_LT((clipping().planes.front().normal - normal).norm(), 1e-9);
+}
+
+TEST_F(ClippingBox, TheLineOfAPlaneGivesWayToATool)
+{
+  ASSERT_NO_FATAL_FAILURE(openUpright());
+  const scene::ViewState::Clipping before = clipping();
+  const presenters::CutLine line = *cutLine();
+  const QPoint from = atPixel(line.from + 0.25 * (line.to - line.from));
+  action("Distance")->trigger();
+  auto* measure = window().findChild<MeasureController*>();
+  ASSERT_TRUE(measure && measure->active());
+  drag(axial(), from, from + QPoint(30, 0));
+  EXPECT_EQ(clipping(), before);
+  EXPECT_TRUE(measure->hasPoints());
+  measure->leaveTool();
 }

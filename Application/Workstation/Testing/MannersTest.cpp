@@ -35,11 +35,17 @@
 #include <QTranslator>
 #include <QTreeView>
 
+#include "AddPartsDialog.h"
 #include "Banner.h"
+#include "DeviceTestDialog.h"
 #include "EventLoopWatchdog.h"
 #include "Language.h"
 #include "MessageRoom.h"
 #include "Panels.h"
+#include "RegionDialog.h"
+#include "RepairDialog.h"
+#include "SeriesDialog.h"
+#include "SharedSample.h"
 #include "StructuresModel.h"
 #include "Theme.h"
 #include "WindowSettings.h"
@@ -860,7 +866,114 @@ TEST_F(Manners, NoTextOfADialogIsCutOffWithLargeLetters)
   closeWindow();
 }
 
-TEST_F(Manners, NoTextOfAPanelOfStructuresIsCutOffWithLargeLettersInGerman)
+// Those that come with files or a device: of written files, or of stand-ins for what was found.
+TEST_F(Manners, NoTextOfADialogOfFilesOrDevicesIsCutOffInEnglishAndGerman)
+{
+  const UsualTheme after;
+  phantom::SampleOptions options;
+  options.spacing = 1.5;
+  petrous::testing::writeSharedSample(folder() / "sample", options);
+  const fs::path whole = folder() / "sample" / "ct";
+  const fs::path broken = folder() / "broken"; // without a slice in the middle
+  fs::copy(whole, broken);
+  std::vector<fs::path> slices;
+  for (const auto& entry : fs::directory_iterator(broken))
+    slices.push_back(entry.path());
+  std::sort(slices.begin(), slices.end());
+  fs::remove(slices[slices.size() / 2]);
+  const presenters::SourceContent repaired = presenters::lookAt(broken, {});
+
+  presenters::SourceContent several;
+  several.path = folder();
+  for (const presenters::Content content :
+       {presenters::Content::Ct, presenters::Content::Ct, presenters::Content::Mr})
+  {
+    presenters::SeriesContent one;
+    one.selector = "1.2." + std::to_string(several.series.size());
+    one.content = content;
+    one.modality = content == presenters::Content::Mr ? "MR" : "CT";
+    one.description = "Felsenbein hochauflösend 0,6 H70h links";
+    one.kernel = "H70h";
+    one.slices = 240;
+    one.spacing = {0.25, 0.25, 0.6};
+    several.series.push_back(one);
+  }
+  AddPartsDialog::Part mr;
+  mr.what = QString::fromUtf8("MR “t2-space-felsenbein.nii.gz”");
+  mr.name = "T2";
+  AddPartsDialog::Part labels;
+  labels.what = QString::fromUtf8("labels “segmentation.nrrd”");
+  labels.isNamed = false;
+  labels.isPlaced = true;
+  labels.count = labels.unnamed = 12;
+  labels.folder = QString::fromStdString(folder().string());
+  AddPartsDialog::Part mesh;
+  mesh.what = QString::fromUtf8("surface “ossicles.obj”");
+  mesh.name = "ossicles";
+  mesh.isPlaced = true;
+  mesh.objects = 3;
+  presenters::InputDevice device;
+  device.kind = presenters::InputDevice::Kind::Server;
+  device.name = "Touch X";
+  device.program = folder() / "server"; // not started here
+
+  for (const QString language : {"en", "de"})
+    for (const char* scale : {"1", "1.25"})
+    {
+      if (!hasLanguage(language))
+        continue;
+      QTranslator texts;
+      if (language != "en")
+      {
+        ASSERT_TRUE(texts.load(":/translations/petrous_" + language + ".qm"));
+        QApplication::installTranslator(&texts);
+      }
+      std::ofstream(folder() / "settings.conf") << "[look]\nfont_scale=" << scale << "\n";
+      openWindow();
+      ASSERT_EQ(fontScale(), std::stod(scale));
+      const auto look = [&](QDialog& dialog, const std::function<bool()>& isComplete)
+      {
+        dialog.show();
+        EXPECT_TRUE(waitFor(isComplete)) << dialog.objectName().toStdString();
+        QTest::qWait(50);
+        expectWhole(dialog, language + ", " + scale + ", dialog “" + dialog.objectName() + "”");
+        EXPECT_EQ(sharedMnemonics(dialog), QStringList());
+        const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
+        if (!pictures.isEmpty())
+          dialog.grab().save(QString("%1/%2-%3-%4.png")
+                                 .arg(pictures, dialog.metaObject()->className(), language, scale));
+      };
+      const auto atOnce = [] { return true; };
+      {
+        RegionDialog dialog(whole, {}, false);
+        look(dialog, [&] { return dialog.isPictured(); });
+      }
+      {
+        RepairDialog dialog(repaired, "ct");
+        look(dialog, [&] { return dialog.isPictured(); });
+      }
+      {
+        SeriesDialog dialog(several, true);
+        look(dialog, atOnce);
+      }
+      {
+        AddPartsDialog dialog(AddPartsDialog::tr("Add to the case"), {}, AddPartsDialog::tr("Add"),
+                              {mr, labels, mesh}, {"T1"}, {"T1"}, "CT", nullptr,
+                              AddPartsDialog::tr("Open as a new case"));
+        look(dialog, atOnce);
+      }
+      {
+        presenters::DeviceSources sources;
+        sources.limits = folder() / "device-limits.json";
+        DeviceTestDialog dialog(sources, device);
+        look(dialog, atOnce);
+      }
+      closeWindow();
+      QApplication::removeTranslator(&texts);
+    }
+}
+
+TEST_F(Manners, NoTextOfAPanelIsCutOffWithLargeLettersInGerman)
 {
   if (!hasLanguage("de"))
     GTEST_SKIP() << "built without lrelease";
@@ -872,15 +985,14 @@ TEST_F(Manners, NoTextOfAPanelOfStructuresIsCutOffWithLargeLettersInGerman)
   std::ofstream(folder() / "settings.conf") << "[look]\nfont_scale=1.25\n";
   openWindow("sixty");
   ASSERT_EQ(fontScale(), 1.25);
-  for (const char* name : {"structuresDock", "appearanceDock"})
+  ASSERT_TRUE(opened("sixty"));
+  for (QDockWidget* dock : docks())
   {
-    auto* dock = window().findChild<QDockWidget*>(name);
-    ASSERT_TRUE(dock) << name;
     dock->show();
     dock->raise();
     window().resize(1280, 680);
     QTest::qWait(50);
-    expectWhole(*dock, name);
+    expectWhole(*dock, dock->objectName());
     dock->hide();
   }
   QApplication::removeTranslator(&german);

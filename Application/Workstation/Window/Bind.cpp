@@ -1,11 +1,13 @@
 #include "Bind.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <QAbstractButton>
 #include <QAbstractItemView>
 #include <QAction>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QKeyEvent>
@@ -186,6 +188,24 @@ QComboBox* choiceBox(const char* name, const QString& tip)
   box->setObjectName(name);
   box->setToolTip(tip);
   return box;
+}
+
+QCheckBox* checkBox(const QString& text, const char* name, const QString& tip)
+{
+  auto* box = new QCheckBox(text);
+  box->setObjectName(name);
+  box->setToolTip(tip);
+  return box;
+}
+
+void showWhole(QComboBox& box, int rows)
+{
+  const QFontMetrics metrics = box.fontMetrics();
+  int width = 0;
+  for (int row = 0; row < std::min(rows, box.count()); ++row)
+    width = std::max(width, metrics.boundingRect(box.itemText(row)).width());
+  const int letter = metrics.horizontalAdvance('X'); // in which Qt measures the length
+  box.setMinimumContentsLength((width + letter - 1) / letter);
 }
 
 QPushButton* button(const QString& text, const char* name, const QString& tip)

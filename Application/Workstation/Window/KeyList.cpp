@@ -65,6 +65,8 @@ KeyList::KeyList(const std::vector<Command>& commands, QWidget* parent)
   add(slices, tr("Crop box"), tr("drag an edge or a corner"),
       tr("While it is shown; in the 3D view drag the middle of a face. A double click on an edge "
          "shows all of the image"));
+  add(slices, tr("Clipping plane"), tr("drag its line"),
+      tr("By a disc near an end it turns within the slice"));
   add(slices, tr("Tilt the slice"), tr("Ctrl+up, Ctrl+down"),
       tr("With Shift and left or right about its other axis"));
   add(slices, tr("Move the MR"), tr("Alt with the arrow keys, Page up, Page down"),

@@ -867,12 +867,7 @@ void MainWindow::connectActions()
   on(m_actions->boneWindow, [this] { m_slices->boneWindow(); });
   on(m_actions->softWindow, [this] { m_slices->softWindow(); });
   on(m_actions->temporalWindow, [this] { m_slices->temporalWindow(); });
-  on(m_actions->fitSlices,
-     [this]
-     {
-       m_clipping->forgetZooms();
-       m_slices->fit();
-     });
+  on(m_actions->fitSlices, [this] { m_slices->fit(); });
   on(m_actions->otherKind, [this] { m_bar->nextBurr(); });
   constexpr double kTurn = 5.0; // degrees
   on(m_actions->turnLeft, [this] { m_drill->turnHandpiece(kTurn, 0.0); });
@@ -978,7 +973,8 @@ void MainWindow::connectViews()
   connect(m_actions->layouts, &QActionGroup::triggered, m_area,
           [this](QAction* action)
           { m_area->setLayout(static_cast<presenters::ViewLayout>(action->data().toInt())); });
-  m_area->addActions({m_actions->clipDeeper, m_actions->clipLess});
+  m_area->addActions({m_actions->clipDeeper, m_actions->clipLess, m_actions->clipTurnLeft,
+                      m_actions->clipTurnRight});
   connect(m_actions->enlargeView, &QAction::triggered, m_area,
           [this] { m_area->toggleEnlarged(m_area->focusedPane()); });
   connect(m_view, &ThreeDView::enlargeAsked, m_area,
@@ -1046,9 +1042,12 @@ void MainWindow::connectMeasure()
   m_measure->viewTaken = [this]
   { return m_view->tool().GetDrillMode() || m_view->tool().GetProbeMode(); };
   m_clipping->viewTaken = [this] { return m_measure->active() || m_segment->active(); };
-  m_viewState->lasting = [this](scene::ViewState::Slices& slices) { m_clipping->takeOff(slices); };
-  connect(m_viewState, &ViewStateController::slicesSet, m_clipping,
-          &ClippingController::forgetZooms);
+  m_clipping->focusedSlice = [this]() -> std::optional<presenters::SliceOrientation>
+  {
+    const auto pane = static_cast<int>(m_area->focusedPane());
+    return pane > 0 ? std::optional(static_cast<presenters::SliceOrientation>(pane - 1))
+                    : std::nullopt;
+  };
   connect(m_measure, &MeasureController::stateChanged, m_clipping, &ClippingController::refresh);
   connect(m_segment, &SegmentController::stateChanged, m_clipping, &ClippingController::refresh);
   connect(m_measure, &MeasureController::stateChanged, this, &MainWindow::showUndo);

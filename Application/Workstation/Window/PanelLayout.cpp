@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include <QEvent>
+#include <QGridLayout>
+#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QScreen>
@@ -11,6 +13,7 @@
 #include <QScrollBar>
 #include <QStyle>
 #include <QTextDocument>
+#include <QToolButton>
 #include <QTreeView>
 #include <QVBoxLayout>
 
@@ -224,6 +227,32 @@ void wrapWords(QLabel& label, int least)
 {
   label.setWordWrap(true);
   new WholeLines(label, least);
+}
+
+QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
+{
+  auto* row = new QHBoxLayout;
+  row->setSpacing(4);
+  for (QWidget* widget : widgets)
+    row->addWidget(widget);
+  return row;
+}
+
+QGridLayout* toolGrid(const std::vector<QAction*>& tools, const char* name)
+{
+  constexpr int kInRow = 3;
+  auto* grid = new QGridLayout;
+  grid->setSpacing(4);
+  for (std::size_t n = 0; n < tools.size(); ++n)
+  {
+    auto* tool = new QToolButton;
+    tool->setDefaultAction(tools[n]);
+    tool->setObjectName(name);
+    tool->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    tool->setFocusPolicy(Qt::TabFocus);
+    grid->addWidget(tool, static_cast<int>(n) / kInRow, static_cast<int>(n) % kInRow);
+  }
+  return grid;
 }
 
 } // namespace petrous::workstation

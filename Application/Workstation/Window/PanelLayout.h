@@ -1,5 +1,11 @@
 #pragma once
 
+#include <initializer_list>
+#include <vector>
+
+class QAction;
+class QGridLayout;
+class QHBoxLayout;
 class QSize;
 class QLabel;
 class QTreeView;
@@ -30,5 +36,10 @@ void resizeOnScreen(QWidget& window, const QSize& wanted);
 /// layouts of docks and dialogs know no height for a width, and would cut the last line. It is
 /// never lower than `least` lines, so that what is below it stays where it is.
 void wrapWords(QLabel& label, int least = 0);
+
+QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets); ///< close to each other
+
+/// Buttons for the tools of a panel, a few in a row. `name`: object name of each.
+QGridLayout* toolGrid(const std::vector<QAction*>& tools, const char* name);
 
 } // namespace petrous::workstation

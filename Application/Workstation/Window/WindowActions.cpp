@@ -208,7 +208,13 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                     tr("Moves the plane that cuts the picture by 0.5 mm"));
   clipLess = make(m_view, tr("Cut l&ess deep"), Qt::SHIFT + Qt::Key_PageUp,
                   tr("Moves the plane that cuts the picture back by 0.5 mm"));
-  for (QAction* action : {clipDeeper, clipLess}) // of the views: lists and numbers have these keys
+  const QString turned = tr("By a degree, within the slice that has the keyboard; in the 3D view "
+                            "about the vertical of the picture");
+  clipTurnLeft =
+      make(m_view, tr("Turn the cut counterclockwise"), Qt::SHIFT + Qt::Key_Left, turned);
+  clipTurnRight = make(m_view, tr("Turn the cut clockwise"), Qt::SHIFT + Qt::Key_Right, turned);
+  // Of the views: lists and numbers have these keys.
+  for (QAction* action : {clipDeeper, clipLess, clipTurnLeft, clipTurnRight})
     action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
   cropBox = make(m_view, tr("Crop bo&x"), Qt::SHIFT + Qt::Key_V,
                  tr("A box whose edges are dragged in the slices, and its faces in the 3D view: "

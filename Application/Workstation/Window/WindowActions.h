@@ -70,6 +70,8 @@ public:
   QAction* clipOff;
   QAction* clipDeeper;
   QAction* clipLess;
+  QAction* clipTurnLeft;
+  QAction* clipTurnRight;
   QAction* cropBox; ///< checkable
   QAction* cropNumbers;
   QActionGroup* layouts; ///< checkable; each one's data is its ViewLayout

@@ -1,7 +1,6 @@
 #include "WindowTexts.h"
 
 #include <cmath>
-#include <vector>
 
 #include <QCache>
 #include <QDate>
@@ -15,6 +14,7 @@
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/Phrasebook.h"
+#include "petrous/Scene/PlainText.h"
 
 namespace petrous::workstation
 {
@@ -58,6 +58,19 @@ QString volumeText(double volume)
 QString shownName(const std::string& part)
 {
   return words(presenters::shownName(part));
+}
+
+QString caseName(const std::string& name)
+{
+  return words(scene::withVisible(name));
+}
+
+QString listed(const std::vector<std::string>& names)
+{
+  QStringList list;
+  for (const std::string& name : names)
+    list += words(name);
+  return list.join(", ");
 }
 
 QString approachName(const std::string& name)

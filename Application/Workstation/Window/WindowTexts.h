@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -25,6 +26,12 @@ QString volumeText(double cubicMillimetres);
 
 /// A part's name as it is shown everywhere: presenters::shownName.
 QString shownName(const std::string& part);
+
+/// A case's name as lists show it: scene::withVisible.
+QString caseName(const std::string& name);
+
+/// Names of the user's, "left ear, right ear".
+QString listed(const std::vector<std::string>& names);
 
 /// An approach's name as it is shown: the first one's in the user's language, until it is renamed.
 QString approachName(const std::string& name);

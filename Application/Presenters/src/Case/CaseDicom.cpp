@@ -397,10 +397,8 @@ std::string guessedNote(const scene::ImagePart& part)
   if (!slices.empty())
     text = (volume::sliceCount(slices) == 1 ? "slice " : "slices ") + volume::toString(slices) +
            " interpolated between neighbours: nothing was measured there";
-  if (const auto& assumed = part.provenance.assumedRas)
-    text += (text.empty() ? "" : "; ") + assumedSideText(*assumed);
-  if (!part.provenance.axes.isIdentity())
-    text += (text.empty() ? "" : "; ") + correctedAxesText(part.provenance.axes);
+  for (const std::string& one : axesTexts(part.provenance.assumedRas, part.provenance.axes))
+    text += (text.empty() ? "" : "; ") + one;
   return text.empty() ? text : "in '" + part.name + "', " + text;
 }
 

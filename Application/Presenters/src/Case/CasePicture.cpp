@@ -2,24 +2,21 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <string_view>
 #include <utility>
 
 #include "petrous/Appearance/StructurePresets.h"
-#include "petrous/Core/HullClip.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Presenters/LabelledPicture.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Rendering/OffscreenView.h"
+#include "petrous/Rendering/SceneField.h"
 #include "petrous/Volume/IntensityHistogram.h"
 #include "petrous/Volume/LabelBorders.h"
 #include "petrous/Volume/Sampling.h"
 #include "petrous/Volume/TissueExtent.h"
-#include "petrous/Volume/TissueField.h"
 
 namespace petrous::presenters
 {
@@ -70,45 +67,29 @@ std::optional<core::IndexBox> cropOf(const scene::ViewState::Clipping& clipping,
   return inside.empty() || inside == whole ? std::nullopt : std::optional(inside);
 }
 
+std::vector<rendering::ClippingPlane> planesOf(const scene::ViewState::Clipping& clipping)
+{
+  std::vector<rendering::ClippingPlane> planes;
+  for (const scene::ViewState::Clipping::Plane& plane : clipping.planes)
+    planes.push_back({plane.point, plane.normal});
+  return planes;
+}
+
 } // namespace
 
 void clip(rendering::SceneContents& contents, const scene::ViewState::Clipping& clipping,
           const core::GridGeometry& grid)
 {
-  contents.clipping.clear();
-  for (const scene::ViewState::Clipping::Plane& plane : clipping.planes)
-    contents.clipping.push_back({plane.point, plane.normal});
+  contents.clipping = planesOf(clipping);
   contents.crop = cropOf(clipping, grid);
 }
 
-// As the renderer's rays are clipped (OpticalModel.h).
-std::pair<double, double> shownPart(const interaction::PickRay& line,
-                                    const scene::ViewState::Clipping& clipping,
-                                    const core::GridGeometry& grid)
+rendering::RaySpan shownPart(const interaction::PickRay& line,
+                             const scene::ViewState::Clipping& clipping,
+                             const core::GridGeometry& grid)
 {
-  constexpr double kParallel = 1e-14; // cosine below which a line is parallel to a plane
-  constexpr std::pair<double, double> kNothing{1.0, 0.0};
-  const core::GridGeometry box = grid.cropped(cropOf(clipping, grid).value_or(grid.fullBox()));
-  if (std::any_of(box.dims().begin(), box.dims().end(), [](int voxels) { return voxels < 2; }))
-    return kNothing; // without thickness
-  const Eigen::Vector3d start = box.voxelFromPatient(line.origin);
-  auto [first, last] = core::clipToHull(box, start, box.voxelFromPatient(line.at(1.0)) - start, 0.0,
-                                        std::numeric_limits<double>::max());
-  for (const scene::ViewState::Clipping::Plane& plane : clipping.planes)
-  {
-    const double height = plane.normal.dot(line.origin - plane.point);
-    const double slope = plane.normal.dot(line.direction);
-    if (std::abs(slope) < kParallel)
-    {
-      if (height < 0.0)
-        return kNothing;
-    }
-    else if (slope > 0.0)
-      first = std::max(first, -height / slope);
-    else
-      last = std::min(last, -height / slope);
-  }
-  return {first, last};
+  return rendering::ClippedRegion(grid, cropOf(clipping, grid), planesOf(clipping))
+      .clip({line.origin, line.direction});
 }
 
 void illuminate(rendering::SceneContents& contents,
@@ -139,22 +120,8 @@ bool isBuried(const core::CameraPose& camera, const rendering::SceneContents& co
   if (!contents.ct)
     return false;
   const Eigen::Vector3d& eye = camera.position;
-  const core::GridGeometry& grid = contents.ct->geometry();
-  const core::GridGeometry box = grid.cropped(contents.crop.value_or(grid.fullBox()));
-  const bool isShown = box.hullContains(box.voxelFromPatient(eye)) &&
-                       std::all_of(contents.clipping.begin(), contents.clipping.end(),
-                                   [&eye](const rendering::ClippingPlane& plane)
-                                   { return plane.normal.dot(eye - plane.point) >= 0.0; });
-  if (!isShown)
-    return false;
-  constexpr double kNoBone = 1e9; // HU, above all of it
-  constexpr double kScale = 1000.0;
-  std::vector<volume::TissueField::SolidUnion> solids;
-  if (contents.labels)
-    solids.push_back(contents.labels->occupancy);
-  const volume::TissueField field(contents.ct, std::move(solids), contents.mask,
-                                  {contents.boneShown ? contents.iso : kNoBone, kScale});
-  if (!(field.value(eye) > 0.0))
+  const rendering::ClippedRegion drawn(contents.ct->geometry(), contents.crop, contents.clipping);
+  if (!drawn.contains(eye) || !(rendering::sceneField(contents).value(eye) > 0.0))
     return false;
   std::size_t row = 0; // of bone
   if (contents.labels && contents.labels->index)

@@ -801,9 +801,7 @@ std::vector<std::string> goneStructures(const scene::Case& value)
 std::vector<scene::ImageWithFace>
 facesToMask(const scene::Case& value, const core::Progress& progress, scene::FaceFindings* found)
 {
-  const bool mayShow = showsHead(value.ct.geometry, {}) ||
-                       std::any_of(value.mr.begin(), value.mr.end(),
-                                   [](const auto& mr) { return showsHead(mr.geometry, {}); });
+  const bool mayShow = showsHead(value.ct.geometry, {}) || anyShowsHead(value.mr, {});
   return mayShow ? scene::imagesWithFace(value, progress, found)
                  : std::vector<scene::ImageWithFace>();
 }

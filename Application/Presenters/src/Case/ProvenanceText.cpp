@@ -44,13 +44,18 @@ void addMasks(const ImageProvenance& provenance, std::vector<std::string>& texts
     texts.emplace_back("cropped to a region");
 }
 
-} // namespace
+void add(const std::vector<std::string>& more, std::vector<std::string>& texts)
+{
+  texts.insert(texts.end(), more.begin(), more.end());
+}
 
 std::string assumedSideText(bool assumedRas)
 {
   return std::string("left and right taken as ") + (assumedRas ? "RAS" : "LPS") +
          " axes, as the file does not say which side of the patient is left";
 }
+
+} // namespace
 
 const char* directionText(char letter)
 {
@@ -76,6 +81,17 @@ std::string correctedAxesText(const core::AxesCorrection& axes)
   return "axes of the file corrected (" + axes.letters() +
          "): what it calls left, back and head is the patient's " + directionText(axes.letter(0)) +
          ", " + directionText(axes.letter(1)) + " and " + directionText(axes.letter(2));
+}
+
+std::vector<std::string> axesTexts(const std::optional<bool>& assumedRas,
+                                   const core::AxesCorrection& axes)
+{
+  std::vector<std::string> texts;
+  if (assumedRas)
+    texts.push_back(assumedSideText(*assumedRas));
+  if (!axes.isIdentity())
+    texts.push_back(correctedAxesText(axes));
+  return texts;
 }
 
 std::string interpolatedText(const scene::ImagePart& image)
@@ -121,10 +137,7 @@ std::vector<std::string> provenanceTexts(const scene::ImagePart& image)
   const ImageProvenance& provenance = image.provenance;
   std::vector<std::string> texts = repairs(image);
   addMasks(provenance, texts);
-  if (provenance.assumedRas)
-    texts.push_back(assumedSideText(*provenance.assumedRas));
-  if (!provenance.axes.isIdentity())
-    texts.push_back(correctedAxesText(provenance.axes));
+  add(axesTexts(provenance.assumedRas, provenance.axes), texts);
   if (provenance.pixels.isLossy)
     texts.push_back(
         "compressed with loss" +
@@ -140,11 +153,7 @@ std::vector<std::string> provenanceTexts(const scene::ImagePart& image)
 
 std::vector<std::string> provenanceTexts(const scene::LabelPart& part)
 {
-  std::vector<std::string> texts;
-  if (part.provenance.assumedRas)
-    texts.push_back(assumedSideText(*part.provenance.assumedRas));
-  if (!part.provenance.axes.isIdentity())
-    texts.push_back(correctedAxesText(part.provenance.axes));
+  std::vector<std::string> texts = axesTexts(part.provenance.assumedRas, part.provenance.axes);
   if (part.provenance.isFrameAssumed)
     texts.push_back("not known to be in the frame of reference of the image on which it is shown");
   return texts;
@@ -155,10 +164,8 @@ std::vector<std::string> assumedSideTexts(const scene::Case& value)
   std::vector<std::string> lines;
   const auto add = [&lines](const std::string& name, const auto& provenance)
   {
-    if (provenance.assumedRas)
-      lines.push_back(name + ": " + assumedSideText(*provenance.assumedRas));
-    if (!provenance.axes.isIdentity())
-      lines.push_back(name + ": " + correctedAxesText(provenance.axes));
+    for (const std::string& text : axesTexts(provenance.assumedRas, provenance.axes))
+      lines.push_back(name + ": " + text);
   };
   add(primaryName(value), value.ct.provenance);
   for (const scene::ImagePart& mr : value.mr)
@@ -178,10 +185,7 @@ std::string derivationText(const scene::ImagePart& image, bool onCt)
                        : texts.empty() ? ""
                                        : "Repaired: ";
     addMasks(image.provenance, texts);
-    if (image.provenance.assumedRas)
-      texts.push_back(assumedSideText(*image.provenance.assumedRas));
-    if (!image.provenance.axes.isIdentity())
-      texts.push_back(correctedAxesText(image.provenance.axes));
+    add(axesTexts(image.provenance.assumedRas, image.provenance.axes), texts);
     for (std::size_t n = 0; n < texts.size(); ++n)
       text += (n == 0 ? "" : "; ") + texts[n];
     return texts.empty() ? std::string() : text;

@@ -196,11 +196,12 @@ void WorkstationModel::redo()
     stepEdit([this] { m_edits.redo(m_case->dissection.history().ahead()); });
 }
 
-void WorkstationModel::takeBack(std::uint64_t step)
+void WorkstationModel::takeBackTried(std::uint64_t before, std::uint64_t of)
 {
-  if (!m_case || drilling())
+  const std::uint64_t tried = m_edits.last();
+  if (!m_case || drilling() || tried == before || shownAs() != of)
     return;
-  m_edits.takeBack(step);
+  m_edits.takeBack(tried);
   notify(events.stateChanged);
 }
 

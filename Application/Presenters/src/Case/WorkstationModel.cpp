@@ -525,21 +525,17 @@ std::optional<double> WorkstationModel::wallBehind(const Eigen::Vector3d& surfac
 
 std::optional<Eigen::Vector3d> WorkstationModel::surfaceAt(const interaction::PickRay& line)
 {
-  constexpr double kOfImage = 1e-6; // mm, up to which a face is one of the image
   if (!m_case || !ready())
     return std::nullopt;
-  const core::GridGeometry& grid = m_case->ct.geometry;
-  const scene::ViewState::Clipping& clipping = m_case->view.clipping;
-  const auto [first, last] = shownPart(line, clipping, grid);
-  if (!(first < last))
+  const rendering::RaySpan shown = shownPart(line, m_case->view.clipping, m_case->ct.geometry);
+  if (!(shown.first < shown.last))
     return std::nullopt;
-  const Eigen::Vector3d entry = line.at(first);
+  const Eigen::Vector3d entry = line.at(shown.first);
   const volume::TissueField& field = session().field();
-  const bool isFace = !clipping.empty() && first > shownPart(line, {}, grid).first + kOfImage;
-  if (isFace && field.uncut(entry) <= 0.0 && drawsSoftFace(*m_case, entry))
+  if (shown.isCut && field.uncut(entry) <= 0.0 && drawsSoftFace(*m_case, entry))
     return entry;
-  const auto hit = field.firstHit(entry, line.at(last));
-  return hit ? std::optional<Eigen::Vector3d>(line.at(first + *hit)) : std::nullopt;
+  const auto hit = field.firstHit(entry, line.at(shown.last));
+  return hit ? std::optional<Eigen::Vector3d>(line.at(shown.first + *hit)) : std::nullopt;
 }
 
 bool WorkstationModel::isCutAway(const interaction::PickRay& line)

@@ -219,25 +219,6 @@ std::string noteOf(const Tube& tube, std::optional<double> widest)
   return text + ".";
 }
 
-// Its voxels come onto the primary image's grid, and stay there: what was drawn on an MR is from
-// then on made from it.
-scene::MrReadings readingsOf(const scene::Case& value, const scene::LabelPart& part,
-                             const scene::StructurePart& structure)
-{
-  scene::MrReadings readings = structure.readings;
-  if (const scene::Placement placement = scene::placementOf(value, part);
-      !placement.drawnOn.empty())
-    scene::addReadings(readings, {{placement.drawnOn, placement.mrFromCt, false}});
-  return readings;
-}
-
-// What the lumen of a structure of that name can be follows from it on a CT alone.
-std::optional<volume::ValueRange> lumenOf(const std::string& name, const IntensityDisplay& display,
-                                          bool isMr)
-{
-  return display.hounsfield && !isMr ? segmentation::lumenFor(name) : std::nullopt;
-}
-
 std::string warningOf(const Tube& tube, const segmentation::TubeOptions& options,
                       const segmentation::TubeLabel& label)
 {
@@ -290,19 +271,51 @@ struct SegmentEditor::SourceImage
   }
 };
 
+/// What voxels were made from, and how.
+struct SegmentEditor::Origin
+{
+  scene::MrReadings readings;
+  scene::TracedTubes tubes; ///< among the voxels
+  Sentences doubts;         ///< of what was done
+  bool isGrown = false;     ///< from seeds, so that the finished structure is judged (regionTexts)
+
+  bool operator==(const Origin& other) const
+  {
+    return readings == other.readings && tubes == other.tubes && doubts == other.doubts &&
+           isGrown == other.isGrown;
+  }
+
+  void add(const Origin& other)
+  {
+    scene::addReadings(readings, other.readings);
+    tubes += other.tubes;
+    for (const std::string& text : other.doubts)
+      if (std::find(doubts.begin(), doubts.end(), text) == doubts.end())
+        doubts.push_back(text);
+    isGrown = isGrown || other.isGrown;
+  }
+};
+
+// The voxels of a structure come onto the primary image's grid, and stay there: what was drawn on
+// an MR is from then on made from it.
+SegmentEditor::Origin SegmentEditor::originOf(const scene::Case& value,
+                                              const scene::LabelPart& part,
+                                              const scene::StructurePart& structure)
+{
+  StructureNotes notes = notesOf(part, structure.name);
+  Origin origin{structure.readings, structure.tubes, std::move(notes.texts), notes.isGrown};
+  if (const scene::Placement placement = scene::placementOf(value, part);
+      !placement.drawnOn.empty())
+    scene::addReadings(origin.readings, {{placement.drawnOn, placement.mrFromCt, false}});
+  return origin;
+}
+
 /// What the draft would be with the tool's result.
 struct SegmentEditor::Preview
 {
-  struct Made // by the step, of what comes with its voxels
-  {
-    scene::TracedTubes tubes;
-    Sentences doubts;
-    bool isGrown = false; ///< from seeds
-  };
-
   std::optional<Mask> result; ///< none: computed only in slices, `range`
   std::shared_ptr<const Tube> tube;
-  Made made;
+  Origin made;                             ///< by the tool, but for the readings: see Reads
   std::optional<volume::ValueRange> range; ///< that was used
   std::optional<Eigen::Vector3d> seed;     ///< of the region that is proposed
   Image image;                             ///< the source on the CT's grid, if it was made
@@ -331,51 +344,24 @@ struct SegmentEditor::Draft
     bool mask = false;
     bool inside = false;
     bool beside = false;
-    std::optional<std::pair<Points, Points>> points;                         ///< before and after
-    std::optional<std::pair<Points, Points>> seeds;                          ///< before and after
-    std::optional<std::pair<scene::MrReadings, scene::MrReadings>> readings; ///< before and after
-    std::optional<std::pair<scene::TracedTubes, scene::TracedTubes>> tubes;  ///< before and after
-    std::optional<std::pair<Sentences, Sentences>> doubts;                   ///< before and after
-    std::optional<std::pair<bool, bool>> grown;                              ///< before and after
+    std::optional<std::pair<Points, Points>> points; ///< before and after
+    std::optional<std::pair<Points, Points>> seeds;  ///< before and after
+    std::optional<std::pair<Origin, Origin>> origin; ///< before and after
   };
 
-  // `afresh`: the step makes all voxels anew.
-  void read(Step& step, const scene::MrReadings& read, bool afresh, const Preview::Made& made = {})
+  // Of a step on the voxels: `by` is what the tool adds, without readings.
+  void made(Step& step, const Reads& reads, Origin by = {})
   {
     if (!step.mask)
       return;
     const bool isEmpty = mask.count() == 0; // nothing is left of what all this is of
-    afresh = afresh || isEmpty;
-    scene::MrReadings after = afresh ? scene::MrReadings() : readings;
-    if (!isEmpty)
-      scene::addReadings(after, read);
-    if (after != readings)
-    {
-      step.readings = {readings, after};
-      readings = std::move(after);
-    }
-    scene::TracedTubes all = afresh ? scene::TracedTubes() : tubes;
-    all += made.tubes;
-    if (!(all == tubes))
-    {
-      step.tubes = {tubes, all};
-      tubes = all;
-    }
-    Sentences doubtful = afresh ? Sentences() : doubts;
-    for (const std::string& text : made.doubts)
-      if (std::find(doubtful.begin(), doubtful.end(), text) == doubtful.end())
-        doubtful.push_back(text);
-    if (doubtful != doubts)
-    {
-      step.doubts = {doubts, doubtful};
-      doubts = std::move(doubtful);
-    }
-    const bool isAnyGrown = made.isGrown || (isGrown && !afresh);
-    if (isAnyGrown != isGrown)
-    {
-      step.grown = {isGrown, isAnyGrown};
-      isGrown = isAnyGrown;
-    }
+    by.readings = isEmpty ? scene::MrReadings() : reads.readings;
+    Origin after = reads.afresh || isEmpty ? Origin() : origin;
+    after.add(by);
+    if (after == origin)
+      return;
+    step.origin = {origin, after};
+    origin = std::move(after);
   }
 
   void did(Step step)
@@ -398,10 +384,7 @@ struct SegmentEditor::Draft
   Eigen::Vector3d normal = axesOf(SliceOrientation::Axial).next; ///< of the slice last painted in
   Points seeds;                                                  ///< of the connected threshold
   Points points;                                                 ///< of the nerve
-  scene::MrReadings readings;                                    ///< of the voxels
-  scene::TracedTubes tubes;                                      ///< among the voxels
-  Sentences doubts;                                              ///< of what was done
-  bool isGrown = false; ///< from seeds, so that the finished structure is judged (regionTexts)
+  Origin origin;                                                 ///< of the voxels
   std::vector<Step> undo, redo;
   std::uint64_t changes = 0;                              ///< steps ever made
   std::optional<std::pair<Pieces, std::uint64_t>> pieces; ///< and `changes` by then
@@ -568,13 +551,13 @@ void SegmentEditor::followNames()
   };
   const auto followIn = [&follow](Draft& draft)
   {
-    follow(draft.readings);
+    follow(draft.origin.readings);
     for (auto* steps : {&draft.undo, &draft.redo})
       for (Draft::Step& step : *steps)
-        if (step.readings)
+        if (step.origin)
         {
-          follow(step.readings->first);
-          follow(step.readings->second);
+          follow(step.origin->first.readings);
+          follow(step.origin->second.readings);
         }
   };
   followIn(*m_draft);
@@ -608,12 +591,18 @@ void SegmentEditor::followEdited()
 void SegmentEditor::nameDraft(const std::string& name)
 {
   const std::string before = std::exchange(m_draft->name, name);
-  const bool isOtherWidth =
-      !m_values.tubeRadius && segmentation::widestFor(before) != segmentation::widestFor(name);
-  if (m_tool == Tool::Nerve && needsPreview() &&
-      (isOtherWidth || lumenOf(before, display(), isSourceMr()).has_value() !=
-                           lumenOf(name, display(), isSourceMr()).has_value()))
+  if (m_tool != Tool::Nerve || !needsPreview())
+    return;
+  const segmentation::TubeOptions was = tubeOptionsFor(before);
+  const segmentation::TubeOptions now = tubeOptionsFor(name);
+  if ((!now.radius && was.widest != now.widest) || was.lumen.has_value() != now.lumen.has_value())
     outdate();
+}
+
+segmentation::TubeOptions SegmentEditor::tubeOptionsFor(const std::string& name) const
+{
+  return segmentation::tubeOptionsFor(name, m_values.tubeRadius,
+                                      display().hounsfield && !isSourceMr());
 }
 
 void SegmentEditor::mrMoved()
@@ -754,8 +743,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
   touched();
   return [this, draft = m_draft, labels = scene::labelsOnCt(m_model.value(), *part),
           map = part->labels.get(), index = found->index, look = found->look, structure,
-          readings = readingsOf(m_model.value(), *part, *found), tubes = found->tubes,
-          notes = notesOf(*part, structure),
+          origin = originOf(m_model.value(), *part, *found),
           volume = static_cast<double>(found->voxels) *
                    part->labels.get()->voxels->geometry().voxelVolume(),
           ct = m_model.value().ct.geometry, primary = std::string(primaryName(m_model.value()))](
@@ -768,7 +756,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
                   core::fixedText(static_cast<double>(mask->count()) * ct.voxelVolume(), 1) +
                   " mm³ for " + core::fixedText(volume, 1) +
                   " mm³. Saving replaces what was drawn.";
-    return [this, draft, mask, map, index, structure, look, resampled, readings, tubes, notes]
+    return [this, draft, mask, map, index, structure, look, resampled, origin]
     {
       if (draft != m_draft)
         return;
@@ -779,10 +767,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
       draft->editedIndex = index;
       draft->resampled = resampled;
       draft->editedLook = look;
-      draft->readings = readings;
-      draft->tubes = tubes;
-      draft->doubts = notes.texts;
-      draft->isGrown = notes.isGrown;
+      draft->origin = origin;
       chooseColor();
       touched();
     };
@@ -1173,7 +1158,7 @@ void SegmentEditor::release()
   else
   {
     step.mask = draft.mask.endStep();
-    draft.read(step, readingsOfStroke(), false);
+    draft.made(step, {readingsOfStroke(), false});
   }
   draft.did(std::move(step));
   touched();
@@ -1370,17 +1355,10 @@ SegmentEditor::Computed SegmentEditor::computed() const
       return preview;
     };
   case Tool::Nerve:
-    return [base, values, image = *m_image, points = m_draft->points,
-            widest = segmentation::widestFor(m_draft->name),
-            usual = segmentation::usualFor(m_draft->name),
-            lumen = lumenOf(m_draft->name, display(), isSourceMr())](const core::Progress& progress)
+    return [base, image = *m_image, points = m_draft->points,
+            options = tubeOptionsFor(m_draft->name)](const core::Progress& progress)
     {
       Preview preview;
-      segmentation::TubeOptions options;
-      options.radius = values.tubeRadius;
-      options.widest = widest;
-      options.usual = usual;
-      options.lumen = lumen;
       Tube tube = traceOnCt(*image.own, image.ownFromCt, points, options, progress.part(0.0, 0.8));
       volume::Segment segment;
       segment.name = "tube";
@@ -1613,7 +1591,7 @@ SegmentEditor::Work SegmentEditor::replacing(const char* what,
         Draft::Step step;
         step.what = what;
         step.mask = changed;
-        draft->read(step, reads.readings, reads.afresh, made);
+        draft->made(step, reads, made);
         if (endsTool)
         {
           if (!draft->seeds.empty())
@@ -1895,14 +1873,8 @@ std::function<void()> SegmentEditor::step(Draft& draft, bool back)
     box = box.united(turn(*draft.beside));
   return [this, draft = &draft, step, back, box]
   {
-    if (step.readings)
-      draft->readings = back ? step.readings->first : step.readings->second;
-    if (step.tubes)
-      draft->tubes = back ? step.tubes->first : step.tubes->second;
-    if (step.doubts)
-      draft->doubts = back ? step.doubts->first : step.doubts->second;
-    if (step.grown)
-      draft->isGrown = back ? step.grown->first : step.grown->second;
+    if (step.origin)
+      draft->origin = back ? step.origin->first : step.origin->second;
     if (step.points)
       draft->points = back ? step.points->first : step.points->second;
     if (step.seeds)
@@ -1966,7 +1938,7 @@ SegmentEditor::Work SegmentEditor::createWork()
   if (const std::string why = whyNotCreate(); !why.empty())
     throw core::InvalidParameter(why);
   const std::optional<Mask> preview = m_preview ? m_preview->result : std::nullopt;
-  const Preview::Made made = m_preview ? m_preview->made : Preview::Made();
+  const Origin made = m_preview ? m_preview->made : Origin();
   beginStep();
   volume::Segment segment;
   segment.name = m_draft->name;
@@ -1989,7 +1961,7 @@ SegmentEditor::Work SegmentEditor::createWork()
         Draft::Step step;
         step.what = what;
         step.mask = changed;
-        draft->read(step, reads.readings, reads.afresh, made);
+        draft->made(step, reads, made);
         draft->did(std::move(step));
       };
     }
@@ -1999,14 +1971,14 @@ SegmentEditor::Work SegmentEditor::createWork()
         return;
       endStep();
       dropPreview();
-      Sentences notes = draft->doubts;
-      if (draft->isGrown)
+      Sentences notes = draft->origin.doubts;
+      if (draft->origin.isGrown)
         notes.insert(notes.end(), region.begin(), region.end());
       std::optional<scene::LabelPart> replaced;
       try
       {
         replaced = m_model.addStructure(std::move(*labels), draft->edited, readingsOfDraft(),
-                                        draft->tubes, notes);
+                                        draft->origin.tubes, notes);
       }
       catch (const core::InvalidParameter& error) // its name has been taken meanwhile
       {
@@ -2035,7 +2007,7 @@ SegmentEditor::Work SegmentEditor::createWork()
 // An MR that was removed meanwhile may come back, or another one of its name.
 scene::MrReadings SegmentEditor::readingsOfDraft() const
 {
-  scene::MrReadings readings = m_draft->readings;
+  scene::MrReadings readings = m_draft->origin.readings;
   for (scene::MrReading& reading : readings)
     reading.isGone = reading.isGone || !scene::findMr(m_model.value(), reading.mr);
   return readings;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -14,11 +13,11 @@
 #include "petrous/Core/NumberText.h"
 #include "petrous/Presenters/Measuring.h"
 #include "petrous/Presenters/SceneAssembly.h"
+#include "petrous/Rendering/SceneField.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Volume/LabelBorders.h"
 #include "petrous/Volume/MeshInside.h"
 #include "petrous/Volume/MeshTree.h"
-#include "petrous/Volume/TissueField.h"
 
 namespace petrous::presenters
 {
@@ -31,6 +30,7 @@ using Eigen::Vector3d;
 constexpr double kAhead = 3.0;    // mm: a corner of the line is seen to come
 constexpr double kShortest = 1.0; // mm that the cameras of a flight are apart at least
 constexpr double kSampling = 0.1; // mm along the line
+constexpr char kStep[] = "looking for a free way";
 
 void checkFrames(int frames)
 {
@@ -113,21 +113,34 @@ struct Here
 class Surroundings
 {
 public:
-  Surroundings(const scene::Case& value, const rendering::SceneContents& contents)
-    : m_labels(contents.labels)
-    , m_bone(contents.ct, {}, contents.mask,
-             {contents.boneShown ? contents.iso : kNoBone, scene::kFieldScale})
-    , m_structures(contents.ct,
-                   contents.labels && contents.labels->occupancy
-                       ? std::vector<volume::TissueField::SolidUnion>{contents.labels->occupancy}
-                       : std::vector<volume::TissueField::SolidUnion>{},
-                   contents.mask, {kNoBone, scene::kFieldScale})
+  Surroundings(const scene::Case& value, const rendering::SceneContents& contents,
+               const core::Progress& progress)
+    : m_bone(rendering::boneField(contents))
+    , m_structures(rendering::structureField(contents))
   {
-    for (const scene::StructurePart* part :
-         scene::labelSources(value, [](const auto& look) { return look.shown; }).structures)
-      m_names.push_back(part->name);
+    takeNames(value, contents);
     for (const rendering::MeshContents& mesh : contents.meshes)
-      m_meshes.push_back({mesh.name, volume::MeshTree(*mesh.mesh), volume::MeshInside(*mesh.mesh)});
+    {
+      const double done = static_cast<double>(m_meshes.size());
+      progress.report(done / static_cast<double>(contents.meshes.size()), kStep);
+      volume::MeshTree tree(*mesh.mesh);
+      progress.check(kStep);
+      m_meshes.push_back({mesh.name, std::move(tree), volume::MeshInside(*mesh.mesh)});
+    }
+  }
+
+  /// Structures and meshes were hidden since; the meshes that stay are as they were.
+  void hide(const scene::Case& value, const rendering::SceneContents& contents)
+  {
+    m_structures = rendering::structureField(contents);
+    takeNames(value, contents);
+    const auto isHidden = [&](const Mesh& mesh)
+    {
+      return std::none_of(contents.meshes.begin(), contents.meshes.end(),
+                          [&](const rendering::MeshContents& one)
+                          { return one.name == mesh.name; });
+    };
+    m_meshes.erase(std::remove_if(m_meshes.begin(), m_meshes.end(), isHidden), m_meshes.end());
   }
 
   Here around(const Vector3d& point) const
@@ -171,14 +184,21 @@ public:
   }
 
 private:
-  static constexpr double kNoBone = 1e300; // HU
-
   struct Mesh
   {
     std::string name;
     volume::MeshTree tree;
     volume::MeshInside inside;
   };
+
+  void takeNames(const scene::Case& value, const rendering::SceneContents& contents)
+  {
+    m_labels = contents.labels;
+    m_names.clear();
+    for (const scene::StructurePart* part :
+         scene::labelSources(value, [](const auto& look) { return look.shown; }).structures)
+      m_names.push_back(part->name);
+  }
 
   std::string structureAt(const Vector3d& point) const
   {
@@ -270,7 +290,7 @@ Flight flightAlong(scene::Case& value, const std::string& structure, int frames,
                    const core::Progress& progress)
 {
   checkFrames(frames);
-  const Polyline line(alongStructure(value, structure, {}, progress.part(0.0, 0.4)).points);
+  const Polyline line(alongStructure(value, structure, {}, progress.part(0.0, 0.3)).points);
   if (scene::StructurePart* part = scene::findStructure(value, structure))
     part->look.shown = false;
   else if (scene::MeshPart* mesh = scene::findMesh(value, structure))
@@ -279,12 +299,16 @@ Flight flightAlong(scene::Case& value, const std::string& structure, int frames,
   Flight flight;
   flight.length = line.length();
   SceneAssembly assembly;
-  std::optional<Surroundings> drawn;
-  drawn.emplace(value, assembly.contents(value, progress.part(0.4, 0.7)));
+  Surroundings drawn(value, assembly.contents(value, progress.part(0.3, 0.5)),
+                     progress.part(0.5, 0.6));
   std::vector<Here> here; // every kSampling; also straight ahead of the line's end
   const int samples = static_cast<int>((line.length() + kAhead) / kSampling);
+  const core::Progress sampling = progress.part(0.6, 0.8);
   for (int n = 0; n <= samples; ++n)
-    here.push_back(drawn->around(line.at(n * kSampling)));
+  {
+    sampling.report(static_cast<double>(n) / (samples + 1), kStep);
+    here.push_back(drawn.around(line.at(n * kSampling)));
+  }
   Stretch free = longestFree(here);
   const auto refuseUnlessLong = [&](const char* closed)
   {
@@ -315,18 +339,22 @@ Flight flightAlong(scene::Case& value, const std::string& structure, int frames,
       mesh->look.shown = false;
   }
   for (int n = free.first; n <= free.last && value.softTissue.shown; n += 5)
+  {
+    progress.check(kStep);
     if (drawsSoftFace(value, line.at(n * kSampling)))
     {
       flight.softTissueHidden = true;
       value.softTissue.shown = false;
     }
+  }
   if (!flight.hidden.empty())
-    drawn.emplace(value, assembly.contents(value, progress.part(0.7, 1.0)));
+    drawn.hide(value, assembly.contents(value, progress.part(0.8, 0.95)));
 
   const auto showsSomething = [&](int n)
   {
+    progress.check(kStep);
     const Vector3d from = line.at(n * kSampling);
-    return drawn->fillsView(from, (line.at(n * kSampling + kAhead) - from).normalized());
+    return drawn.fillsView(from, (line.at(n * kSampling + kAhead) - from).normalized());
   };
   int first = free.first;
   int last = free.last - end;

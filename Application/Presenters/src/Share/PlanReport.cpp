@@ -1254,10 +1254,8 @@ private:
       texts.push_back(say(provenance.areEarsMasked ? "face and auricles masked" : "face masked"));
     if (provenance.isCropped)
       texts.push_back(say("cropped to a region"));
-    if (provenance.assumedRas)
-      texts.push_back(sidesText(*provenance.assumedRas));
-    if (!provenance.axes.isIdentity())
-      texts.push_back(say(correctedAxesText(provenance.axes)));
+    for (const std::string& text : axesTexts(provenance.assumedRas, provenance.axes))
+      texts.push_back(say(text));
     if (provenance.pixels.isLossy)
       texts.push_back(say("compressed with loss") +
                       (provenance.pixels.lossyRatio
@@ -1270,23 +1268,11 @@ private:
     return texts;
   }
 
-  std::string sidesText(bool assumedRas) const
-  {
-    return filled(say("left and right taken as %1 axes, as the file does not say which side of the "
-                      "patient is left"),
-                  assumedRas ? "RAS" : "LPS");
-  }
-
   std::vector<std::string> placeGuessesOf(const scene::LabelPart& part) const
   {
-    std::vector<std::string> texts;
-    if (part.provenance.assumedRas)
-      texts.push_back(sidesText(*part.provenance.assumedRas));
-    if (!part.provenance.axes.isIdentity())
-      texts.push_back(say(correctedAxesText(part.provenance.axes)));
-    if (part.provenance.isFrameAssumed)
-      texts.push_back(say("not known to be in the frame of reference of the image on which it is "
-                          "shown"));
+    std::vector<std::string> texts = provenanceTexts(part);
+    for (std::string& text : texts)
+      text = say(text);
     return texts;
   }
 

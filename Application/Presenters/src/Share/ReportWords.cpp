@@ -190,10 +190,6 @@ const std::map<std::string, std::string>& germanTexts()
       {"gantry tilt of %1 degrees undone, slices shifted by up to %2 mm",
        "Gantry-Neigung von %1 Grad rückgängig gemacht, Schichten um bis zu %2 mm verschoben"},
       {"slices shifted sideways by up to %1 mm", "Schichten um bis zu %1 mm seitlich verschoben"},
-      {"left and right taken as %1 axes, as the file does not say which side of the patient is "
-       "left",
-       "links und rechts als %1-Achsen genommen, da die Datei nicht sagt, welche Seite des "
-       "Patienten links ist"},
       {"compressed with loss", "verlustbehaftet komprimiert"},
       {"text in the pixels", "Text in den Pixeln"},
       {"perhaps text in the pixels", "vielleicht Text in den Pixeln"},

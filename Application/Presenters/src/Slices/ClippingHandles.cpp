@@ -79,6 +79,58 @@ std::optional<CutLine> lineInSlice(const Clipping::Plane& plane, const SliceGeom
   return line;
 }
 
+std::vector<Eigen::Vector2d> endsOf(const CutLine& line)
+{
+  constexpr double kInset = 30.0; // px
+  const double length = (line.to - line.from).norm();
+  if (!(length > 4.0 * kInset))
+    return {};
+  const Eigen::Vector2d inset = kInset / length * (line.to - line.from);
+  return {line.from + inset, line.to - inset};
+}
+
+std::optional<CutPart> partAt(const CutLine& line, const Eigen::Vector2d& pixel, double reach)
+{
+  for (const Eigen::Vector2d& end : endsOf(line))
+    if ((pixel - end).norm() < reach)
+      return CutPart::End;
+  const Eigen::Vector2d along = (line.to - line.from).normalized();
+  const double on = along.dot(pixel - line.from);
+  const bool isBeside = on >= 0.0 && on <= (line.to - line.from).norm();
+  return isBeside && std::abs(line.kept.dot(pixel - line.from)) < reach
+             ? std::optional(CutPart::Line)
+             : std::nullopt;
+}
+
+Eigen::Vector3d pivotInSlice(const Clipping::Plane& plane, const core::GridGeometry& grid,
+                             const SliceGeometry& slice)
+{
+  const CutLine line = lineInSlice(plane, slice).value();
+  const Eigen::Vector2d length = line.to - line.from;
+  const Eigen::Vector2d handle = slice.pixelFromPatient(planeCenter(plane, grid));
+  const double share =
+      std::clamp(length.dot(handle - line.from) / length.squaredNorm(), 0.25, 0.75);
+  const Eigen::Vector2d pixel = line.from + share * length;
+  return slice.patientFromPixel(pixel[0], pixel[1]);
+}
+
+Clipping::Plane turnedPlane(const Clipping::Plane& plane, const Eigen::Vector3d& axis,
+                            const Eigen::Vector3d& through, double radians,
+                            const core::GridGeometry& grid)
+{
+  const Eigen::AngleAxisd turn(radians, axis);
+  return movedPlane({through + turn * (plane.point - through), (turn * plane.normal).normalized()},
+                    0.0, grid);
+}
+
+double draggedAngle(const Eigen::Vector3d& axis, const Eigen::Vector3d& through,
+                    const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+{
+  const auto across = [&](const Eigen::Vector3d& point) -> Eigen::Vector3d
+  { return point - through - axis.dot(point - through) * axis; };
+  return std::atan2(axis.dot(across(from).cross(across(to))), across(from).dot(across(to)));
+}
+
 std::optional<double> depthOf(const Clipping::Plane& plane, const core::GridGeometry& grid,
                               const interaction::TissueQuery& tissue)
 {

@@ -356,12 +356,7 @@ core::IndexBox RayCaster::tissueOnScreen(const Frame& frame, int width, int heig
     return {};
   constexpr double margin = 0.01; // voxels; exceeds the error of single precision
   const RayView& view = frame.view;
-  Eigen::Matrix3d axes;
-  if (view.parallel)
-    axes << view.originX, view.originY, view.direction;
-  else
-    axes << view.directionX, view.directionY, view.direction;
-  const Eigen::Matrix3d inverse = axes.inverse();
+  const Eigen::Matrix3d inverse = view.axes().inverse();
   Eigen::Array2d least = Eigen::Array2d::Constant(1e30);
   Eigen::Array2d most = -least;
   for (int corner = 0; corner < 8; ++corner)

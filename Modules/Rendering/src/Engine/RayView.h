@@ -24,6 +24,15 @@ struct RayView
 
   /// View depth from z in -1..1: [1] / (z + [0]) in perspective, [2] + [3] z in parallel.
   Eigen::Vector4d depth = Eigen::Vector4d::Zero();
+
+  /// A point at x, y and view depth t is origin + axes (x t, y t, t); in parallel, at t along
+  /// `direction`, origin + axes (x, y, t).
+  Eigen::Matrix3d axes() const
+  {
+    Eigen::Matrix3d axes;
+    axes << (parallel ? originX : directionX), (parallel ? originY : directionY), direction;
+    return axes;
+  }
 };
 
 /// From a camera's view and projection matrices (OpenGL conventions, column vectors) and the pose

@@ -93,11 +93,7 @@ std::optional<RayCaster::Fovea> foveaOf(const vtkPetrousVolumeMapper::Fovea& wan
                                         const RayCaster::Frame& frame)
 {
   const RayView& view = frame.view;
-  Eigen::Matrix3d axes;
-  if (view.parallel)
-    axes << view.originX, view.originY, view.direction;
-  else
-    axes << view.directionX, view.directionY, view.direction;
+  const Eigen::Matrix3d axes = view.axes();
   const Eigen::Vector3d at = axes.inverse() * (wanted.center - view.origin);
   const double depth = view.parallel ? 1.0 : at.z();
   const double pixels = 0.5 * frame.width / (axes.col(0).norm() * depth); // a mm

@@ -1,4 +1,4 @@
-#include "ClippedRegion.h"
+#include "petrous/Rendering/ClippedRegion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,6 +83,13 @@ void ClippedRegion::keep(const ClippingPlane& plane, bool isCut)
 {
   const Eigen::Vector3d unit = plane.normal.normalized();
   m_sides.push_back({unit, -unit.dot(plane.point), isCut});
+}
+
+bool ClippedRegion::contains(const Eigen::Vector3d& patient) const
+{
+  return !m_empty && std::all_of(m_sides.begin(), m_sides.end(),
+                                 [&patient](const HalfSpace& side)
+                                 { return side.inwards.dot(patient) + side.offset >= 0.0; });
 }
 
 RaySpan ClippedRegion::clip(const PixelRay& ray) const

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "ClippedRegion.h"
 #include "OpticalModel.h"
+#include "petrous/Rendering/ClippedRegion.h"
 #include "petrous/Rendering/PixelRays.h"
 #include "petrous/Rendering/SceneContents.h"
 #include "petrous/Volume/CutMask.h"

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "ClippedRegion.h"
 #include "OpticalModel.h"
 #include "TissueOptics.h"
+#include "petrous/Rendering/ClippedRegion.h"
 #include "petrous/Volume/MeshInside.h"
 #include "petrous/Volume/MeshTree.h"
 

@@ -5,6 +5,7 @@
 
 #include "SceneCheck.h"
 #include "petrous/Rendering/RenderingError.h"
+#include "petrous/Rendering/SceneField.h"
 #include "petrous/Rendering/ThicknessColor.h"
 #include "petrous/Volume/Sampling.h"
 
@@ -15,7 +16,6 @@ namespace
 {
 
 constexpr double kScale = 1000.0; // HU; only the unit of f
-constexpr double kNoBone = 1e300; // HU; iso value above all bone
 
 const SceneContents& checked(const SceneContents& contents)
 {
@@ -24,17 +24,6 @@ const SceneContents& checked(const SceneContents& contents)
   checkContents(contents);
   checkMaterials(contents);
   return contents;
-}
-
-volume::TissueField makeField(const SceneContents& contents)
-{
-  std::vector<volume::TissueField::SolidUnion> solids;
-  if (contents.labels)
-    solids.push_back(contents.labels->occupancy);
-  return {contents.ct,
-          std::move(solids),
-          contents.mask,
-          {contents.boneShown ? contents.iso : kNoBone, kScale}};
 }
 
 } // namespace
@@ -56,7 +45,7 @@ TissueOptics::TissueOptics(const SceneContents& contents, int sample)
   , m_light(contents.light)
   , m_thickness(contents.thickness)
   , m_section(contents.section)
-  , m_field(makeField(contents))
+  , m_field(sceneField(contents))
   , m_aside(optics::asideOf(m_ct->geometry(), sample))
 {
   if (m_materials.empty())

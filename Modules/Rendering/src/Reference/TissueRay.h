@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "ClippedRegion.h"
 #include "SurfaceShadows.h"
 #include "TissueOptics.h"
+#include "petrous/Rendering/ClippedRegion.h"
 
 namespace petrous::rendering
 {

@@ -24,12 +24,12 @@
 #include <vtk_glew.h>
 
 #include "CameraPlacement.h"
-#include "ClippedRegion.h"
 #include "DrilledMesh.h"
 #include "MeshCaps.h"
 #include "OpticalModel.h"
 #include "SceneCheck.h"
 #include "SurfaceActor.h"
+#include "petrous/Rendering/ClippedRegion.h"
 #include "petrous/Rendering/PixelSamples.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
 #include "petrous/Rendering/RenderQuality.h"

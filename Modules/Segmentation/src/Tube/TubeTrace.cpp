@@ -575,6 +575,18 @@ std::optional<double> usualFor(std::string_view name)
                                            : std::nullopt;
 }
 
+TubeOptions tubeOptionsFor(std::string_view name, const std::optional<double>& radius,
+                           bool isHounsfieldCt)
+{
+  TubeOptions options;
+  options.radius = radius;
+  options.widest = widestFor(name);
+  options.usual = usualFor(name);
+  if (isHounsfieldCt)
+    options.lumen = lumenFor(name);
+  return options;
+}
+
 std::size_t insertionIndex(const Tube& tube, const Vector3d& point)
 {
   constexpr double kHardlyLonger = 0.3; // of the distance from the nearer end: turns up to 45 deg

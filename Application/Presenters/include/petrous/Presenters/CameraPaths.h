@@ -39,7 +39,8 @@ struct Flight
 /// at its end. Structures, meshes and soft tissue in its way are hidden in `value`; one that closes
 /// only the last 3 mm of either end, such as an eardrum, stays, and the flight stops before it. At
 /// both ends cameras are left out that would see next to nothing. Clipping is not taken into
-/// account. Throws InvalidParameter also where no such stretch is 4 mm long.
+/// account. Throws InvalidParameter also where no such stretch is 4 mm long, and CancelledError
+/// within some milliseconds, but while images are read or a mesh is sorted.
 Flight flightAlong(scene::Case& value, const std::string& structure, int frames,
                    const core::Progress& progress = {});
 

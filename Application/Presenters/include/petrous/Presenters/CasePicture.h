@@ -3,12 +3,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "petrous/Core/CameraPose.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Interaction/PickRay.h"
+#include "petrous/Rendering/ClippedRegion.h"
 #include "petrous/Rendering/SceneContents.h"
 #include "petrous/Rendering/StandardViews.h"
 #include "petrous/Scene/Case.h"
@@ -35,11 +35,10 @@ core::CameraPose currentCamera(const scene::Case& value);
 void clip(rendering::SceneContents& contents, const scene::ViewState::Clipping& clipping,
           const core::GridGeometry& grid);
 
-/// Of a line, mm from its origin, what a view shows of the image: the part in the crop box and on
-/// the drawn side of every plane. second <= first: nothing.
-std::pair<double, double> shownPart(const interaction::PickRay& line,
-                                    const scene::ViewState::Clipping& clipping,
-                                    const core::GridGeometry& grid);
+/// What a view shows of the image along a line, as the renderer's rays are clipped.
+rendering::RaySpan shownPart(const interaction::PickRay& line,
+                             const scene::ViewState::Clipping& clipping,
+                             const core::GridGeometry& grid);
 
 /// Lights the scene as a view was saved; nullopt: by the defaults.
 void illuminate(rendering::SceneContents& contents,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,12 +29,14 @@ std::vector<std::string> provenanceTexts(const scene::ImagePart& image);
 /// Likewise of the place of structures.
 std::vector<std::string> provenanceTexts(const scene::LabelPart& part);
 
-/// "left and right taken as RAS axes, .."
-std::string assumedSideText(bool assumedRas);
-
 /// "axes of the file corrected (RPS): what it calls left, back and head is the patient's right,
 /// back and head"
 std::string correctedAxesText(const core::AxesCorrection& axes);
+
+/// That left and right are assumed, "left and right taken as RAS axes, ..", and correctedAxesText:
+/// what of the two is so.
+std::vector<std::string> axesTexts(const std::optional<bool>& assumedRas,
+                                   const core::AxesCorrection& axes);
 
 /// "right", "back", .. of a letter of an AxesCorrection.
 const char* directionText(char letter);

@@ -15,6 +15,11 @@
 #include "petrous/Presenters/SlicePresenter.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
+namespace petrous::segmentation
+{
+struct TubeOptions;
+}
+
 namespace petrous::presenters
 {
 
@@ -237,6 +242,7 @@ private:
   struct Draft;
   struct Created;
   struct SourceImage;
+  struct Origin;
   struct Preview;
   using Points = std::vector<Eigen::Vector3d>;
   // The MRs that a step read, and whether it makes all voxels anew.
@@ -247,6 +253,9 @@ private:
   };
   using Computed = std::function<Preview(const core::Progress&)>;
 
+  segmentation::TubeOptions tubeOptionsFor(const std::string& name) const;
+  static Origin originOf(const scene::Case& value, const scene::LabelPart& part,
+                         const scene::StructurePart& structure);
   bool hasSteps() const;
   bool hasUndoneSteps() const;
   SourceImage& image();

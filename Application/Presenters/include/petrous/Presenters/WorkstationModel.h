@@ -268,8 +268,9 @@ public:
   void redo();
   /// For changes that belong together (EditHistory::hold), and for those made elsewhere.
   EditHistory& edits() noexcept { return m_edits; }
-  /// EditHistory::takeBack: a change that was only tried.
-  void takeBack(std::uint64_t step);
+  /// Takes back the last change if it was made after `before` (EditHistory::last), and only tried,
+  /// in the case that `of` (shownAs) is of. Throws what undo throws.
+  void takeBackTried(std::uint64_t before, std::uint64_t of);
 
   // These put the tool away first; the view that a branch is left with is asked for and shown
   // (WorkstationEvents::viewWanted, viewChanged). Throw as the functions of scene do.

@@ -177,6 +177,11 @@ double widestFor(std::string_view name);
 /// chorda tympani. Of any other unset, also of what is named after them (lumenFor).
 std::optional<double> usualFor(std::string_view name);
 
+/// Options for a structure of this name: widestFor, usualFor and, on a CT in Hounsfield units,
+/// lumenFor. `radius`: TubeOptions::radius.
+TubeOptions tubeOptionsFor(std::string_view name, const std::optional<double>& radius,
+                           bool isHounsfieldCt);
+
 /// The order in which 3 to 12 points make the shortest line, first and last as near to theirs as
 /// possible, if it is shorter than their own order's by more than a quarter: they were probably not
 /// given in their order along the structure. Else empty.

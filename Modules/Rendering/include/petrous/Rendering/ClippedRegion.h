@@ -37,6 +37,7 @@ public:
   explicit ClippedRegion(const std::vector<ClippingPlane>& planes);
 
   RaySpan clip(const PixelRay& ray) const;
+  bool contains(const Eigen::Vector3d& patient) const; ///< with its faces
 
 private:
   struct HalfSpace

@@ -1367,6 +1367,27 @@ core::AxesCorrection follow(const scene::Case& value, const PartSource& source, 
   return followed;
 }
 
+// Corrects the axes of the maps as the user said: about the middle of the image on which each was
+// drawn, so that what lies on parts of its grid keeps its place among the rest. The names of these
+// images, empty for the CT: the maps stay with them also if an MR of their grid comes later.
+std::vector<std::string> correct(const scene::Case& value, const PartSource& source,
+                                 const core::AxesCorrection& axes, imaging::LoadedLabels& loaded)
+{
+  std::vector<std::string> images;
+  for (volume::LabelMap& map : loaded.maps)
+  {
+    const core::GridGeometry& grid = map.voxels->geometry();
+    auto on = drawnOn(value, source, grid);
+    if (!on) // that of labels which alone are wrong
+      on = drawnOn(value, source, axes.applied(grid));
+    images.push_back(on.value_or(""));
+    const scene::ImagePart* mr = scene::findMr(value, images.back());
+    if (!axes.isIdentity())
+      map = volume::onGrid(map, axes.applied(grid, (mr ? *mr : value.ct).geometry.center()));
+  }
+  return images;
+}
+
 void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
                const core::Progress& progress, std::vector<StructureReport>* report)
 {
@@ -1374,6 +1395,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
   const auto& presets = builtInPresets();
   imaging::LoadedLabels loaded;
   scene::LabelProvenance provenance;
+  std::vector<std::string> images; // of each map, where axes were said (correct)
   const bool isStructureSet = imaging::isStructureSet(source.path);
   const bool isDicom = isStructureSet || imaging::isDicomSegmentation(source.path);
   if (isStructureSet)
@@ -1384,32 +1406,34 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     imaging::LabelNaming naming{parts.labelNames, parts.labels.size() == 1};
     if (!source.labelNames.empty())
       naming = {source.labelNames, true};
-    std::vector<imaging::ImageGrid> images;
-    const auto addGrids = [&images](const scene::ImagePart& image)
+    std::vector<imaging::ImageGrid> grids;
+    const auto addGrids = [&grids](const scene::ImagePart& image)
     {
-      images.emplace_back(image.geometry, image.provenance.assumedRas.has_value());
+      grids.emplace_back(image.geometry, image.provenance.assumedRas.has_value());
       if (!image.provenance.axes.isIdentity())
-        images.emplace_back(statedGrid(image), image.provenance.assumedRas.has_value());
+        grids.emplace_back(statedGrid(image), image.provenance.assumedRas.has_value());
     };
     addGrids(value.ct);
     std::for_each(value.mr.begin(), value.mr.end(), addGrids);
-    loaded = imaging::loadLabels(source.path, progress, naming, images, source.assumeRas, 0,
-                                 source.unit);
+    loaded =
+        imaging::loadLabels(source.path, progress, naming, grids, source.assumeRas, 0, source.unit);
     if (!loaded.unitDoubt.likely.empty())
       throw ImageUnitUnclear(source.path, loaded.unitDoubt, "--labels-unit");
     if (loaded.isSideOpen)
       throw ImageSideUnclear(source.path, "--labels-frame");
-    for (volume::LabelMap& map : loaded.maps)
-      if (source.axes && !source.axes->isIdentity())
-        map = volume::onGrid(map, source.axes->applied(map.voxels->geometry()));
+    provenance.axes = source.axes.value_or(core::AxesCorrection());
     SettledFrame frame;
     if (isDicom)
-      frame = settleFrame(value, source, loaded.frameOfReferenceUid,
-                          &loaded.maps.front().voxels->geometry(), salted, loaded.notes);
+    {
+      const core::GridGeometry seen =
+          provenance.axes.applied(loaded.maps.front().voxels->geometry());
+      frame = settleFrame(value, source, loaded.frameOfReferenceUid, &seen, salted, loaded.notes);
+    }
     provenance.isFrameAssumed = frame.isAssumed;
     provenance.assumedRas = loaded.assumedRas;
-    provenance.axes = source.axes.value_or(core::AxesCorrection());
-    if (!source.axes && !frame.isExported)
+    if (source.axes)
+      images = correct(value, source, *source.axes, loaded);
+    else if (!frame.isExported)
       provenance.axes = follow(value, source, isNamed || frame.isStated, loaded);
   }
   if (source.axes && !source.axes->isIdentity())
@@ -1563,7 +1587,8 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     if (part.structures.empty())
       continue;
     part.provenance = provenance;
-    part.drawnOn = drawnOn(value, source, map.voxels->geometry());
+    part.drawnOn = images.empty() ? drawnOn(value, source, map.voxels->geometry())
+                                  : std::optional<std::string>(images[layer - 1]);
     if (part.drawnOn.value_or("").empty() && mayBeUnrepaired(map.voxels->geometry(), value.ct))
       if (const double apart = repairedBy(value.ct); apart > 0.0)
       {

@@ -123,8 +123,8 @@ struct PartOptions
         ->check(oneOf({"lps", "ras"}));
     command
         .add_option("--labels-axes", labelsAxes,
-                    "Likewise of label files, in place of the correction of their image (LPS: they "
-                    "lie where they belong)")
+                    "Likewise of label files, in place of the correction of their image and about "
+                    "its centre (LPS: they lie where they belong)")
         ->type_name("XYZ");
     command.add_flag("--skip-taken", skipTaken,
                      "Of several structures leave out those whose names are in the case already");

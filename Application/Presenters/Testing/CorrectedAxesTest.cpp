@@ -263,6 +263,77 @@ TEST_F(CorrectedAxes, OfLabelsAloneAreTheirOwn)
   EXPECT_EQ(value.labels[0].provenance.axes.letters(), "RPS");
 }
 
+// Cut out of the file's grid, which turns about -0.5, 7.5, 7.5: each place is computed by hand.
+TEST_F(CorrectedAxes, OfLabelsTurnThemAboutTheMiddleOfTheirImage)
+{
+  const core::GridGeometry part({8, 8, 8}, Vector3d::Ones(), Vector3d(-6, 3, 3));
+  m_sources.parts.labels = {labelsOn(part, "incus.nrrd")}; // by the file at -2, 7, 7
+  for (const auto& [letters, place] :
+       {std::pair("RPS", Vector3d(1, 7, 7)), std::pair("LPI", Vector3d(-2, 7, 8)),
+        std::pair("SLA", Vector3d(-1, 8, 6))})
+    for (const char* const ofCt : {"LPS", letters})
+    {
+      m_sources.axes = AxesCorrection::parse(ofCt);
+      m_sources.parts.labels[0].axes = AxesCorrection::parse(letters);
+      const scene::Case value = presenters::buildCase("ear", m_sources, {});
+      EXPECT_LT((placeOf(value.labels.at(0)) - place).norm(), 1e-9)
+          << letters << ": " << placeOf(value.labels.at(0)).transpose();
+      EXPECT_EQ(value.labels[0].provenance.axes.letters(), letters);
+      EXPECT_EQ(value.labels[0].drawnOn, std::string());
+    }
+  // Of a region of the CT it is the region's: x from -8 to -1, its middle -4.5.
+  m_sources.axes = AxesCorrection::parse("RPS");
+  m_sources.roi = core::PatientBox(Vector3d(-8, 2, 3), Vector3d(-1, 13, 12));
+  m_sources.parts.labels = {labelsOn(kFileGrid, "incus.nrrd")}; // by the file at -4, 6, 7
+  m_sources.parts.labels[0].axes = m_sources.axes;
+  const scene::Case region = presenters::buildCase("ear", m_sources, {});
+  ASSERT_LT((region.ct.geometry.center() - Vector3d(-4.5, 7.5, 7.5)).norm(), 1e-9);
+  EXPECT_LT((placeOf(region.labels.at(0)) - Vector3d(-5, 6, 7)).norm(), 1e-9)
+      << placeOf(region.labels[0]).transpose();
+}
+
+TEST_F(CorrectedAxes, OfAFolderOfMasksLeaveTheDistancesBetweenThem)
+{
+  std::filesystem::create_directories(m_folder / "masks");
+  labelsOn(kFileGrid, "masks/incus.nrrd"); // by the file at -4, 6, 7
+  labelsOn(core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d(-6, 3, 3)),
+           "masks/malleus.nrrd"); // at -2, 7, 7
+  m_sources.parts.labels = {{"", m_folder / "masks"}};
+  m_sources.parts.labels[0].axes = m_sources.axes;
+  const scene::Case value = presenters::buildCase("ear", m_sources, {});
+  ASSERT_EQ(value.labels.size(), 2U);
+  for (const scene::LabelPart& one : value.labels)
+  {
+    const std::string& name = one.structures.at(0).name;
+    const Vector3d place = name == "incus" ? Vector3d(3, 6, 7) : Vector3d(1, 7, 7);
+    EXPECT_LT((middleOf(one) - place).norm(), 1e-9) << name << ": " << middleOf(one).transpose();
+  }
+}
+
+TEST_F(CorrectedAxes, OfLabelsOnAnMrTurnThemAboutItsMiddle)
+{
+  const core::GridGeometry grid({9, 9, 11}, Vector3d::Constant(1.5), Vector3d(-30, 20, 10));
+  imaging::writeVolume(m_folder / "mr.nrrd", volume::Volume<std::int16_t>(grid, std::int16_t{7}));
+  m_sources.axes = {};
+  m_sources.parts.mr = {{"t2", m_folder / "mr.nrrd"}}; // its centre is -24, 26, 17.5
+  const core::GridGeometry part({8, 8, 8}, Vector3d::Ones(), Vector3d(-28, 21, 8));
+  for (const core::GridGeometry& drawn : {grid, part}) // at -24, 26, 16 and at -24, 25, 12
+    for (const char* const ofMr : {"LPS", "LPI"})
+    {
+      m_sources.parts.mr[0].axes = AxesCorrection::parse(ofMr);
+      m_sources.parts.labels = {labelsOn(drawn, "tumour.nrrd")};
+      m_sources.parts.labels[0].axes = AxesCorrection::parse("LPI");
+      if (!core::sameGrid(drawn, grid))
+        m_sources.parts.labels[0].drawnOn = "t2";
+      const scene::Case value = presenters::buildCase("ear", m_sources, {});
+      EXPECT_EQ(value.labels.at(0).drawnOn, "t2") << ofMr;
+      const Vector3d place =
+          core::sameGrid(drawn, grid) ? Vector3d(-24, 26, 19) : Vector3d(-24, 25, 23);
+      EXPECT_LT((placeOf(value.labels[0]) - place).norm(), 1e-9)
+          << ofMr << ": " << placeOf(value.labels[0]).transpose();
+    }
+}
+
 TEST_F(CorrectedAxes, OfAnMrAreFollowedByWhatWasDrawnOnIt)
 {
   const core::GridGeometry grid({9, 9, 9}, Vector3d::Constant(1.5), Vector3d(-30, 20, 10));
@@ -291,6 +362,27 @@ TEST_F(CorrectedAxes, OfAnMrAreFollowedByWhatWasDrawnOnIt)
   presenters::addParts(first, parts, {});
   EXPECT_EQ(first.labels.at(0).drawnOn, "t2");
   EXPECT_LT((middleOf(first.labels[0]) - Vector3d(-28.5, 23, 22)).norm(), 1e-9);
+}
+
+// That an MR of their grid comes later moves none.
+TEST_F(CorrectedAxes, ThatWereSaidOfLabelsStay)
+{
+  const core::GridGeometry grid({9, 9, 9}, Vector3d::Constant(1.5), Vector3d(-30, 20, 10));
+  imaging::writeVolume(m_folder / "mr.nrrd", volume::Volume<std::int16_t>(grid, std::int16_t{7}));
+  m_sources.axes = {};
+  m_sources.parts.labels = {labelsOn(grid, "tumour.nrrd")}; // at -24, 26, 16
+  m_sources.parts.labels[0].axes = AxesCorrection();
+  for (const char* const ofMr : {"LPS", "LPI", "SLA"})
+  {
+    scene::Case value = presenters::buildCase("ear", m_sources, {});
+    presenters::PartSources parts;
+    parts.mr = {{"t2", m_folder / "mr.nrrd"}};
+    parts.mr[0].axes = AxesCorrection::parse(ofMr);
+    presenters::addParts(value, parts, {});
+    EXPECT_EQ(value.labels.at(0).drawnOn, std::string()) << ofMr;
+    EXPECT_TRUE(core::sameGrid(value.labels[0].labels.get()->voxels->geometry(), grid)) << ofMr;
+    EXPECT_TRUE(value.labels[0].provenance.axes.isIdentity()) << ofMr;
+  }
 }
 
 TEST_F(CorrectedAxes, AreFollowedInTheCtsFrameOfReference)
@@ -410,4 +502,36 @@ TEST_F(CorrectedAxes, OfAnOpenCaseMakeAnotherOne)
   EXPECT_FALSE(isNoted(back.ct.notes, "axes of the file corrected"));
   EXPECT_FALSE(isNoted(back.labels.at(0).notes, "follows the correction"));
   EXPECT_THROW(presenters::correctedCase(value, {}, "same"), core::InvalidParameter);
+}
+
+// Names are unique, but not in every older case.
+TEST_F(CorrectedAxes, LeaveBehindWhatWasDrawnOnAnMrAlsoIfNamesAreThereTwice)
+{
+  m_sources.axes = {};
+  m_sources.parts.labels = {labelsOn(kFileGrid, "incus.nrrd")};
+  imaging::writeVolume(
+      m_folder / "mr.nrrd",
+      volume::Volume<std::int16_t>(
+          core::GridGeometry({9, 9, 9}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{7}));
+  m_sources.parts.mr = {{"t2", m_folder / "mr.nrrd"}};
+  core::TriangleMesh mesh;
+  mesh.vertices = {{0, 4, 5}, {1, 4, 5}, {0, 5, 5}, {0, 4, 6}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  imaging::writeMesh(m_folder / "nerve.obj", mesh);
+  m_sources.parts.meshes = {{"nerve", m_folder / "nerve.obj", "t2"}};
+  const scene::Case value = presenters::buildCase("ear", m_sources, {});
+  for (const char* const name : {"nerve", "t2"}) // as the mesh on the MR, and as the MR itself
+  {
+    scene::Case older = value;
+    older.labels.at(0).structures.at(0).name = name;
+    older.boneLook.sourceImage = "t2";
+    const scene::Case next =
+        presenters::correctedCase(older, AxesCorrection::parse("RPS"), "corrected");
+    ASSERT_EQ(next.labels.size(), 1U) << name << " lies in the CT";
+    EXPECT_EQ(next.labels[0].structures.at(0).name, name);
+    EXPECT_LT((placeOf(next.labels[0]) - Vector3d(3, 6, 7)).norm(), 1e-9);
+    EXPECT_TRUE(next.meshes.empty()) << name << " lies in the MR";
+    EXPECT_TRUE(next.mr.empty()) << name;
+    EXPECT_TRUE(next.boneLook.sourceImage.empty()) << "there is no MR to read";
+  }
 }

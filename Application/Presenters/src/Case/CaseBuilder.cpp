@@ -496,11 +496,35 @@ core::GridGeometry statedGrid(const scene::ImagePart& image)
   return image.provenance.axes.inverse().applied(image.geometry);
 }
 
-// Of the image, as it is or as its file states it.
+// Whether two grids have the same voxels, with their axes in any order and direction.
+bool haveSameVoxels(const core::GridGeometry& a, const core::GridGeometry& b)
+{
+  constexpr double kNear = 1e-3; // mm, as core::sameGrid
+  const auto along = [](const core::GridGeometry& grid, int axis)
+  {
+    return Eigen::Vector3d(grid.patientFromVoxelLinear().col(axis) *
+                           grid.dims()[static_cast<std::size_t>(axis)]);
+  };
+  const auto isAxisOfB = [&](int axis)
+  {
+    const Eigen::Vector3d of = along(a, axis);
+    for (int other = 0; other < 3; ++other)
+      if (const Eigen::Vector3d one = along(b, other);
+          a.dims()[static_cast<std::size_t>(axis)] == b.dims()[static_cast<std::size_t>(other)] &&
+          std::min((of - one).norm(), (of + one).norm()) <= kNear)
+        return true;
+    return false;
+  };
+  return (a.center() - b.center()).norm() <= kNear && isAxisOfB(0) && isAxisOfB(1) && isAxisOfB(2);
+}
+
+// Of the image, as it is or as its file states it: where these are two, the order and direction of
+// the axes tell them apart.
 bool hasGridOf(const scene::ImagePart& image, const core::GridGeometry& grid)
 {
   return core::sameGrid(grid, image.geometry) ||
-         (!image.provenance.axes.isIdentity() && core::sameGrid(grid, statedGrid(image)));
+         (image.provenance.axes.isIdentity() ? haveSameVoxels(grid, image.geometry)
+                                             : core::sameGrid(grid, statedGrid(image)));
 }
 
 std::vector<std::string> mrOfGrid(const scene::Case& value, const core::GridGeometry& grid)
@@ -790,7 +814,8 @@ void placeOn(scene::Case& value, const scene::ImagePart& mr)
   {
     if (part.drawnOn || !hasGridOf(mr, part.labels.get()->voxels->geometry()))
       continue;
-    if (!core::sameGrid(part.labels.get()->voxels->geometry(), mr.geometry))
+    if (!mr.provenance.axes.isIdentity() &&
+        !core::sameGrid(part.labels.get()->voxels->geometry(), mr.geometry))
     {
       part.labels =
           std::make_shared<const volume::LabelMap>(volume::onGrid(*part.labels.get(), mr.geometry));
@@ -907,22 +932,47 @@ std::optional<std::string> drawnOn(const scene::Case& value, const PartSource& s
   return names.front();
 }
 
-// Whether the voxels are some of those of another grid, or would be beyond its borders.
-bool isOnLatticeOf(const core::GridGeometry& grid, const core::GridGeometry& whole)
+// Voxels that are some of another grid's, or would be beyond its borders.
+struct OnLattice
+{
+  core::IndexBox box;         ///< in the other grid's voxels
+  bool isFromLastTo0 = false; ///< their slices are counted from the other end
+};
+
+// None if they are not, in whichever order and direction their axes have them: files that were
+// saved again in another orientation have the same voxels.
+std::optional<OnLattice> onLatticeOf(const core::GridGeometry& grid,
+                                     const core::GridGeometry& whole)
 {
   constexpr double kNear = 0.02; // voxels
-  const Eigen::Vector3d first = whole.voxelFromPatient(grid.patientFromVoxel({0.0, 0.0, 0.0}));
-  if ((first - first.array().round().matrix()).cwiseAbs().maxCoeff() > kNear)
-    return false;
+  constexpr double kFarthest = 1e6;
+  const Eigen::Vector3d corner = whole.voxelFromPatient(grid.patientFromVoxel({0.0, 0.0, 0.0}));
+  const Eigen::Vector3d first = corner.array().round().matrix();
+  if ((corner - first).cwiseAbs().maxCoeff() > kNear || first.cwiseAbs().maxCoeff() > kFarthest)
+    return std::nullopt;
+  Eigen::Vector3d last = first;
   for (int axis = 0; axis < 3; ++axis)
   {
-    Eigen::Vector3d last = Eigen::Vector3d::Zero();
-    last[axis] = grid.dims()[static_cast<std::size_t>(axis)];
-    const Eigen::Vector3d end = whole.voxelFromPatient(grid.patientFromVoxel(last));
-    if ((end - first - last).cwiseAbs().maxCoeff() > kNear)
-      return false;
+    const double count = grid.dims()[static_cast<std::size_t>(axis)];
+    Eigen::Vector3d end = Eigen::Vector3d::Zero();
+    end[axis] = count;
+    const Eigen::Vector3d along = whole.voxelFromPatient(grid.patientFromVoxel(end)) - corner;
+    int of = 0;
+    along.cwiseAbs().maxCoeff(&of);
+    const double sign = along[of] < 0.0 ? -1.0 : 1.0;
+    if ((along - sign * count * Eigen::Vector3d::Unit(of)).cwiseAbs().maxCoeff() > kNear)
+      return std::nullopt;
+    last[of] += sign * (count - 1.0);
   }
-  return true;
+  OnLattice found;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto a = static_cast<std::size_t>(axis);
+    found.box.lower[a] = static_cast<int>(std::min(first[axis], last[axis]));
+    found.box.upper[a] = static_cast<int>(std::max(first[axis], last[axis])) + 1;
+  }
+  found.isFromLastTo0 = last[2] < first[2];
+  return found;
 }
 
 // Whether what was drawn may be on the slices as they lie in the files. A program that takes them
@@ -933,19 +983,21 @@ bool mayBeUnrepaired(const core::GridGeometry& grid, const scene::ImagePart& ct)
 {
   if (core::sameGrid(grid, ct.geometry))
     return false;
-  if (!isOnLatticeOf(grid, ct.geometry))
+  const auto lies = onLatticeOf(grid, ct.geometry);
+  if (!lies)
     return true;
-  const double first =
-      ct.geometry.voxelFromPatient(grid.patientFromVoxel(Eigen::Vector3d::Zero()))[2];
-  if (std::lround(first) > 0) // not with the first slice
+  const core::IndexBox& box = lies->box;
+  if (box == ct.geometry.fullBox())
     return false;
+  if (box.lower[2] > 0 && !(lies->isFromLastTo0 && box.upper[2] >= ct.geometry.dims()[2]))
+    return false; // with neither the first slice nor, counted from there, the last
   const double aside = std::abs(ct.provenance.shift);
   const Eigen::Vector3d added(std::ceil(aside / ct.geometry.spacing()[0]),
                               std::ceil(aside / ct.geometry.spacing()[1]),
                               volume::sliceCount(ct.provenance.interpolated));
   for (int axis = 0; axis < 3; ++axis)
     if (const int absent = ct.geometry.dims()[static_cast<std::size_t>(axis)] -
-                           grid.dims()[static_cast<std::size_t>(axis)];
+                           box.size()[static_cast<std::size_t>(axis)];
         absent > added[axis])
       return false;
   return true;
@@ -1367,6 +1419,27 @@ core::AxesCorrection follow(const scene::Case& value, const PartSource& source, 
   return followed;
 }
 
+// Corrects the axes of the maps as the user said: about the middle of the image on which each was
+// drawn, so that what lies on parts of its grid keeps its place among the rest. The names of these
+// images, empty for the CT: the maps stay with them also if an MR of their grid comes later.
+std::vector<std::string> correct(const scene::Case& value, const PartSource& source,
+                                 const core::AxesCorrection& axes, imaging::LoadedLabels& loaded)
+{
+  std::vector<std::string> images;
+  for (volume::LabelMap& map : loaded.maps)
+  {
+    const core::GridGeometry& grid = map.voxels->geometry();
+    auto on = drawnOn(value, source, grid);
+    if (!on) // that of labels which alone are wrong
+      on = drawnOn(value, source, axes.applied(grid));
+    images.push_back(on.value_or(""));
+    const scene::ImagePart* mr = scene::findMr(value, images.back());
+    if (!axes.isIdentity())
+      map = volume::onGrid(map, axes.applied(grid, (mr ? *mr : value.ct).geometry.center()));
+  }
+  return images;
+}
+
 void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
                const core::Progress& progress, std::vector<StructureReport>* report)
 {
@@ -1374,6 +1447,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
   const auto& presets = builtInPresets();
   imaging::LoadedLabels loaded;
   scene::LabelProvenance provenance;
+  std::vector<std::string> images; // of each map, where axes were said (correct)
   const bool isStructureSet = imaging::isStructureSet(source.path);
   const bool isDicom = isStructureSet || imaging::isDicomSegmentation(source.path);
   if (isStructureSet)
@@ -1384,32 +1458,34 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     imaging::LabelNaming naming{parts.labelNames, parts.labels.size() == 1};
     if (!source.labelNames.empty())
       naming = {source.labelNames, true};
-    std::vector<imaging::ImageGrid> images;
-    const auto addGrids = [&images](const scene::ImagePart& image)
+    std::vector<imaging::ImageGrid> grids;
+    const auto addGrids = [&grids](const scene::ImagePart& image)
     {
-      images.emplace_back(image.geometry, image.provenance.assumedRas.has_value());
+      grids.emplace_back(image.geometry, image.provenance.assumedRas.has_value());
       if (!image.provenance.axes.isIdentity())
-        images.emplace_back(statedGrid(image), image.provenance.assumedRas.has_value());
+        grids.emplace_back(statedGrid(image), image.provenance.assumedRas.has_value());
     };
     addGrids(value.ct);
     std::for_each(value.mr.begin(), value.mr.end(), addGrids);
-    loaded = imaging::loadLabels(source.path, progress, naming, images, source.assumeRas, 0,
-                                 source.unit);
+    loaded =
+        imaging::loadLabels(source.path, progress, naming, grids, source.assumeRas, 0, source.unit);
     if (!loaded.unitDoubt.likely.empty())
       throw ImageUnitUnclear(source.path, loaded.unitDoubt, "--labels-unit");
     if (loaded.isSideOpen)
       throw ImageSideUnclear(source.path, "--labels-frame");
-    for (volume::LabelMap& map : loaded.maps)
-      if (source.axes && !source.axes->isIdentity())
-        map = volume::onGrid(map, source.axes->applied(map.voxels->geometry()));
+    provenance.axes = source.axes.value_or(core::AxesCorrection());
     SettledFrame frame;
     if (isDicom)
-      frame = settleFrame(value, source, loaded.frameOfReferenceUid,
-                          &loaded.maps.front().voxels->geometry(), salted, loaded.notes);
+    {
+      const core::GridGeometry seen =
+          provenance.axes.applied(loaded.maps.front().voxels->geometry());
+      frame = settleFrame(value, source, loaded.frameOfReferenceUid, &seen, salted, loaded.notes);
+    }
     provenance.isFrameAssumed = frame.isAssumed;
     provenance.assumedRas = loaded.assumedRas;
-    provenance.axes = source.axes.value_or(core::AxesCorrection());
-    if (!source.axes && !frame.isExported)
+    if (source.axes)
+      images = correct(value, source, *source.axes, loaded);
+    else if (!frame.isExported)
       provenance.axes = follow(value, source, isNamed || frame.isStated, loaded);
   }
   if (source.axes && !source.axes->isIdentity())
@@ -1563,7 +1639,8 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     if (part.structures.empty())
       continue;
     part.provenance = provenance;
-    part.drawnOn = drawnOn(value, source, map.voxels->geometry());
+    part.drawnOn = images.empty() ? drawnOn(value, source, map.voxels->geometry())
+                                  : std::optional<std::string>(images[layer - 1]);
     if (part.drawnOn.value_or("").empty() && mayBeUnrepaired(map.voxels->geometry(), value.ct))
       if (const double apart = repairedBy(value.ct); apart > 0.0)
       {

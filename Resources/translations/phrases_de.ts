@@ -5778,10 +5778,6 @@
         <translation>Voxel werden gelesen</translation>
     </message>
     <message>
-        <source>give a region of interest</source>
-        <translation>wählen Sie einen Bereich</translation>
-    </message>
-    <message>
         <source>needs %#1 GB of memory, which the system refuses; close programs or %~2</source>
         <translation>braucht %#1 GB Speicher, die das System verweigert; schließen Sie Programme, oder %~2</translation>
     </message>
@@ -5920,6 +5916,14 @@
     <message>
         <source>breaks off or is damaged within its voxels; copy it again from where it came</source>
         <translation>bricht innerhalb der Voxel ab oder ist dort beschädigt; kopieren Sie sie noch einmal vom Ursprung</translation>
+    </message>
+    <message>
+        <source>export only the part of it around its structures</source>
+        <translation>exportieren Sie nur den Teil um ihre Strukturen</translation>
+    </message>
+    <message>
+        <source>give a region of interest</source>
+        <translation>wählen Sie einen Bereich</translation>
     </message>
     <message>
         <source>holds far more voxels than its header says; export it again from where it came</source>
@@ -8967,6 +8971,10 @@
     <message>
         <source>provenance: interpolated slices must be ranges of the image's slices, from 1, in order and apart</source>
         <translation>Herkunft: interpolierte Schichten müssen Bereiche der Schichten des Bildes sein, ab 1, geordnet und getrennt</translation>
+    </message>
+    <message>
+        <source>provenance: interpolated slices beyond the image must not be fewer than none</source>
+        <translation>Herkunft: interpolierte Schichten außerhalb des Bildes dürfen nicht weniger als keine sein</translation>
     </message>
     <message>
         <source>provenance: burned-in text must be none, suspected or stated</source>

@@ -342,6 +342,50 @@ TEST_F(CaseBuilder, AsksAboutLabelsOnTheGappedStackOfARepairedCt)
   EXPECT_FALSE(isAsked(0, dims[2] - 2, 0)) << "nothing is missing";
 }
 
+// The gap is below the region that was read, which the stack that lacks its slice reaches one
+// millimetre too high.
+TEST_F(CaseBuilder, AsksAboutLabelsOnAStackWithItsGapOutsideOfTheRegion)
+{
+  const core::GridGeometry grid({24, 20, 40}, Vector3d::Ones(), Vector3d::Zero());
+  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{40});
+  for (int k = 0; k < 40; ++k)
+    voxels->at(12, 10, k) = static_cast<std::int16_t>(1000 + k);
+  imaging::SeriesDescription series;
+  series.modality = imaging::SeriesDescription::Modality::Ct;
+  series.studyUid = "1.2.3";
+  series.seriesUid = "1.2.3.4";
+  series.frameOfReferenceUid = "1.2.3.9";
+  const auto folder = m_folder / "gapped";
+  imaging::writeDicomSeries(
+      folder, volume::IntensityVolume(std::shared_ptr<const volume::Volume<std::int16_t>>(voxels)),
+      series);
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    files.push_back(entry.path());
+  ASSERT_EQ(files.size(), 40U);
+  std::sort(files.begin(), files.end());
+  std::filesystem::remove(files[10]);
+  presenters::CaseSources sources;
+  sources.ct = folder;
+  sources.repair = true;
+  const auto isAsked = [&](double from, double to, int slices)
+  {
+    sources.roi = core::PatientBox{Vector3d(0, 0, from), Vector3d(24, 20, to)};
+    auto value = presenters::buildCase("ear", sources, {});
+    const int below =
+        static_cast<int>(std::lround(value.ct.geometry.origin()[2])); // in slices of 1 mm
+    EXPECT_EQ(value.ct.volume.get()->at(12, 10, 0), 1000.0 + below);
+    const auto apart = unrepairedBy(value, {0, 0, -below}, {24, 20, slices});
+    if (apart)
+    {
+      EXPECT_NEAR(*apart, 1.0, 1e-6);
+    }
+    return apart.has_value();
+  };
+  EXPECT_TRUE(isAsked(20, 36, 39));
+  EXPECT_TRUE(isAsked(0, 36, 39)) << "the gap is in the region";
+}
+
 // Slices that repair moved sideways, at their pitch along the normal: the repaired CT is wider.
 TEST_F(CaseBuilder, AsksAboutLabelsOnTheStraightStackOfARepairedCt)
 {

@@ -1714,6 +1714,28 @@ void CaseDocumentController::renamePart(const std::string& name)
     emit statusMessage(tr("“%1” is called “%2” now").arg(shownName(name), shownName(to)));
 }
 
+void CaseDocumentController::correctAxes(const std::string& part)
+{
+  if (!m_model.hasCase() || writing())
+    return;
+  core::AxesCorrection axes;
+  const std::uint64_t shown = m_model.shownAs();
+  try
+  {
+    const QScopedValueRollback<bool> asking(m_asking, true);
+    AxesDialog dialog(m_model.value(), &m_window, part);
+    if (dialog.exec() != QDialog::Accepted || !m_model.hasCase() || m_model.shownAs() != shown)
+      return;
+    axes = dialog.axes();
+  }
+  catch (const std::exception& fault)
+  {
+    return refuse(toString(fault));
+  }
+  if (changeParts([&] { m_model.correctAxes(part, axes); }))
+    emit statusMessage(tr("The axes of “%1” are corrected").arg(shownName(part)));
+}
+
 // One at a time. A request during a run cancels and repeats it, without waiting.
 void CaseDocumentController::prepare()
 {

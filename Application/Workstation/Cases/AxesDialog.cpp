@@ -212,7 +212,7 @@ AxesDialog::AxesDialog(const scene::Case& value, QWidget* parent, std::string pa
   wrapWords(*left);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   m_apply =
-      buttons->addButton(part.empty() ? tr("&Make the corrected case") : tr("&Correct the axes"),
+      buttons->addButton(part.empty() ? tr("&Make the corrected case") : tr("C&orrect the axes"),
                          QDialogButtonBox::AcceptRole);
   m_apply->setObjectName("primary");
   if (part.empty())

@@ -603,9 +603,12 @@ bool CaseDocumentController::chooseSeries(const SourceContent& source, const Pur
     return false;
   const std::vector<presenters::SeriesContent> chosen = dialog.chosen();
   const fs::path naming = presenters::namingFolder(chosen, source.series);
-  for (const presenters::SeriesContent& series : chosen)
+  const std::vector<std::optional<core::AxesCorrection>> axes = dialog.axes();
+  for (std::size_t n = 0; n < chosen.size(); ++n)
   {
+    const presenters::SeriesContent& series = chosen[n];
     Item item{source, purpose.region || dialog.wantsRegion()};
+    item.axes = axes[n];
     item.source.selector = series.selector;
     item.source.content = series.content;
     item.source.name = series.name;
@@ -932,16 +935,20 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
       sources.roi = item.roi;
       sources.assumeRas = item.assumeRas;
       sources.unit = item.unit;
+      sources.axes = item.axes.value_or(core::AxesCorrection());
       continue;
     case Content::Mr:
       sources.parts.mr.push_back({{}, source.path, {}, source.selector, repair});
       sources.parts.mr.back().description = source.description;
+      sources.parts.mr.back().axes = item.axes;
       break;
     case Content::Labels:
       sources.parts.labels.push_back({{}, source.path});
+      sources.parts.labels.back().axes = item.axes;
       break;
     case Content::Mesh:
       sources.parts.meshes.push_back({{}, source.path});
+      sources.parts.meshes.back().axes = item.axes;
       break;
     }
     others.push_back(item);
@@ -965,6 +972,7 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
     sources.assumeRas = mr->assumeRas;
     sources.unit = mr->unit;
     sources.roi = mr->roi;
+    sources.axes = mr->axes.value_or(core::AxesCorrection());
     ct = &mr->source;
     sources.modality = scene::Modality::Mr;
     sources.ct = mr->source.path;

@@ -135,8 +135,9 @@ private:
     presenters::SourceContent source;
     bool region = false;
     std::optional<core::PatientBox> roi = {};
-    std::optional<bool> assumeRas = {}; ///< presenters::CaseSources
-    std::optional<double> unit = {};    ///< likewise
+    std::optional<bool> assumeRas = {};            ///< presenters::CaseSources
+    std::optional<double> unit = {};               ///< likewise
+    std::optional<core::AxesCorrection> axes = {}; ///< presenters::PartSource
     bool isSeen = true; ///< false: chosen by name, and presenters::lookAt has more to say
   };
   /// The case to which parts come, as it is open now.

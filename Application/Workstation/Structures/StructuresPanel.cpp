@@ -217,7 +217,7 @@ void StructuresPanel::addActions()
         if (const QString part = chosen(); !part.isEmpty())
           emit renamingAsked(part);
       });
-  add(tr("Correct the &axes…"), {}, "axesOfPart",
+  add(tr("Correct the &axes of its file…"), {}, "axesOfPart",
       [this]
       {
         if (const QString part = chosen(); !part.isEmpty())

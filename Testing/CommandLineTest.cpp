@@ -1278,7 +1278,7 @@ TEST_F(CommandLine, AxesThatAreWrongAreCorrected)
   EXPECT_TRUE(json("info plain")["ct"]["provenance"]["corrected_axes"].is_null());
   expectRefused("correct-axes plain --axes RPS", 2, "--part");
   expectRefused("correct-axes plain --axes RPS --as both --part incus", 2, "--part");
-  expectRefused("correct-axes plain --axes RPS --part nothing", 4, "nothing");
+  expectRefused("correct-axes plain --axes RPS --part nothing", 3, "nothing");
 
   expectRefused("correct-axes plain --axes LPS --as none", 2, "--axes");
   expectRefused("correct-axes plain --axes RPS --as mirrored", 4, "mirrored");

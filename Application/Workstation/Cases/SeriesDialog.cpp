@@ -6,6 +6,7 @@
 #include <QComboBox>
 #include <QDate>
 #include <QDialogButtonBox>
+#include <QEvent>
 #include <QFile>
 #include <QHeaderView>
 #include <QLabel>
@@ -222,7 +223,18 @@ void SeriesDialog::addAxes(QTreeWidgetItem& line)
     axes->addItem(QString(common.text).remove('&'), words(common.axes.letters()));
     axes->setItemData(axes->count() - 1, common.tip, Qt::ToolTipRole);
   }
+  axes->setFocusPolicy(Qt::StrongFocus);
+  axes->installEventFilter(this);
   m_list->setItemWidget(&line, Axes, axes);
+}
+
+// The wheel scrolls the list, and changes no axes that the pointer happens to be on.
+bool SeriesDialog::eventFilter(QObject* watched, QEvent* event)
+{
+  if (event->type() != QEvent::Wheel)
+    return QDialog::eventFilter(watched, event);
+  event->ignore();
+  return true;
 }
 
 bool SeriesDialog::isChosen(std::size_t series) const

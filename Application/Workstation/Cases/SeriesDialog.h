@@ -31,6 +31,9 @@ public:
   std::vector<std::optional<core::AxesCorrection>> axes() const;
   bool wantsRegion() const; ///< a region of each image is to be chosen before it is read
 
+protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
 private:
   void addAxes(QTreeWidgetItem& line);
   bool isChosen(std::size_t series) const;

@@ -21,6 +21,7 @@
 #include <QStatusBar>
 #include <QTreeView>
 #include <QTreeWidget>
+#include <QWheelEvent>
 
 #include "Banner.h"
 #include "CaseDocumentController.h"
@@ -151,6 +152,10 @@ TEST_F(Import, AxesThatAFileStatesWronglyAreSaidWhereItsSeriesIsChosen)
           line->setCheckState(0, Qt::Checked);
           auto* axes = dynamic_cast<QComboBox*>(list->itemWidget(line, list->columnCount() - 1));
           EXPECT_EQ(axes->currentText(), "as the file states");
+          QWheelEvent wheel(QPointF(4, 4), QPointF(4, 4), {}, {0, -120}, Qt::NoButton, {},
+                            Qt::NoScrollPhase, false);
+          QApplication::sendEvent(axes, &wheel);
+          EXPECT_EQ(axes->currentText(), "as the file states") << "the list is scrolled";
           axes->setCurrentIndex(axes->findData(QString(wanted[static_cast<std::size_t>(n)])));
         }
         dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open)->click();

@@ -1292,6 +1292,16 @@ TEST_F(CommandLine, AxesThatAreWrongAreCorrected)
 
   expectRefused("new none --ct " + ct + " --ct-axes LLS", 2, "--ct-axes");
   expectRefused("new none --ct " + ct + " --labels-axes RPS", 2, "--labels");
+  // A part of the case itself, as its file's --labels-axes.
+  const Outcome own = run("correct-axes plain --axes RPS --part incus --json");
+  ASSERT_EQ(own.code, 0) << own.err;
+  EXPECT_EQ(nlohmann::json::parse(own.out)["labels"][0]["provenance"]["corrected_axes"], "RPS");
+  EXPECT_EQ(json("info plain")["labels"][0]["provenance"]["corrected_axes"], "RPS");
+  EXPECT_TRUE(json("info plain")["ct"]["provenance"]["corrected_axes"].is_null());
+  expectRefused("correct-axes plain --axes RPS", 2, "--part");
+  expectRefused("correct-axes plain --axes RPS --as both --part incus", 2, "--part");
+  expectRefused("correct-axes plain --axes RPS --part nothing", 3, "nothing");
+
   expectRefused("correct-axes plain --axes LPS --as none", 2, "--axes");
   expectRefused("correct-axes plain --axes RPS --as mirrored", 4, "mirrored");
 }

@@ -605,17 +605,37 @@ void addCorrectAxes(CLI::App& app, Context& context)
 {
   struct Options
   {
-    std::string name, axes, as;
+    std::string name, axes, as, part;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = context.addCommand(
-      app, "correct-axes", "Make a case of another one's CT whose file states wrong axes",
+      app, "correct-axes",
+      "Correct the axes that a file states wrongly: make a case of another one's CT, or correct a "
+      "part of a case",
       [options, &context]
       {
         const core::AxesCorrection axes = parseAxes(options->axes, "--axes");
         if (axes.isIdentity())
           throw UsageError("--axes: LPS leaves the axes as they are");
+        if (options->as.empty() == options->part.empty())
+          throw UsageError("give --as for the CT, or --part");
         library::Library library = context.openLibrary();
+        if (!options->part.empty())
+        {
+          scene::Case value = library.open(options->name);
+          const presenters::AxesFollowers followers =
+              presenters::axesFollowers(value, options->part);
+          presenters::correctPart(value, options->part, axes);
+          library.save(value);
+          if (!followers.parts.empty())
+            context.warn("goes along: " + scene::listed(followers.parts));
+          if (!followers.unregistered.empty())
+            context.warn("is to be registered again: " + scene::listed(followers.unregistered));
+          const CaseFacts facts = factsOf(value);
+          printCase(context, value, facts);
+          context.printJson(infoJson(value, facts));
+          return;
+        }
         scene::checkCaseName(options->as);
         library::refuseTakenName(library.folder(), options->as);
         const scene::Case from = library.open(options->name);
@@ -636,7 +656,13 @@ void addCorrectAxes(CLI::App& app, Context& context)
                    "RPS for a mirrored one")
       ->type_name("XYZ")
       ->required();
-  command->add_option("--as", options->as, "Name of the new case")->type_name("NAME")->required();
+  command->add_option("--as", options->as, "Name of the new case, of the CT")->type_name("NAME");
+  command
+      ->add_option(
+          "--part", options->part,
+          "An MR, with what was drawn on it, a structure, with those of its file, or a mesh "
+          "of the case itself")
+      ->type_name("NAME");
 }
 
 void addRemove(CLI::App& app, Context& context)

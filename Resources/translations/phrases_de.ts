@@ -1232,16 +1232,24 @@
         <translation>%#1 von %#2 Instanzen nennen den Patienten anders als die erste: Es ist zweifelhaft, ob alle von einem Patienten sind; vergleichen Sie beim Knoten</translation>
     </message>
     <message>
-        <source>lies in the space of '%1' as its file states it, and follows the correction of its axes (%2)</source>
-        <translation>liegt im Raum von „%1“, wie dessen Datei ihn angibt, und folgt der Korrektur seiner Achsen (%2)</translation>
-    </message>
-    <message>
         <source>axes: LPS leaves them as they are; say where what the file calls left, posterior and superior really points, such as RPS</source>
         <translation>Achsen: LPS lässt sie, wie sie sind; sagen Sie, wohin das wirklich zeigt, was die Datei links, hinten und oben nennt, etwa RPS</translation>
     </message>
     <message>
+        <source>lies in the space of '%1' as its file states it, and follows the correction of its axes (%2)</source>
+        <translation>liegt im Raum von „%1“, wie dessen Datei ihn angibt, und folgt der Korrektur seiner Achsen (%2)</translation>
+    </message>
+    <message>
         <source>correcting the axes</source>
         <translation>Achsen werden korrigiert</translation>
+    </message>
+    <message>
+        <source>the case has no MR, structure or mesh '%1' whose axes could be corrected</source>
+        <translation>der Fall hat kein MR, keine Struktur und kein Netz „%1“, dessen Achsen korrigiert werden könnten</translation>
+    </message>
+    <message>
+        <source>'%1' keeps its axes: strokes of this case record what was removed from it where it lies</source>
+        <translation>„%1“ behält seine Achsen: Striche dieses Falls halten fest, was dort, wo es liegt, davon abgetragen wurde</translation>
     </message>
     <message>
         <source>%1: the %~2 would lie in %3, which is never changed; give it another place</source>
@@ -1762,6 +1770,18 @@
     <message>
         <source>'%1' cannot come back: the MR '%2' on which it was drawn is not in the case any more</source>
         <translation>„%1“ kann nicht zurück: Das MR „%2“, auf dem gezeichnet wurde, ist nicht mehr im Fall</translation>
+    </message>
+    <message>
+        <source>'%1' keeps its axes: what goes with it could not be read</source>
+        <translation>„%1“ behält seine Achsen: Was mitgeht, war nicht zu lesen</translation>
+    </message>
+    <message>
+        <source>axes of %1</source>
+        <translation>Achsen von %1</translation>
+    </message>
+    <message>
+        <source>the axes stay: what was corrected was replaced since</source>
+        <translation>die Achsen bleiben: Was korrigiert wurde, ist inzwischen ersetzt</translation>
     </message>
     <message>
         <source>name of %1</source>
@@ -5786,10 +5806,6 @@
         <translation>Voxel werden gelesen</translation>
     </message>
     <message>
-        <source>give a region of interest</source>
-        <translation>wählen Sie einen Bereich</translation>
-    </message>
-    <message>
         <source>needs %#1 GB of memory, which the system refuses; close programs or %~2</source>
         <translation>braucht %#1 GB Speicher, die das System verweigert; schließen Sie Programme, oder %~2</translation>
     </message>
@@ -5928,6 +5944,14 @@
     <message>
         <source>breaks off or is damaged within its voxels; copy it again from where it came</source>
         <translation>bricht innerhalb der Voxel ab oder ist dort beschädigt; kopieren Sie sie noch einmal vom Ursprung</translation>
+    </message>
+    <message>
+        <source>export only the part of it around its structures</source>
+        <translation>exportieren Sie nur den Teil um ihre Strukturen</translation>
+    </message>
+    <message>
+        <source>give a region of interest</source>
+        <translation>wählen Sie einen Bereich</translation>
     </message>
     <message>
         <source>holds far more voxels than its header says; export it again from where it came</source>
@@ -8975,6 +8999,10 @@
     <message>
         <source>provenance: interpolated slices must be ranges of the image's slices, from 1, in order and apart</source>
         <translation>Herkunft: interpolierte Schichten müssen Bereiche der Schichten des Bildes sein, ab 1, geordnet und getrennt</translation>
+    </message>
+    <message>
+        <source>provenance: interpolated slices beyond the image must not be fewer than none</source>
+        <translation>Herkunft: interpolierte Schichten außerhalb des Bildes dürfen nicht weniger als keine sein</translation>
     </message>
     <message>
         <source>provenance: burned-in text must be none, suspected or stated</source>

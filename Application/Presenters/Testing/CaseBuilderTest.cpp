@@ -372,6 +372,50 @@ TEST_F(CaseBuilder, AsksAboutLabelsOnTheGappedStackOfARepairedCt)
   EXPECT_FALSE(isAsked(0, dims[2] - 2, 0)) << "nothing is missing";
 }
 
+// The gap is below the region that was read, which the stack that lacks its slice reaches one
+// millimetre too high.
+TEST_F(CaseBuilder, AsksAboutLabelsOnAStackWithItsGapOutsideOfTheRegion)
+{
+  const core::GridGeometry grid({24, 20, 40}, Vector3d::Ones(), Vector3d::Zero());
+  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{40});
+  for (int k = 0; k < 40; ++k)
+    voxels->at(12, 10, k) = static_cast<std::int16_t>(1000 + k);
+  imaging::SeriesDescription series;
+  series.modality = imaging::SeriesDescription::Modality::Ct;
+  series.studyUid = "1.2.3";
+  series.seriesUid = "1.2.3.4";
+  series.frameOfReferenceUid = "1.2.3.9";
+  const auto folder = m_folder / "gapped";
+  imaging::writeDicomSeries(
+      folder, volume::IntensityVolume(std::shared_ptr<const volume::Volume<std::int16_t>>(voxels)),
+      series);
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    files.push_back(entry.path());
+  ASSERT_EQ(files.size(), 40U);
+  std::sort(files.begin(), files.end());
+  std::filesystem::remove(files[10]);
+  presenters::CaseSources sources;
+  sources.ct = folder;
+  sources.repair = true;
+  const auto isAsked = [&](double from, double to, int slices)
+  {
+    sources.roi = core::PatientBox{Vector3d(0, 0, from), Vector3d(24, 20, to)};
+    auto value = presenters::buildCase("ear", sources, {});
+    const int below =
+        static_cast<int>(std::lround(value.ct.geometry.origin()[2])); // in slices of 1 mm
+    EXPECT_EQ(value.ct.volume.get()->at(12, 10, 0), 1000.0 + below);
+    const auto apart = unrepairedBy(value, {0, 0, -below}, {24, 20, slices});
+    if (apart)
+    {
+      EXPECT_NEAR(*apart, 1.0, 1e-6);
+    }
+    return apart.has_value();
+  };
+  EXPECT_TRUE(isAsked(20, 36, 39));
+  EXPECT_TRUE(isAsked(0, 36, 39)) << "the gap is in the region";
+}
+
 // Slices that repair moved sideways, at their pitch along the normal: the repaired CT is wider.
 TEST_F(CaseBuilder, AsksAboutLabelsOnTheStraightStackOfARepairedCt)
 {
@@ -573,7 +617,9 @@ TEST_F(CaseBuilder, ADicomSeriesOfABoxHasTheUnitThatAHelicalCtStates)
   const core::GridGeometry grid({40, 40, 40}, Vector3d::Ones(), Vector3d::Zero());
   const auto noise = [](int i, int j, int k, int range)
   { return (i * 7919 + j * 104729 + k * 1299709) % range; };
-  const auto caseOf = [&](const std::string& maker, bool isHelical, std::int16_t fat)
+  // `scanOptions`: of 12 characters, or none.
+  const auto caseOf =
+      [&](const std::string& maker, const std::string& scanOptions, std::int16_t fat)
   {
     auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid, fat);
     for (int k = 0; k < 40; ++k)
@@ -585,7 +631,7 @@ TEST_F(CaseBuilder, ADicomSeriesOfABoxHasTheUnitThatAHelicalCtStates)
     series.studyUid = "1.2.3";
     series.seriesUid = "1.2.3.4";
     series.frameOfReferenceUid = "1.2.3.9";
-    const auto folder = m_folder / (maker + (isHelical ? "helical" : "") + std::to_string(fat));
+    const auto folder = m_folder / (maker + scanOptions + std::to_string(fat));
     imaging::writeDicomSeries(
         folder,
         volume::IntensityVolume(std::shared_ptr<const volume::Volume<std::int16_t>>(voxels)),
@@ -598,11 +644,11 @@ TEST_F(CaseBuilder, ADicomSeriesOfABoxHasTheUnitThatAHelicalCtStates)
       const std::string own = "Petrous ";
       bytes.replace(bytes.find(own), own.size(), maker);
       const std::string number("\x18\x00\x20\x10LO", 6);
-      const std::string options("\x18\x00\x22\x00"
-                                "CS\x0c\x00"
-                                "HELICAL MODE",
-                                20);
-      bytes.insert(bytes.find(number), isHelical ? options : std::string());
+      const std::string options = std::string("\x18\x00\x22\x00"
+                                              "CS\x0c\x00",
+                                              8) +
+                                  scanOptions;
+      bytes.insert(bytes.find(number), scanOptions.empty() ? std::string() : options);
       std::ofstream(entry.path(), std::ios::binary) << bytes;
     }
     presenters::CaseSources sources;
@@ -616,16 +662,19 @@ TEST_F(CaseBuilder, ADicomSeriesOfABoxHasTheUnitThatAHelicalCtStates)
   };
   for (const bool isOwn : {true, false})
   {
-    const auto stated = caseOf(isOwn ? "Petrous " : "Another ", !isOwn, -60);
+    const auto stated = caseOf(isOwn ? "Petrous " : "Another ", isOwn ? "" : "HELICAL MODE", -60);
     EXPECT_EQ(stated.iso, 300.0) << isOwn;
     EXPECT_TRUE(presenters::calibratedScale(stated).calibrated) << isOwn;
     EXPECT_TRUE(says(stated, "The file states that its values are Hounsfield units")) << isOwn;
   }
-  const auto unknown = caseOf("Another ", false, -60);
-  EXPECT_FALSE(presenters::calibratedScale(unknown).calibrated);
-  EXPECT_GT(unknown.iso, 400.0);
+  for (const char* scanOptions : {"", "NON-HELICAL ", "NON SPIRAL  ", "AXIAL MODE  "})
+  {
+    const auto unknown = caseOf("Another ", scanOptions, -60);
+    EXPECT_FALSE(presenters::calibratedScale(unknown).calibrated) << scanOptions;
+    EXPECT_GT(unknown.iso, 400.0) << scanOptions;
+  }
   // Nothing below zero, as of a CT that another program moved to begin at air.
-  const auto moved = caseOf("Another ", true, 100);
+  const auto moved = caseOf("Another ", "HELICAL MODE", 100);
   EXPECT_FALSE(presenters::calibratedScale(moved).calibrated);
 }
 

@@ -20,6 +20,8 @@
 #include "petrous/Presenters/CorrectedCase.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Presenters/SlicePlanes.h"
+#include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Scene/ApplyRegistration.h"
 
 using namespace petrous;
 using core::AxesCorrection;
@@ -534,4 +536,157 @@ TEST_F(CorrectedAxes, LeaveBehindWhatWasDrawnOnAnMrAlsoIfNamesAreThereTwice)
     EXPECT_TRUE(next.mr.empty()) << name;
     EXPECT_TRUE(next.boneLook.sourceImage.empty()) << "there is no MR to read";
   }
+}
+
+// As if the file had been added with --mr-axes: what was drawn on it follows, and is undone.
+TEST_F(CorrectedAxes, OfAnMrOfTheOpenCaseAreCorrectedInIt)
+{
+  const core::GridGeometry grid({9, 9, 9}, Vector3d::Constant(1.5), Vector3d(-30, 20, 10));
+  imaging::writeVolume(m_folder / "mr.nrrd", volume::Volume<std::int16_t>(grid, std::int16_t{7}));
+  auto voxels = volume::makeZeroVolume<std::uint16_t>(grid);
+  voxels->at(1, 2, 0) = 1; // by the file at -28.5, 23, 10; the centre's z is 16
+  imaging::writeLabelFile(m_folder / "tumour.nrrd", volume::makeLabelMap(voxels, {}));
+  core::TriangleMesh mesh; // of the middle at z = 11
+  mesh.vertices = {{-28, 22, 11}, {-27, 22, 11}, {-28, 23, 11}, {-28, 22, 12}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  imaging::writeMesh(m_folder / "cyst.obj", mesh);
+  m_sources.axes = {};
+  m_sources.parts.mr = {{"t2", m_folder / "mr.nrrd"}};
+  m_sources.parts.labels = {{"tumour", m_folder / "tumour.nrrd"},
+                            labelsOn(kFileGrid, "incus.nrrd")};
+  m_sources.parts.meshes = {{"cyst", m_folder / "cyst.obj", "t2"}};
+  library::Library library(m_folder / "library");
+  presenters::WorkstationModel model(library);
+  model.adopt(presenters::buildCase("ear", m_sources, {}));
+  const core::RigidTransform lies{Eigen::Quaterniond::Identity(), {1.0, 2.0, 3.0}};
+  model.changeMr([&](scene::Case& value) { scene::applyRegistration(value, "t2", lies, {}); },
+                 "registration");
+  model.save();
+  const auto at = [&model](const char* name)
+  {
+    for (const scene::LabelPart& part : model.value().labels)
+      if (part.structures.at(0).name == name)
+        return middleOf(part);
+    return Vector3d(Vector3d::Constant(std::nan("")));
+  };
+  const auto expectStated = [&]
+  {
+    const scene::Case& value = model.value();
+    EXPECT_TRUE(core::sameGrid(value.mr.at(0).geometry, grid));
+    EXPECT_TRUE(core::sameGrid(value.mr[0].volume.get()->geometry(), grid));
+    EXPECT_TRUE(value.mr[0].provenance.axes.isIdentity());
+    EXPECT_TRUE(value.mr[0].registered);
+    EXPECT_EQ(value.mr[0].mrFromCt.translation(), lies.translation());
+    EXPECT_LT((at("tumour") - Vector3d(-28.5, 23, 10)).norm(), 1e-6);
+    EXPECT_EQ(value.meshes.at(0).mesh.get()->vertices.at(3).z(), 12.0F);
+    EXPECT_FALSE(isNoted(value.mr[0].notes, "axes of the file corrected"));
+  };
+  const auto expectCorrected = [&]
+  {
+    const scene::Case& value = model.value();
+    EXPECT_EQ(value.mr.at(0).provenance.axes.letters(), "LPI");
+    EXPECT_LT((value.mr[0].geometry.patientFromVoxel({1, 2, 0}) - Vector3d(-28.5, 23, 22)).norm(),
+              1e-6);
+    EXPECT_FALSE(value.mr[0].registered);
+    EXPECT_LT((at("tumour") - Vector3d(-28.5, 23, 22)).norm(), 1e-6);
+    EXPECT_LT((at("incus") - Vector3d(-4, 6, 7)).norm(), 1e-4) << "drawn on the CT";
+    const auto moved = value.meshes.at(0).mesh.get();
+    EXPECT_NEAR(moved->vertices.at(3).z(), 20.0F, 1e-4F);
+    EXPECT_NEAR(moved->signedVolume(), 1.0 / 6.0, 1e-5);
+    EXPECT_TRUE(isNoted(value.mr[0].notes, "axes of the file corrected (LPI)"));
+  };
+  const auto followers = presenters::axesFollowers(model.value(), "t2");
+  EXPECT_EQ(followers.parts, (std::vector<std::string>{"tumour", "cyst"}));
+  EXPECT_EQ(followers.unregistered, std::vector<std::string>{"t2"});
+  model.correctAxes("t2", AxesCorrection::parse("LPI"));
+  expectCorrected();
+  EXPECT_EQ(model.undoText(), "axes of t2");
+  model.undo();
+  expectStated();
+  model.redo();
+  expectCorrected();
+  model.save();
+  const scene::Case saved = library.open("ear");
+  EXPECT_EQ(saved.mr.at(0).provenance.axes.letters(), "LPI");
+  EXPECT_LT(
+      (saved.mr[0].volume.get()->geometry().patientFromVoxel({1, 2, 0}) - Vector3d(-28.5, 23, 22))
+          .norm(),
+      1e-4);
+  // What was taken out comes back to where the MR is by now.
+  model.undo();
+  model.removePart("tumour");
+  model.correctAxes("t2", AxesCorrection::parse("LPI"));
+  model.restorePart();
+  expectCorrected();
+  model.undo();
+  model.undo();
+  model.undo();
+  expectStated();
+  EXPECT_THROW(model.correctAxes("t2", {}), core::InvalidParameter);
+  EXPECT_THROW(model.correctAxes("ct", AxesCorrection::parse("RPS")), core::InvalidParameter);
+  expectStated();
+}
+
+// As of --labels-axes and --mesh-axes.
+TEST_F(CorrectedAxes, OfLabelsAndMeshesOfTheOpenCaseAreCorrectedInIt)
+{
+  auto voxels = volume::makeZeroVolume<std::uint16_t>(kFileGrid);
+  voxels->at(4, 4, 4) = 1; // at -4, 6, 7
+  voxels->at(5, 4, 4) = 2;
+  volume::Segment incus, malleus;
+  incus.name = "incus";
+  incus.index = 1;
+  malleus.name = "malleus";
+  malleus.index = 2;
+  imaging::writeLabelFile(m_folder / "ossicles.seg.nrrd",
+                          volume::makeLabelMap(voxels, {incus, malleus}));
+  core::TriangleMesh mesh;
+  mesh.vertices = {{0, 4, 5}, {1, 4, 5}, {0, 5, 5}, {0, 4, 6}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  imaging::writeMesh(m_folder / "stapes.obj", mesh);
+  m_sources.axes = {};
+  m_sources.parts.labels = {{"", m_folder / "ossicles.seg.nrrd"}};
+  m_sources.parts.meshes = {{"stapes", m_folder / "stapes.obj"}};
+  library::Library library(m_folder / "library");
+  presenters::WorkstationModel model(library);
+  model.adopt(presenters::buildCase("ear", m_sources, {}));
+  EXPECT_EQ(presenters::axesFollowers(model.value(), "incus").parts,
+            std::vector<std::string>{"malleus"});
+  model.removePart("malleus"); // comes back with the map
+  model.correctAxes("incus", AxesCorrection::parse("RPS"));
+  EXPECT_LT((placeOf(model.value().labels.at(0)) - Vector3d(3, 6, 7)).norm(), 1e-9);
+  EXPECT_EQ(model.value().labels[0].provenance.axes.letters(), "RPS");
+  EXPECT_TRUE(isNoted(model.value().labels[0].notes, "axes of the file corrected (RPS)"));
+  EXPECT_TRUE(model.value().ct.provenance.axes.isIdentity());
+  model.restorePart();
+  ASSERT_EQ(model.value().labels.size(), 1U) << "one map";
+  EXPECT_EQ(model.value().labels[0].structures.size(), 2U);
+  model.correctAxes("malleus", AxesCorrection::parse("RPS")); // twice is none
+  EXPECT_TRUE(core::sameGrid(model.value().labels[0].labels.get()->voxels->geometry(), kFileGrid));
+  EXPECT_FALSE(isNoted(model.value().labels[0].notes, "axes of the file corrected"));
+  model.undo();
+  EXPECT_LT((placeOf(model.value().labels.at(0)) - Vector3d(3, 6, 7)).norm(), 1e-9);
+
+  model.correctAxes("stapes", AxesCorrection::parse("RPS"));
+  const auto moved = model.value().meshes.at(0).mesh.get();
+  EXPECT_LT((moved->vertices.at(1) - Eigen::Vector3f(-2, 4, 5)).norm(), 1e-4F);
+  EXPECT_NEAR(moved->signedVolume(), 1.0 / 6.0, 1e-6);
+  model.undo();
+  EXPECT_EQ(model.value().meshes[0].mesh.get()->vertices.at(1).x(), 1.0F);
+
+  // What was removed from it lies where it was drilled.
+  scene::Case drilled = model.value();
+  dissection::Stroke stroke;
+  stroke.info.structures = {{"malleus", 1.0}};
+  drilled.dissection.append(std::make_shared<const dissection::Stroke>(stroke));
+  try
+  {
+    presenters::correctPart(drilled, "incus", AxesCorrection::parse("RPS"));
+    FAIL() << "it has strokes";
+  }
+  catch (const core::Error& error)
+  {
+    EXPECT_EQ(error.fault(), core::Fault::Refused) << error.what();
+  }
+  EXPECT_LT((placeOf(drilled.labels.at(0)) - Vector3d(3, 6, 7)).norm(), 1e-9);
 }

@@ -19,6 +19,7 @@
 #include "WindowTexts.h"
 #include "petrous/Presenters/CorrectedCase.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::workstation
 {
@@ -56,6 +57,44 @@ char opposite(char letter)
   return kLetters[(at - std::begin(kLetters)) ^ 1];
 }
 
+QString listed(const std::vector<std::string>& names)
+{
+  QStringList all;
+  for (const std::string& name : names)
+    all += words(name);
+  return all.join(", ");
+}
+
+QString followText(const presenters::AxesFollowers& followers)
+{
+  QStringList lines;
+  if (!followers.parts.empty())
+    lines += AxesDialog::tr("Goes along: %1").arg(listed(followers.parts));
+  if (!followers.unregistered.empty())
+    lines += AxesDialog::tr("Is to be registered again: %1").arg(listed(followers.unregistered));
+  return lines.join('\n');
+}
+
+// The middle of what is corrected on the image, in its space.
+Eigen::Vector3d middleOf(const scene::Case& image)
+{
+  if (!image.meshes.empty())
+  {
+    const auto bounds = image.meshes.front().mesh.get()->bounds();
+    return 0.5 * (bounds[0] + bounds[1]).cast<double>();
+  }
+  if (!image.labels.empty())
+  {
+    const auto labels = image.labels.front().labels.get();
+    const core::IndexBox box = volume::extentOf(*labels);
+    Eigen::Vector3d middle;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      middle[static_cast<Eigen::Index>(axis)] = 0.5 * (box.lower[axis] + box.upper[axis] - 1);
+    return labels->voxels->geometry().patientFromVoxel(middle);
+  }
+  return image.ct.geometry.center();
+}
+
 QString leftText(const presenters::LeftBehind& left)
 {
   QStringList lines;
@@ -79,7 +118,22 @@ QString leftText(const presenters::LeftBehind& left)
 
 } // namespace
 
-AxesDialog::AxesDialog(const scene::Case& value, QWidget* parent)
+std::array<CommonCorrection, 3> commonCorrections()
+{
+  return {
+      {{AxesDialog::tr("Exchange left and &right"),
+        AxesDialog::tr("Of a mirrored image: the side of the operation is at stake"), "axesMirror",
+        AxesCorrection::parse("RPS")},
+       {AxesDialog::tr("Exchange head and &feet"),
+        AxesDialog::tr("Of an image whose slices are in the wrong order, which mirrors it, too"),
+        "axesHeadFeet", AxesCorrection::parse("LPI")},
+       {AxesDialog::tr("&Turn front to back"),
+        AxesDialog::tr("Half a turn about the long axis, as of a patient who lay face down: "
+                       "front and back are exchanged, and left and right"),
+        "axesTurn", AxesCorrection::parse("RAS")}}};
+}
+
+AxesDialog::AxesDialog(const scene::Case& value, QWidget* parent, std::string part)
   : QDialog(parent)
   , m_image(value)
   , m_views{new SliceView(SliceOrientation::Axial), new SliceView(SliceOrientation::Coronal),
@@ -89,15 +143,19 @@ AxesDialog::AxesDialog(const scene::Case& value, QWidget* parent)
   setObjectName("correctAxes");
   setWindowTitle(tr("Correct the axes"));
   resizeOnScreen(*this, {900, 620});
-  m_image.mr.clear();
-  m_image.labels.clear();
-  m_image.meshes.clear();
+  const presenters::AxesFollowers followers =
+      part.empty() ? presenters::AxesFollowers() : presenters::axesFollowers(value, part);
+  showOnly(value, part);
 
   auto* title = new QLabel(
-      tr("For an image whose file states wrong axes: it is mirrored, or lies otherwise than the "
-         "letters say. What is right becomes a new case; “%1” stays as it is. Which ear it is "
-         "will be asked again.")
-          .arg(words(value.name)));
+      part.empty()
+          ? tr("For an image whose file states wrong axes: it is mirrored, or lies otherwise than "
+               "the letters say. What is right becomes a new case; “%1” stays as it is. Which ear "
+               "it is will be asked again.")
+                .arg(words(value.name))
+          : tr("For a file that states wrong axes: it is mirrored, or lies otherwise than the "
+               "letters say. “%1” is corrected in this case; Ctrl+Z takes that back.")
+                .arg(shownName(part)));
   title->setTextFormat(Qt::PlainText);
   wrapWords(*title);
   auto* form = new QFormLayout;
@@ -119,29 +177,16 @@ AxesDialog::AxesDialog(const scene::Case& value, QWidget* parent)
     m_choices[axis] = choice;
   }
   auto* quick = new QVBoxLayout;
-  const auto addQuick = [&](const QString& text, const char* name, const QString& tip, auto act)
+  for (const CommonCorrection& common : commonCorrections())
   {
-    auto* button = new QPushButton(text);
-    button->setObjectName(name);
-    button->setToolTip(tip);
+    auto* button = new QPushButton(common.text);
+    button->setObjectName(common.name);
+    button->setToolTip(common.tip);
     button->setAutoDefault(false);
-    connect(button, &QPushButton::clicked, this, act);
+    connect(button, &QPushButton::clicked, this,
+            [this, axes = common.axes] { setAxes(axes * m_axes); });
     quick->addWidget(button);
-  };
-  addQuick(tr("Exchange left and &right"), "axesMirror",
-           tr("Of a mirrored image: the side of the operation is at stake"),
-           [this] { exchange('L', 'R'); });
-  addQuick(tr("Exchange head and &feet"), "axesHeadFeet",
-           tr("Of an image whose slices are in the wrong order, which mirrors it, too"),
-           [this] { exchange('S', 'I'); });
-  addQuick(tr("&Turn front to back"), "axesTurn",
-           tr("Half a turn about the long axis, as of a patient who lay face down: front and back "
-              "are exchanged, and left and right"),
-           [this]
-           {
-             exchange('P', 'A');
-             exchange('L', 'R');
-           });
+  }
   auto* choices = new QHBoxLayout;
   choices->addLayout(form, 1);
   choices->addLayout(quick);
@@ -160,14 +205,18 @@ AxesDialog::AxesDialog(const scene::Case& value, QWidget* parent)
   }
   m_kind->setObjectName("axesKind");
   wrapWords(*m_kind);
-  auto* left = new QLabel(leftText(presenters::leftBehind(value)));
+  auto* left =
+      new QLabel(part.empty() ? leftText(presenters::leftBehind(value)) : followText(followers));
   left->setObjectName("axesLeftBehind");
   left->setTextFormat(Qt::PlainText);
   wrapWords(*left);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
-  m_apply = buttons->addButton(tr("&Make the corrected case"), QDialogButtonBox::AcceptRole);
+  m_apply =
+      buttons->addButton(part.empty() ? tr("&Make the corrected case") : tr("C&orrect the axes"),
+                         QDialogButtonBox::AcceptRole);
   m_apply->setObjectName("primary");
-  m_apply->setToolTip(tr("A new case in the library, which is opened"));
+  if (part.empty())
+    m_apply->setToolTip(tr("A new case in the library, which is opened"));
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   auto* layout = new QVBoxLayout(this);
@@ -192,12 +241,47 @@ void AxesDialog::choose(std::size_t axis, char letter)
   setAxes(AxesCorrection::parse(letters));
 }
 
-void AxesDialog::exchange(char one, char other)
+// An MR, and the image on which a structure or a mesh was drawn, are shown as the primary one.
+void AxesDialog::showOnly(const scene::Case& value, const std::string& part)
 {
-  std::string letters = m_axes.letters();
-  for (char& letter : letters)
-    letter = letter == one ? other : letter == other ? one : letter;
-  setAxes(AxesCorrection::parse(letters));
+  m_image.mr.clear();
+  m_image.labels.clear();
+  m_image.meshes.clear();
+  if (part.empty())
+    return;
+  std::string on = part;
+  for (const scene::LabelPart& map : value.labels)
+    for (const scene::StructurePart& one : map.structures)
+      if (one.name == part)
+      {
+        on = scene::placementOf(value, map).drawnOn;
+        m_image.labels = {map};
+        m_part = part;
+      }
+  for (const scene::MeshPart& mesh : value.meshes)
+    if (mesh.name == part)
+    {
+      on = mesh.drawnOn;
+      m_image.meshes = {mesh};
+      m_part = part;
+    }
+  if (const scene::ImagePart* mr = scene::findMr(value, on))
+  {
+    m_image.ct = *mr;
+    m_image.ct.modality = scene::Modality::Mr;
+  }
+  m_image.dissection = {}; // its drawings are shown wherever strokes are
+  for (scene::LabelPart& map : m_image.labels)
+  {
+    map.drawnOn = std::string();
+    for (scene::StructurePart& one : map.structures)
+      one.look.shown = true;
+  }
+  for (scene::MeshPart& mesh : m_image.meshes)
+  {
+    mesh.drawnOn.clear();
+    mesh.look.shown = true;
+  }
 }
 
 void AxesDialog::setAxes(const AxesCorrection& axes)
@@ -213,13 +297,16 @@ void AxesDialog::setAxes(const AxesCorrection& axes)
                   : axes.isMirroring() ? tr("The anatomy is mirrored: a left ear becomes a right "
                                             "one.")
                                        : tr("The anatomy is turned, and not mirrored."));
-  const scene::Case shown =
-      axes.isIdentity() ? m_image : presenters::correctedCase(m_image, axes, m_image.name);
+  scene::Case shown = m_image;
+  if (!axes.isIdentity() && m_part.empty())
+    shown = presenters::correctedCase(m_image, axes, m_image.name);
+  else if (!axes.isIdentity())
+    presenters::correctPart(shown, m_part, axes);
   const auto presenter = std::make_shared<const presenters::SlicePresenter>(shown);
   for (SliceView* view : m_views)
   {
     view->setPresenter(presenter, shown.ct.geometry);
-    view->setCrosshair(shown.ct.geometry.center());
+    view->setCrosshair(middleOf(shown));
   }
 }
 

@@ -603,9 +603,12 @@ bool CaseDocumentController::chooseSeries(const SourceContent& source, const Pur
     return false;
   const std::vector<presenters::SeriesContent> chosen = dialog.chosen();
   const fs::path naming = presenters::namingFolder(chosen, source.series);
-  for (const presenters::SeriesContent& series : chosen)
+  const std::vector<std::optional<core::AxesCorrection>> axes = dialog.axes();
+  for (std::size_t n = 0; n < chosen.size(); ++n)
   {
+    const presenters::SeriesContent& series = chosen[n];
     Item item{source, purpose.region || dialog.wantsRegion()};
+    item.axes = axes[n];
     item.source.selector = series.selector;
     item.source.content = series.content;
     item.source.name = series.name;
@@ -932,16 +935,20 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
       sources.roi = item.roi;
       sources.assumeRas = item.assumeRas;
       sources.unit = item.unit;
+      sources.axes = item.axes.value_or(core::AxesCorrection());
       continue;
     case Content::Mr:
       sources.parts.mr.push_back({{}, source.path, {}, source.selector, repair});
       sources.parts.mr.back().description = source.description;
+      sources.parts.mr.back().axes = item.axes;
       break;
     case Content::Labels:
       sources.parts.labels.push_back({{}, source.path});
+      sources.parts.labels.back().axes = item.axes;
       break;
     case Content::Mesh:
       sources.parts.meshes.push_back({{}, source.path});
+      sources.parts.meshes.back().axes = item.axes;
       break;
     }
     others.push_back(item);
@@ -965,6 +972,7 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
     sources.assumeRas = mr->assumeRas;
     sources.unit = mr->unit;
     sources.roi = mr->roi;
+    sources.axes = mr->axes.value_or(core::AxesCorrection());
     ct = &mr->source;
     sources.modality = scene::Modality::Mr;
     sources.ct = mr->source.path;
@@ -1712,6 +1720,28 @@ void CaseDocumentController::renamePart(const std::string& name)
   if (!to.empty() && to != name &&
       changeParts([this, &name, &to] { m_model.renamePart(name, to); }))
     emit statusMessage(tr("“%1” is called “%2” now").arg(shownName(name), shownName(to)));
+}
+
+void CaseDocumentController::correctAxes(const std::string& part)
+{
+  if (!m_model.hasCase() || writing())
+    return;
+  core::AxesCorrection axes;
+  const std::uint64_t shown = m_model.shownAs();
+  try
+  {
+    const QScopedValueRollback<bool> asking(m_asking, true);
+    AxesDialog dialog(m_model.value(), &m_window, part);
+    if (dialog.exec() != QDialog::Accepted || !m_model.hasCase() || m_model.shownAs() != shown)
+      return;
+    axes = dialog.axes();
+  }
+  catch (const std::exception& fault)
+  {
+    return refuse(toString(fault));
+  }
+  if (changeParts([&] { m_model.correctAxes(part, axes); }))
+    emit statusMessage(tr("The axes of “%1” are corrected").arg(shownName(part)));
 }
 
 // One at a time. A request during a run cancels and repeats it, without waiting.

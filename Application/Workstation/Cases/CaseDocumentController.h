@@ -56,6 +56,8 @@ public:
   std::optional<imaging::UndeclaredBits> askBits(const std::string& why, bool canKeep);
   void restorePart();                       ///< the one that was removed last
   void renamePart(const std::string& name); ///< with a dialog
+  /// Of an MR, a structure's file or a mesh of the open case, with a dialog.
+  void correctAxes(const std::string& part);
 
   /// Any other change of the case's parts, such as an undo: not while parts are being added. Saves
   /// the case. False: it was not done; tells why.
@@ -133,8 +135,9 @@ private:
     presenters::SourceContent source;
     bool region = false;
     std::optional<core::PatientBox> roi = {};
-    std::optional<bool> assumeRas = {}; ///< presenters::CaseSources
-    std::optional<double> unit = {};    ///< likewise
+    std::optional<bool> assumeRas = {};            ///< presenters::CaseSources
+    std::optional<double> unit = {};               ///< likewise
+    std::optional<core::AxesCorrection> axes = {}; ///< presenters::PartSource
     bool isSeen = true; ///< false: chosen by name, and presenters::lookAt has more to say
   };
   /// The case to which parts come, as it is open now.

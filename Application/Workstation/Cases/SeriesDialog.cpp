@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDate>
 #include <QDialogButtonBox>
+#include <QEvent>
 #include <QFile>
 #include <QHeaderView>
 #include <QLabel>
@@ -14,6 +16,7 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
+#include "AxesDialog.h"
 #include "Language.h"
 #include "PanelLayout.h"
 #include "Theme.h"
@@ -36,6 +39,7 @@ enum Column
   Voxel,
   Taken,
   VerdictColumn,
+  Axes, // a QComboBox
   Columns
 };
 
@@ -152,9 +156,14 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
   m_list->setRootIsDecorated(false);
   m_list->setAlternatingRowColors(true);
   m_list->setHeaderLabels({tr("Series"), tr("Position, kernel, folder"), tr("Images"), tr("Voxel"),
-                           tr("Taken"), tr("Geometry")});
+                           tr("Taken"), tr("Geometry"), tr("Axes")});
   for (const SeriesContent& series : m_series)
-    fillLine(*new QTreeWidgetItem(m_list), series, m_series);
+  {
+    auto* line = new QTreeWidgetItem(m_list);
+    fillLine(*line, series, m_series);
+    if (!line->isDisabled())
+      addAxes(*line);
+  }
   constexpr int kWidest = 420; // px, of a column; longer texts are in its tooltip
   m_list->header()->setStretchLastSection(false);
   m_list->header()->setMaximumSectionSize(kWidest);
@@ -201,6 +210,54 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
   resizeOnScreen(*this, {std::max(860, m_list->header()->length() + around), 380});
 }
 
+void SeriesDialog::addAxes(QTreeWidgetItem& line)
+{
+  auto* axes = new QComboBox;
+  axes->setAccessibleName(tr("Axes"));
+  axes->setToolTip(
+      tr("For a file that states wrong axes. What else can be wrong, and how the image "
+         "then looks, is in Case > Correct the axes…"));
+  axes->addItem(tr("as the file states"));
+  for (const CommonCorrection& common : commonCorrections())
+  {
+    axes->addItem(QString(common.text).remove('&'), words(common.axes.letters()));
+    axes->setItemData(axes->count() - 1, common.tip, Qt::ToolTipRole);
+  }
+  axes->setFocusPolicy(Qt::StrongFocus);
+  axes->installEventFilter(this);
+  m_list->setItemWidget(&line, Axes, axes);
+}
+
+// The wheel scrolls the list, and changes no axes that the pointer happens to be on.
+bool SeriesDialog::eventFilter(QObject* watched, QEvent* event)
+{
+  if (event->type() != QEvent::Wheel)
+    return QDialog::eventFilter(watched, event);
+  event->ignore();
+  return true;
+}
+
+bool SeriesDialog::isChosen(std::size_t series) const
+{
+  return m_list->topLevelItem(static_cast<int>(series))->checkState(Series) == Qt::Checked;
+}
+
+std::vector<std::optional<core::AxesCorrection>> SeriesDialog::axes() const
+{
+  std::vector<std::optional<core::AxesCorrection>> all;
+  for (std::size_t n = 0; n < m_series.size(); ++n)
+    if (isChosen(n))
+    {
+      const auto* choice = static_cast<const QComboBox*>(
+          m_list->itemWidget(m_list->topLevelItem(static_cast<int>(n)), Axes));
+      const QString letters = choice->currentData().toString();
+      all.push_back(letters.isEmpty()
+                        ? std::nullopt
+                        : std::optional(core::AxesCorrection::parse(letters.toStdString())));
+    }
+  return all;
+}
+
 // The only sound CT is what is most likely wanted, with the structures that lie below it on its
 // grid; of several sources of structures none, as they may hold the same.
 void SeriesDialog::proposeTicks()
@@ -227,7 +284,7 @@ std::vector<SeriesContent> SeriesDialog::chosen() const
 {
   std::vector<SeriesContent> chosen;
   for (std::size_t n = 0; n < m_series.size(); ++n)
-    if (m_list->topLevelItem(static_cast<int>(n))->checkState(Series) == Qt::Checked)
+    if (isChosen(n))
       chosen.push_back(m_series[n]);
   return chosen;
 }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <QDialog>
 
+#include "petrous/Core/AxesCorrection.h"
 #include "petrous/Presenters/SourceContent.h"
 
 class QCheckBox;
@@ -25,9 +27,16 @@ public:
   SeriesDialog(const presenters::SourceContent& source, bool hasCase, QWidget* parent = nullptr);
 
   std::vector<presenters::SeriesContent> chosen() const;
+  /// Of each of them, where its file is wrong; nullopt: as it states them.
+  std::vector<std::optional<core::AxesCorrection>> axes() const;
   bool wantsRegion() const; ///< a region of each image is to be chosen before it is read
 
+protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
 private:
+  void addAxes(QTreeWidgetItem& line);
+  bool isChosen(std::size_t series) const;
   void proposeTicks();
   void keepOneCt(QTreeWidgetItem& changed);
   void check();

@@ -217,6 +217,12 @@ void StructuresPanel::addActions()
         if (const QString part = chosen(); !part.isEmpty())
           emit renamingAsked(part);
       });
+  add(tr("Correct the &axes of its file…"), {}, "axesOfPart",
+      [this]
+      {
+        if (const QString part = chosen(); !part.isEmpty())
+          emit axesAsked(part);
+      });
   add(tr("Re&move from the case"), Qt::Key_Delete, "removePart",
       [this]
       {

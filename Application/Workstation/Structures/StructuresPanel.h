@@ -53,6 +53,7 @@ signals:
   void selected();                               ///< perhaps others than before
   void removalAsked(const QString& part);
   void renamingAsked(const QString& part);
+  void axesAsked(const QString& part); ///< are to be corrected
 
 protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -3,9 +3,13 @@
 #include <QComboBox>
 #include <QDialog>
 #include <QLabel>
+#include <QMenu>
 #include <QPushButton>
+#include <QTreeView>
 
 #include "AxesDialog.h"
+#include "petrous/Scene/ApplyRegistration.h"
+#include "petrous/Scene/Placement.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -84,4 +88,62 @@ TEST_F(Axes, OfTheOpenCaseAreCorrectedInAnotherOne)
   const scene::Case before = library().open("ear");
   EXPECT_TRUE(before.ct.provenance.axes.isIdentity());
   EXPECT_EQ(before.description.side, scene::Side::Left);
+}
+
+// An MR from the menu and a structure from the list, undone one after the other.
+TEST_F(Axes, OfPartsOfTheOpenCaseAreCorrectedInItAndUndone)
+{
+  scene::Case ball = ballCase("ear");
+  scene::ImagePart mr = ball.ct;
+  mr.name = "T2";
+  ball.mr = {mr};
+  scene::applyRegistration(ball, "T2", {}, {});
+  library().save(ball);
+  openWindow("ear");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  const presenters::WorkstationModel& model = window().model();
+  const auto answer = [this](const char* button, const char* told)
+  {
+    onDialog(
+        [button, told](QDialog& dialog)
+        {
+          if (dialog.objectName() != "correctAxes")
+            return false;
+          EXPECT_EQ(dialog.findChild<QLabel*>("axesLeftBehind")->text(), told);
+          dialog.findChild<QPushButton*>(button)->click();
+          auto* apply = dialog.findChild<QPushButton*>("primary");
+          EXPECT_TRUE(apply->isEnabled());
+          EXPECT_EQ(sharedMnemonics(dialog), QStringList());
+          apply->click();
+          return true;
+        });
+  };
+  answer("axesHeadFeet", "Is to be registered again: T2");
+  // The menu is filled when it is shown.
+  auto* menu = qobject_cast<QMenu*>(action("Correct the axes…")->associatedWidgets().value(0));
+  ASSERT_TRUE(menu);
+  emit menu->aboutToShow();
+  action("Correct the axes of the MR “T2”…")->trigger();
+  ASSERT_TRUE(waitFor([&] { return !model.value().mr[0].provenance.axes.isIdentity(); }));
+  EXPECT_EQ(model.value().mr[0].provenance.axes.letters(), "LPI");
+  EXPECT_FALSE(model.value().mr[0].registered);
+  EXPECT_TRUE(model.value().ct.provenance.axes.isIdentity());
+
+  answer("axesMirror", "");
+  structureList().setCurrentIndex(structureCell("nerve"));
+  structureList().findChild<QAction*>("axesOfPart")->trigger();
+  ASSERT_TRUE(waitFor([&] { return !model.value().labels[0].provenance.axes.isIdentity(); }));
+  EXPECT_EQ(model.value().labels[0].provenance.axes.letters(), "RPS");
+  ASSERT_TRUE(waitFor([this] { return !window().busy() && !window().model().unsaved(); }));
+  const scene::Case saved = library().open("ear");
+  EXPECT_EQ(saved.labels[0].provenance.axes.letters(), "RPS");
+  EXPECT_EQ(saved.mr[0].provenance.axes.letters(), "LPI");
+
+  EXPECT_EQ(model.undoText(), "axes of nerve");
+  action("Undo")->trigger();
+  EXPECT_TRUE(model.value().labels[0].provenance.axes.isIdentity());
+  action("Undo")->trigger();
+  EXPECT_TRUE(model.value().mr[0].provenance.axes.isIdentity());
+  EXPECT_TRUE(model.value().mr[0].registered);
+  EXPECT_TRUE(core::sameGrid(model.value().mr[0].geometry, mr.geometry));
 }

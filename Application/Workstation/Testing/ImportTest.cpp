@@ -1,6 +1,7 @@
 #include "GuiTest.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <locale>
 #include <set>
@@ -20,6 +21,7 @@
 #include <QStatusBar>
 #include <QTreeView>
 #include <QTreeWidget>
+#include <QWheelEvent>
 
 #include "Banner.h"
 #include "CaseDocumentController.h"
@@ -126,6 +128,47 @@ TEST_F(Import, AFolderOfSeveralSeriesAsksWhich)
   EXPECT_GT(value.ct.range.max, 1000.0); // HU: the CT, not the MR
   ASSERT_EQ(value.mr.size(), 1u) << "both were ticked";
   EXPECT_EQ(value.mr[0].name, "T2 3D") << "of “T2 3D inner ear right” what names a sequence";
+}
+
+// Beside the verdict: what `petrous new` has as --ct-axes and --mr-axes.
+TEST_F(Import, AxesThatAFileStatesWronglyAreSaidWhereItsSeriesIsChosen)
+{
+  phantom::SampleOptions options;
+  options.spacing = 1.5;
+  petrous::testing::writeSharedSample(folder() / "visit", options);
+  for (const char* part : {"labels", "labels.seg.nrrd", "meshes"})
+    fs::remove_all(folder() / "visit" / part);
+  openWindow();
+  onDialog(
+      [](QDialog& dialog)
+      {
+        auto* list = dialog.findChild<QTreeWidget*>("series");
+        if (!list)
+          return false;
+        const std::array<const char*, 2> wanted{"RPS", "LPI"}; // of the CT and the MR
+        for (int n = 0; n < 2; ++n)
+        {
+          QTreeWidgetItem* line = list->topLevelItem(n);
+          line->setCheckState(0, Qt::Checked);
+          auto* axes = dynamic_cast<QComboBox*>(list->itemWidget(line, list->columnCount() - 1));
+          EXPECT_EQ(axes->currentText(), "as the file states");
+          QWheelEvent wheel(QPointF(4, 4), QPointF(4, 4), {}, {0, -120}, Qt::NoButton, {},
+                            Qt::NoScrollPhase, false);
+          QApplication::sendEvent(axes, &wheel);
+          EXPECT_EQ(axes->currentText(), "as the file states") << "the list is scrolled";
+          axes->setCurrentIndex(axes->findData(QString(wanted[static_cast<std::size_t>(n)])));
+        }
+        dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open)->click();
+        return true;
+      });
+  dropPath(folder() / "visit");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  const scene::Case& value = window().model().value();
+  ASSERT_EQ(value.mr.size(), 1U);
+  EXPECT_EQ(value.ct.provenance.axes.letters(), "RPS");
+  EXPECT_LT(value.ct.geometry.direction().determinant(), 0.0) << "it was not mirrored in its file";
+  EXPECT_EQ(value.mr[0].provenance.axes.letters(), "LPI");
+  EXPECT_LT(value.mr[0].geometry.direction().determinant(), 0.0);
 }
 
 // Of one series alone its folder names the case, as if that had been opened.
@@ -791,6 +834,8 @@ TEST_F(Import, ATickAtACtTakesItFromAnother)
   list->topLevelItem(1)->setCheckState(0, Qt::Checked);
   EXPECT_EQ(ticks(), "011");
   EXPECT_EQ(dialog.chosen().size(), 2U);
+  EXPECT_EQ(dialog.axes(), (std::vector<std::optional<core::AxesCorrection>>(2)))
+      << "as the files state them";
   const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
   if (!pictures.isEmpty())
     dialog.grab().save(pictures + "/series-ticks.png");

@@ -805,6 +805,8 @@ void MainWindow::connectActions()
           [this](const QString& name) { m_keeper->removePart(bytes(name)); });
   connect(structures, &StructuresPanel::renamingAsked, this,
           [this](const QString& name) { m_keeper->renamePart(bytes(name)); });
+  connect(structures, &StructuresPanel::axesAsked, this,
+          [this](const QString& name) { correctAxes(bytes(name)); });
   connect(m_keeper, &CaseDocumentController::added, this,
           [this](bool onlyImages)
           {
@@ -1588,7 +1590,16 @@ void MainWindow::fillCaseMenu()
             [this, name = mr.name] { m_keeper->renamePart(name); });
     connect(menu.addAction(tr("Remove the MR “%1”").arg(shown)), &QAction::triggered, this,
             [this, name = mr.name] { m_keeper->removePart(name); });
+    connect(menu.addAction(tr("Correct the axes of the MR “%1”…").arg(shown)), &QAction::triggered,
+            this, [this, name = mr.name] { correctAxes(name); });
   }
+}
+
+// Of a part.
+void MainWindow::correctAxes(const std::string& part)
+{
+  m_drill->releaseTool(); // ends an open stroke
+  m_keeper->correctAxes(part);
 }
 
 // What is selected in the list of structures, as the list's own menu has it.
@@ -1607,6 +1618,9 @@ void MainWindow::addSelectedTo(QMenu& menu)
   if (isOne)
     connect(menu.addAction(tr("Rename “%1”…").arg(shown)), &QAction::triggered, this,
             [this, part = parts.front()] { m_keeper->renamePart(part); });
+  if (isOne)
+    connect(menu.addAction(tr("Correct the axes of “%1”…").arg(shown)), &QAction::triggered, this,
+            [this, part = parts.front()] { correctAxes(part); });
   QAction* remove = menu.addAction(isOne ? tr("Remove “%1”").arg(shown)
                                          : tr("Remove the %1 selected").arg(parts.size()));
   remove->setStatusTip(tr(

@@ -134,6 +134,7 @@ private:
   void tellPanels();
   void fillCaseMenu();
   void addSelectedTo(QMenu& menu);
+  void correctAxes(const std::string& part);
   void showUnregistered(bool opened);
   void raisePanel(const char* dock);
   void showLibrary();

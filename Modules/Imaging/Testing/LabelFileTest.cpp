@@ -10,6 +10,7 @@
 #include "LabelNames.h"
 #include "NrrdHeader.h"
 #include "TestFiles.h"
+#include "petrous/Imaging/ImageFile.h"
 
 namespace petrous::imaging
 {
@@ -441,6 +442,31 @@ TEST(LabelFile, EqualMapsGiveEqualBytes)
     EXPECT_EQ(fileBytes(folder / ("a" + end)), fileBytes(folder / ("b" + end))) << end;
     EXPECT_EQ(readLabelFile(folder / ("a" + end)).voxels->at(4, 0, 0), 3) << end;
   }
+}
+
+// No region of a label file can be chosen: it is read whole.
+TEST(LabelFile, OfMoreMemoryThanThereIsIsToBeCut)
+{
+  const TestFolder folder;
+  constexpr std::uint64_t kSide = 8192;
+  constexpr std::uint64_t kSlices = 40000; // 5 TB, none of which is written
+  const std::string header =
+      "NRRD0004\ntype: uint16\ndimension: 3\nspace: left-posterior-superior\nsizes: " +
+      std::to_string(kSide) + " " + std::to_string(kSide) + " " + std::to_string(kSlices) +
+      "\nspace directions: (0.01,0,0) (0,0.01,0) (0,0,0.01)\nkinds: domain domain domain\n"
+      "endian: little\nencoding: raw\nspace origin: (1,2,3)\n\n";
+  putFile(folder / "large.nrrd", header);
+  std::error_code refused;
+  std::filesystem::resize_file(folder / "large.nrrd",
+                               header.size() + kSide * kSide * kSlices * sizeof(std::uint16_t),
+                               refused);
+  if (refused)
+    GTEST_SKIP() << "no sparse files here: " << refused.message();
+  const auto refusal = refusalOf([&] { readLabelFile(folder / "large.nrrd"); });
+  expectRefused(refusal, Reason::Unreadable, "GB of memory, which is not free; close programs or");
+  expectRefused(refusal, Reason::Unreadable, "export only the part of it around its structures");
+  expectRefused(refusalOf([&] { readImageFile(folder / "large.nrrd"); }), Reason::Unreadable,
+                "give a region of interest");
 }
 
 TEST(LabelFile, RefusesToWriteInWords)

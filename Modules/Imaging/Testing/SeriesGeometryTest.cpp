@@ -1022,10 +1022,12 @@ TEST(SeriesRepair, SaysWhatItGuessed)
   EXPECT_EQ(repair.provenance(box).interpolated, (Ranges{{7, 7}}));
   box.lower[2] = 3; // as the stored volume counts them
   EXPECT_EQ(repair.provenance(box).interpolated, (Ranges{{4, 4}}));
+  EXPECT_EQ(repair.provenance(box).interpolatedBeyond, 0);
   EXPECT_NE(repair.notes(box).front().find("slice 5 of 27 is missing"), std::string::npos);
   box.lower[2] = 8;
   EXPECT_TRUE(repair.notes(box).empty());
   EXPECT_TRUE(repair.provenance(box).interpolated.empty());
+  EXPECT_EQ(repair.provenance(box).interpolatedBeyond, 1);
   EXPECT_EQ(repair.provenance(box).shift, 0.0);
   const SeriesRepair tilt(assess(tilted(-18.5, {1, 0, 0})));
   const auto tiltNotes = tilt.notes(tilt.grid().fullBox());

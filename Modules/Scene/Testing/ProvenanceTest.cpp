@@ -84,6 +84,7 @@ TEST(Provenance, IsKeptInAllItsParts)
 {
   Case value = imagesAndLabels();
   volume::ImageProvenance& ct = value.ct.provenance;
+  ct.interpolatedBeyond = 2;
   ct.tilt = 18.5;
   ct.shift = 1.0 / 3.0;
   ct.assumedRas = false;
@@ -94,6 +95,7 @@ TEST(Provenance, IsKeptInAllItsParts)
   value.mr[0].provenance.isCropped = true;
   value.labels[0].provenance = {true, true};
   const Case back = again(value);
+  EXPECT_EQ(back.ct.provenance.interpolatedBeyond, 2);
   EXPECT_EQ(back.ct.provenance.tilt, 18.5);
   EXPECT_EQ(back.ct.provenance.shift, 1.0 / 3.0);
   EXPECT_EQ(back.ct.provenance.assumedRas, false);
@@ -291,6 +293,7 @@ TEST(Provenance, ThatCannotBeIsRefused)
   refused("/ct/provenance/corrected_axes", 7);
   refused("/labels/0/provenance/corrected_axes", "none");
   refused("/ct/provenance/burned_in_text", "maybe");
+  refused("/ct/provenance/interpolated_slices_beyond", -1);
   refused("/ct/provenance/lossy_ratio", 0.0);
   refused("/ct/provenance/masked", {"nose"});
   refused("/ct/provenance", json::array());

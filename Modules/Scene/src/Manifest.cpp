@@ -274,6 +274,8 @@ json provenanceOut(const volume::ImageProvenance& provenance)
   json j = json::object();
   for (const volume::SliceRange& range : provenance.interpolated)
     j["interpolated_slices"].push_back({range.first + 1, range.last + 1});
+  if (provenance.interpolatedBeyond > 0)
+    j["interpolated_slices_beyond"] = provenance.interpolatedBeyond;
   if (provenance.tilt != 0.0)
     j["tilt_deg"] = provenance.tilt;
   if (provenance.shift != 0.0)
@@ -306,6 +308,10 @@ volume::ImageProvenance provenanceIn(const json& j, int slices)
                                      "image's slices, from 1, in order and apart");
       provenance.interpolated.push_back({first - 1, last - 1});
     }
+  provenance.interpolatedBeyond = j.value("interpolated_slices_beyond", 0);
+  if (provenance.interpolatedBeyond < 0)
+    throw core::InvalidParameter("provenance: interpolated slices beyond the image must not be "
+                                 "fewer than none");
   provenance.tilt = j.value("tilt_deg", 0.0);
   provenance.shift = j.value("shift_mm", 0.0);
   provenance.assumedRas = assumedRasIn(j);

@@ -975,6 +975,12 @@ std::optional<OnLattice> onLatticeOf(const core::GridGeometry& grid,
   return found;
 }
 
+// Of a region those of the whole stack: a gap below it shifts what lies in it.
+int interpolatedOfStack(const scene::ImagePart& ct)
+{
+  return volume::sliceCount(ct.provenance.interpolated) + ct.provenance.interpolatedBeyond;
+}
+
 // Whether what was drawn may be on the slices as they lie in the files. A program that takes them
 // for straight and even, at their usual pitch, has the lattice of the repaired image, which is
 // wider by as much as slices were shifted and longer by those that were missing: a grid that is
@@ -993,8 +999,7 @@ bool mayBeUnrepaired(const core::GridGeometry& grid, const scene::ImagePart& ct)
     return false; // with neither the first slice nor, counted from there, the last
   const double aside = std::abs(ct.provenance.shift);
   const Eigen::Vector3d added(std::ceil(aside / ct.geometry.spacing()[0]),
-                              std::ceil(aside / ct.geometry.spacing()[1]),
-                              volume::sliceCount(ct.provenance.interpolated));
+                              std::ceil(aside / ct.geometry.spacing()[1]), interpolatedOfStack(ct));
   for (int axis = 0; axis < 3; ++axis)
     if (const int absent = ct.geometry.dims()[static_cast<std::size_t>(axis)] -
                            box.size()[static_cast<std::size_t>(axis)];
@@ -1007,8 +1012,7 @@ bool mayBeUnrepaired(const core::GridGeometry& grid, const scene::ImagePart& ct)
 // lie, mm.
 double repairedBy(const scene::ImagePart& ct)
 {
-  return ct.provenance.shift +
-         volume::sliceCount(ct.provenance.interpolated) * ct.geometry.spacing()[2];
+  return ct.provenance.shift + interpolatedOfStack(ct) * ct.geometry.spacing()[2];
 }
 
 std::string repairedNote(double apart)

@@ -1,10 +1,14 @@
 #include "petrous/Presenters/CorrectedCase.h"
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <utility>
 
 #include "CorrectAxes.h"
+#include "RecordedParts.h"
 #include "petrous/Presenters/ProvenanceText.h"
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Scene/RemoveMr.h"
 #include "petrous/Volume/OnGrid.h"
@@ -34,6 +38,82 @@ void leaveMrsBehind(scene::Case& value)
 void forget(std::vector<std::string>& notes, const std::string& note)
 {
   notes.erase(std::remove(notes.begin(), notes.end(), note), notes.end());
+}
+
+[[noreturn]] void failIdentity()
+{
+  throw core::InvalidParameter("axes: LPS leaves them as they are; say where what the file calls "
+                               "left, posterior and superior really points, such as RPS");
+}
+
+// The map that holds a structure; nullptr: none.
+scene::LabelPart* mapOf(scene::Case& value, const std::string& structure)
+{
+  for (scene::LabelPart& part : value.labels)
+    for (const scene::StructurePart& one : part.structures)
+      if (one.name == structure)
+        return &part;
+  return nullptr;
+}
+
+void correctMap(scene::LabelPart& part, const core::AxesCorrection& axes,
+                const Eigen::Vector3d& center)
+{
+  const auto labels = part.labels.get();
+  part.labels = std::make_shared<const volume::LabelMap>(
+      volume::onGrid(*labels, axes.applied(labels->voxels->geometry(), center)));
+  part.object.clear();
+  part.moved = {};
+  part.provenance.axes = axes * part.provenance.axes;
+}
+
+void correctMesh(scene::MeshPart& part, const core::AxesCorrection& axes,
+                 const Eigen::Vector3d& center)
+{
+  core::TriangleMesh mesh = *part.mesh.get();
+  correctAxes(mesh, axes, center);
+  part.mesh = std::make_shared<const core::TriangleMesh>(std::move(mesh));
+  part.object.clear();
+  part.moved = {};
+  part.touch = {};
+}
+
+void correctMr(scene::Case& value, const std::string& name, const core::AxesCorrection& axes)
+{
+  scene::ImagePart& mr = *std::find_if(value.mr.begin(), value.mr.end(),
+                                       [&name](const auto& one) { return one.name == name; });
+  const std::string before = followedNote(mr);
+  // Before the grid moves, by which a map without a statement is known to be drawn on it.
+  std::vector<scene::LabelPart*> maps;
+  for (scene::LabelPart& part : value.labels)
+    if (scene::placementOf(value, part).drawnOn == name)
+      maps.push_back(&part);
+  correctAxes(mr, axes);
+  mr.object.clear();
+  const Eigen::Vector3d center = mr.geometry.center();
+  const auto note = [&](std::vector<std::string>& notes)
+  {
+    forget(notes, before);
+    if (!mr.provenance.axes.isIdentity())
+      notes.push_back(followedNote(mr));
+  };
+  std::map<std::shared_ptr<const volume::LabelMap>, core::Lazy<volume::LabelMap>> made;
+  for (scene::LabelPart* part : maps)
+  {
+    // Structures of one map may be in several parts.
+    const auto drawn = part->labels.get();
+    correctMap(*part, axes, center);
+    part->labels = made.emplace(drawn, part->labels).first->second;
+    part->drawnOn = name;
+    note(part->notes);
+  }
+  for (scene::MeshPart& part : value.meshes)
+    if (part.drawnOn == name)
+    {
+      correctMesh(part, axes, center);
+      note(part.notes);
+    }
+  scene::removeRegistration(value, name);
 }
 
 } // namespace
@@ -88,8 +168,7 @@ scene::Case correctedCase(const scene::Case& value, const core::AxesCorrection& 
                           const std::string& name, const core::Progress& progress)
 {
   if (axes.isIdentity())
-    throw core::InvalidParameter("axes: LPS leaves them as they are; say where what the file calls "
-                                 "left, posterior and superior really points, such as RPS");
+    failIdentity();
   scene::checkCaseName(name);
   scene::Case next = value;
   leaveMrsBehind(next);
@@ -116,27 +195,94 @@ scene::Case correctedCase(const scene::Case& value, const core::AxesCorrection& 
   for (scene::LabelPart& part : next.labels)
   {
     progress.check("correcting the axes");
-    const auto labels = part.labels.get();
-    part.labels = std::make_shared<const volume::LabelMap>(
-        volume::onGrid(*labels, axes.applied(labels->voxels->geometry(), center)));
-    part.object.clear();
-    part.moved = {};
+    correctMap(part, axes, center);
     part.drawnOn = std::string();
-    part.provenance.axes = axes * part.provenance.axes;
     note(part.notes);
   }
   for (scene::MeshPart& part : next.meshes)
   {
     progress.check("correcting the axes");
-    core::TriangleMesh mesh = *part.mesh.get();
-    correctAxes(mesh, axes, center);
-    part.mesh = std::make_shared<const core::TriangleMesh>(std::move(mesh));
-    part.object.clear();
-    part.moved = {};
-    part.touch = {};
+    correctMesh(part, axes, center);
     note(part.notes);
   }
   return next;
+}
+
+AxesFollowers axesFollowers(const scene::Case& value, const std::string& part)
+{
+  AxesFollowers followers;
+  if (const scene::ImagePart* mr = scene::findMr(value, part))
+  {
+    followers.parts = scene::drawnOnMr(value, part);
+    for (const scene::ImagePart& one : value.mr)
+      if (one.registered && scene::liesThrough(value, one.name, mr->name))
+        followers.unregistered.push_back(one.name);
+    return followers;
+  }
+  for (const scene::MeshPart& mesh : value.meshes)
+    if (mesh.name == part)
+      return followers;
+  for (const scene::LabelPart& map : value.labels)
+  {
+    const auto& all = map.structures;
+    if (std::none_of(all.begin(), all.end(), [&](const auto& one) { return one.name == part; }))
+      continue;
+    for (const scene::StructurePart& one : all)
+      if (one.name != part)
+        followers.parts.push_back(one.name);
+    return followers;
+  }
+  throw core::InvalidParameter("the case has no MR, structure or mesh '" + part +
+                               "' whose axes could be corrected");
+}
+
+void correctPart(scene::Case& value, const std::string& part, const core::AxesCorrection& axes)
+{
+  if (axes.isIdentity())
+    failIdentity();
+  std::vector<std::string> moved = axesFollowers(value, part).parts;
+  moved.push_back(part);
+  for (const std::string& one : moved)
+    if (isRecorded(value, one))
+      throw core::Error(core::Fault::Refused,
+                        "'" + one +
+                            "' keeps its axes: strokes of this case record what was removed from "
+                            "it where it lies");
+  scene::Case next = value;
+  if (scene::findMr(next, part))
+    correctMr(next, part, axes);
+  else if (scene::MeshPart* mesh = scene::findMesh(next, part))
+  {
+    const scene::ImagePart* mr = scene::findMr(next, mesh->drawnOn);
+    correctMesh(*mesh, axes, (mr ? *mr : next.ct).geometry.center());
+    const std::string note = correctedAxesText(axes);
+    const auto noted = std::find(mesh->notes.begin(), mesh->notes.end(), note);
+    if (noted != mesh->notes.end() && (axes * axes).isIdentity())
+      mesh->notes.erase(noted); // it is as before
+    else
+      mesh->notes.push_back(note);
+  }
+  else
+  {
+    const auto drawn = mapOf(next, part)->labels.get();
+    core::Lazy<volume::LabelMap> made;
+    for (scene::LabelPart& map : next.labels)
+    {
+      if (map.labels.peek() != drawn)
+        continue;
+      forget(map.notes, correctedAxesText(map.provenance.axes));
+      forget(map.notes, followedNote(next.ct));
+      if (const scene::ImagePart* mr = scene::findMr(next, map.drawnOn.value_or(std::string())))
+        forget(map.notes, followedNote(*mr));
+      correctMap(map, axes, drawn->voxels->geometry().center());
+      if (!made)
+        made = map.labels;
+      map.labels = made;
+      if (!map.provenance.axes.isIdentity())
+        map.notes.push_back(correctedAxesText(map.provenance.axes));
+    }
+  }
+  value = std::move(next);
 }
 
 } // namespace petrous::presenters

@@ -5,11 +5,14 @@
 
 #include "LookEdits.h"
 #include "Notify.h"
+#include "RecordedParts.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseNaming.h"
+#include "petrous/Presenters/CorrectedCase.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Scene/ReferenceFrames.h"
 
 // WorkstationModel: parts of the open case are added, removed, brought back and renamed.
 namespace petrous::presenters
@@ -92,15 +95,6 @@ std::size_t putBack(Parts& parts, At& removed)
   const std::size_t index = std::min(removed.index, parts.size());
   parts.insert(parts.begin() + static_cast<std::ptrdiff_t>(index), std::move(removed.part));
   return index;
-}
-
-bool isRecorded(const scene::Case& value, const std::string& name)
-{
-  for (const auto& stroke : value.dissection.strokes())
-    for (const auto& touched : stroke->info.structures)
-      if (touched.name == name)
-        return true;
-  return false;
 }
 
 } // namespace
@@ -419,6 +413,134 @@ void WorkstationModel::bringBack(std::uint64_t removal)
   m_partsMoved = true;
   partsMoved(!isRead ? Drawn::Nothing : isLabel ? Drawn::UntilPrepared : Drawn::Still);
   setMeasurements(std::move(measurements));
+}
+
+// What was taken out may come back, to the map or the MR whose axes are others then.
+void WorkstationModel::correctAxes(const std::string& part, const core::AxesCorrection& axes)
+{
+  if (!m_case || drilling())
+    return;
+  scene::Case next = *m_case;
+  for (const RemovedPart& removed : m_removed)
+  {
+    if (removed.labels)
+      next.labels.push_back(removed.labels->part);
+    if (removed.mesh)
+      next.meshes.push_back(removed.mesh->part);
+  }
+  scene::Case present = next; // shares what is read
+  correctPart(next, part, axes);
+  PlacedParts before, after;
+  for (std::size_t n = 0; n < next.mr.size(); ++n)
+    if (next.mr[n].provenance.axes != present.mr[n].provenance.axes)
+    {
+      before.mr.push_back(present.mr[n]);
+      after.mr.push_back(next.mr[n]);
+    }
+  const auto places = scene::mrPlaces(present);
+  for (const scene::MrPlace& place : scene::mrPlaces(next))
+    for (const scene::MrPlace& was : places)
+      if (was.name == place.name && was.registered != place.registered)
+      {
+        before.places.push_back(was);
+        after.places.push_back(place);
+      }
+  const auto addMoved = [](auto PlacedParts::*kind, auto data, auto& from, auto& to,
+                           PlacedParts& placed, PlacedParts& moved)
+  {
+    for (std::size_t n = 0; n < to.size(); ++n)
+      if ((from[n].*data).peek() != (to[n].*data).peek())
+      {
+        (placed.*kind).push_back(from[n]);
+        (moved.*kind).push_back(to[n]);
+      }
+  };
+  addMoved(&PlacedParts::labels, &scene::LabelPart::labels, present.labels, next.labels, before,
+           after);
+  addMoved(&PlacedParts::meshes, &scene::MeshPart::mesh, present.meshes, next.meshes, before,
+           after);
+  for (const LeftOut& parts : m_leftOut)
+  {
+    const auto isLeftOut = [](const auto& left, const auto& of, const auto& with, auto data)
+    {
+      return std::any_of(
+          left.begin(), left.end(),
+          [&](const auto& one)
+          { return (of.at(one.index).*data).peek() != (with.at(one.index).*data).peek(); });
+    };
+    if (isLeftOut(parts.labels, present.labels, next.labels, &scene::LabelPart::labels) ||
+        isLeftOut(parts.meshes, present.meshes, next.meshes, &scene::MeshPart::mesh))
+      throw core::Error(core::Fault::Refused, "'" + part +
+                                                  "' keeps its axes: what goes with it could not "
+                                                  "be read");
+  }
+  placeParts(before, after);
+  recordEdit({"axes of " + shownName(part),
+              {},
+              [this, before, after] { placeParts(after, before); },
+              [this, before, after] { placeParts(before, after); },
+              true});
+}
+
+// Parts are found by their data: their names and places in the case may be others.
+void WorkstationModel::placeParts(const PlacedParts& from, const PlacedParts& to)
+{
+  const auto forEach = [this](auto kind, auto list, const auto& act)
+  {
+    for (auto& part : (*m_case).*list)
+      act(part);
+    for (RemovedPart& removed : m_removed)
+      if (auto& one = removed.*kind)
+        act(one->part);
+  };
+  std::size_t found = 0;
+  for (std::size_t n = 0; n < to.mr.size(); ++n)
+    for (scene::ImagePart& mr : m_case->mr)
+      if (mr.volume.peek() == from.mr[n].volume.peek())
+      {
+        mr.geometry = to.mr[n].geometry;
+        mr.volume = to.mr[n].volume;
+        mr.object = to.mr[n].object;
+        mr.provenance.axes = to.mr[n].provenance.axes;
+        mr.notes = to.mr[n].notes;
+        ++found;
+      }
+  for (std::size_t n = 0; n < to.labels.size(); ++n)
+    forEach(&RemovedPart::labels, &scene::Case::labels,
+            [&, was = from.labels[n].labels.peek()](scene::LabelPart& part)
+            {
+              if (part.labels.peek() != was)
+                return;
+              part.labels = to.labels[n].labels;
+              part.object = to.labels[n].object;
+              part.provenance.axes = to.labels[n].provenance.axes;
+              part.notes = to.labels[n].notes;
+              part.moved = {};
+              ++found;
+            });
+  for (std::size_t n = 0; n < to.meshes.size(); ++n)
+    forEach(&RemovedPart::mesh, &scene::Case::meshes,
+            [&, was = from.meshes[n].mesh.peek()](scene::MeshPart& part)
+            {
+              if (part.mesh.peek() != was)
+                return;
+              part.mesh = to.meshes[n].mesh;
+              part.object = to.meshes[n].object;
+              part.notes = to.meshes[n].notes;
+              part.moved = {};
+              part.touch = {};
+              ++found;
+            });
+  if (found == 0)
+    throw core::InvalidParameter("the axes stay: what was corrected was replaced since");
+  scene::layAs(*m_case, to.places);
+  m_partsMoved = true;
+  if (to.labels.empty() && to.meshes.empty())
+    partsMoved(Drawn::Still);
+  else
+    labelsChanged();
+  if (!to.mr.empty())
+    notify(events.mrMoved);
 }
 
 void WorkstationModel::renamePart(const std::string& name, const std::string& to)

@@ -261,10 +261,12 @@ volume::ImageProvenance SeriesRepair::provenance(const core::IndexBox& box) cons
   volume::ImageProvenance provenance;
   provenance.tilt = m_tilt;
   provenance.shift = m_shift;
-  for (int m = box.lower[2]; m < box.upper[2]; ++m)
+  for (int m = 0; m < m_grid.dims()[2]; ++m)
   {
     const Blend blend = blendAt(m);
-    if (blend.a != blend.b || blend.a->isGuess)
+    if (m < box.lower[2] || m >= box.upper[2])
+      provenance.interpolatedBeyond += blend.a != blend.b;
+    else if (blend.a != blend.b || blend.a->isGuess)
       appendSlice(provenance.interpolated, m - box.lower[2]);
   }
   return provenance;

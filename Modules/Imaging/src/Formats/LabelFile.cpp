@@ -221,7 +221,7 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
       failOverlap(path, loaded.maps.size());
     return loaded;
   }
-  VoxelSource source(path);
+  VoxelSource source(path, kCutLabels);
   source.settleUnit(unit, images);
   source.settlePlacement(images);
   const bool isSideKnown = source.settleSide(isRas, images);

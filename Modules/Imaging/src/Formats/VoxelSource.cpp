@@ -119,9 +119,9 @@ private:
   std::size_t m_end = 0;
 };
 
-std::shared_ptr<void> allocate(const std::filesystem::path& path, std::size_t bytes)
+std::shared_ptr<void> allocate(const std::filesystem::path& path, std::size_t bytes,
+                               const std::string& advice)
 {
-  const char* const advice = "give a region of interest";
   requireMemory(path, bytes, advice);
   if (void* memory = std::malloc(std::max<std::size_t>(bytes, 1)))
     return {memory, std::free};
@@ -133,8 +133,9 @@ std::shared_ptr<void> allocate(const std::filesystem::path& path, std::size_t by
 
 } // namespace
 
-VoxelSource::VoxelSource(const std::filesystem::path& path)
+VoxelSource::VoxelSource(const std::filesystem::path& path, const char* advice)
   : m_path(path)
+  , m_advice(advice)
 {
   m_dataBytes = checkedFileSize(path);
   const FileFormat* format = formatOf(path);
@@ -524,7 +525,7 @@ void VoxelSource::noteSurplus(std::uint64_t bytes)
 std::shared_ptr<void> VoxelSource::rescaledCopy(const void* stored, std::size_t count,
                                                 const core::Progress& progress) const
 {
-  auto copy = allocate(m_path, count * sizeof(float));
+  auto copy = allocate(m_path, count * sizeof(float), m_advice);
   auto* out = static_cast<float*>(copy.get());
   visitComponent(m_stored,
                  [&](auto type)
@@ -550,7 +551,7 @@ std::shared_ptr<void> VoxelSource::read(const core::IndexBox& box,
   const std::size_t numberBytes = visitComponent(m_stored, [](auto type) { return sizeof type; });
   const std::size_t perVoxel = m_components * numberBytes;
   progress.report(0.0, "reading voxels");
-  auto memory = allocate(m_path, box.count() * perVoxel);
+  auto memory = allocate(m_path, box.count() * perVoxel, m_advice);
   if (m_isText)
     readText(box, memory.get(), progress);
   else if (m_listed > 1)
@@ -586,8 +587,9 @@ void VoxelSource::forEachSlice(const std::function<bool(int k, const void* value
         return;
     return;
   }
-  const auto memory = allocate(m_path, count * numberBytes);
-  const auto listed = m_listed > 1 ? allocate(m_path, count * m_listed * numberBytes) : memory;
+  const auto memory = allocate(m_path, count * numberBytes, m_advice);
+  const auto listed =
+      m_listed > 1 ? allocate(m_path, count * m_listed * numberBytes, m_advice) : memory;
   VoxelStream stream(m_place);
   if (m_listed == 1)
     stream.skip(m_volume.value_or(0) * m_geometry->voxelCount() * numberBytes);
@@ -628,7 +630,7 @@ void VoxelSource::readList(const core::IndexBox& box, void* out,
   const core::Index3 size = box.size();
   const auto slice = static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]);
   const auto row = static_cast<std::size_t>(size[0]);
-  const auto memory = allocate(m_path, slice * m_listed * bytes);
+  const auto memory = allocate(m_path, slice * m_listed * bytes, m_advice);
   VoxelStream stream(m_place);
   stream.skip(static_cast<std::uint64_t>(box.lower[2]) * slice * m_listed * bytes);
   auto* next = static_cast<char*>(out);

@@ -23,13 +23,18 @@
 namespace petrous::imaging
 {
 
+/// What helps where label files need more memory than is free: they are read whole.
+inline constexpr const char* kCutLabels = "export only the part of it around its structures";
+
 /// A NIfTI, NRRD or MetaImage file with a validated header: the file is large enough for its
 /// dimensions, and its axes are perpendicular. Text from the file never reaches a message. All
 /// members throw FileError.
 class VoxelSource
 {
 public:
-  explicit VoxelSource(const std::filesystem::path& path);
+  /// `advice`: what helps where its voxels need more memory than is free, as of requireMemory.
+  explicit VoxelSource(const std::filesystem::path& path,
+                       const char* advice = "give a region of interest");
 
   /// Volumes of one grid that the file holds: its fourth axis, or of a NRRD a first one of kind
   /// "list" or "time".
@@ -105,6 +110,7 @@ private:
                                      const core::Progress& progress) const;
 
   std::filesystem::path m_path;
+  std::string m_advice;
   std::vector<std::uint64_t> m_dims;
   std::optional<core::GridGeometry> m_geometry;
   VoxelPlace m_place;

@@ -100,7 +100,7 @@ bool addSlice(const T* values, std::uint64_t count, std::uint64_t first, T& labe
 void readMask(Mask& mask, const core::Progress& progress, const std::vector<ImageGrid>& images,
               const std::optional<bool>& isRas, const std::optional<double>& unit)
 {
-  VoxelSource source(mask.path);
+  VoxelSource source(mask.path, kCutLabels);
   source.settleUnit(unit, images);
   source.settlePlacement(images);
   mask.unitDoubt = source.unitDoubt();

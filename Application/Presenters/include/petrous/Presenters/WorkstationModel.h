@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "petrous/Core/AxesCorrection.h"
 #include "petrous/Interaction/PickRay.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Library/OpenMark.h"
@@ -20,6 +21,7 @@
 #include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Presenters/WorkstationEvents.h"
 #include "petrous/Scene/Case.h"
+#include "petrous/Scene/ReferenceFrames.h"
 #include "petrous/Session/RemovedVolumeEstimator.h"
 #include "petrous/Session/TouchSession.h"
 
@@ -155,7 +157,7 @@ public:
   /// taken out for it, if that has its name. Throws InvalidParameter, without effect, if its name
   /// has been taken meanwhile.
   void putStructure(const scene::LabelPart& part, const scene::LabelPart* inPlaceOf = nullptr);
-  // These three can be undone.
+  // These four can be undone.
   /// Takes a structure, a mesh or an MR out of the case, and puts the tool away. Throws as
   /// scene::removePart does. No effect while drilling.
   void removePart(const std::string& name);
@@ -168,6 +170,10 @@ public:
   /// Gives a part another name, everywhere in the case. Throws InvalidParameter if it is not valid
   /// or taken, Error (Refused) if strokes record what was removed from the part.
   void renamePart(const std::string& name, const std::string& to);
+  /// Corrects the axes of an MR, a structure's label map or a mesh as correctPart does, and puts
+  /// the tool away. Throws as that does, and Error (Refused) for what could not be read. No effect
+  /// while drilling.
+  void correctAxes(const std::string& part, const core::AxesCorrection& axes);
 
   /// Closes the case. Unsaved changes are lost.
   void close();
@@ -415,6 +421,14 @@ private:
     std::vector<PartLook> readers = {};     ///< appearances that read the MR, as they did
     std::vector<std::string> measured = {}; ///< measurements that followed it
   };
+  /// Where parts are whose axes are corrected, as copies that share what is read.
+  struct PlacedParts
+  {
+    std::vector<scene::ImagePart> mr;
+    std::vector<scene::LabelPart> labels;
+    std::vector<scene::MeshPart> meshes;
+    std::vector<scene::MrPlace> places; ///< of MRs whose registration that ends
+  };
   /// What followed a structure that was taken out, until it is put back.
   struct TakenStructure
   {
@@ -464,6 +478,7 @@ private:
   void takeOut(const std::string& name, std::uint64_t removal);
   void bringBack(std::uint64_t removal);
   void rename(const std::string& name, const std::string& to);
+  void placeParts(const PlacedParts& from, const PlacedParts& to);
   void followHistory();
   void nameBranch(const std::string& from, const std::string& to);
   void setUnsaved(bool unsaved);

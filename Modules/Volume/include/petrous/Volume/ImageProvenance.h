@@ -43,6 +43,9 @@ struct ImageProvenance
 {
   /// Guessed between their neighbours by repair; in order, none next to another.
   std::vector<SliceRange> interpolated;
+  int interpolatedBeyond =
+      0;              ///< slices that were, of a repaired stack, outside of the region of it
+                      ///< that is the image: a stack that lacks them lies apart within it
   double tilt = 0.0;  ///< degrees, of the gantry, undone by repair; 0: none
   double shift = 0.0; ///< mm, the farthest that repair moved a slice sideways, interpolated in its
                       ///< plane; 0: none

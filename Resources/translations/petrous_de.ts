@@ -1149,6 +1149,22 @@
         <source>The anatomy is turned, and not mirrored.</source>
         <translation>Die Anatomie wird gedreht und nicht gespiegelt.</translation>
     </message>
+    <message>
+        <source>Goes along: %1</source>
+        <translation>Folgt mit: %1</translation>
+    </message>
+    <message>
+        <source>Is to be registered again: %1</source>
+        <translation>Ist neu zu registrieren: %1</translation>
+    </message>
+    <message>
+        <source>For a file that states wrong axes: it is mirrored, or lies otherwise than the letters say. “%1” is corrected in this case; Ctrl+Z takes that back.</source>
+        <translation>Für eine Datei, die falsche Achsen nennt: Sie ist gespiegelt oder liegt anders, als die Buchstaben sagen. „%1“ wird in diesem Fall korrigiert; Strg+Z nimmt das zurück.</translation>
+    </message>
+    <message>
+        <source>C&amp;orrect the axes</source>
+        <translation>Achsen &amp;korrigieren</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::BackgroundWork</name>
@@ -2082,6 +2098,10 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>Petrous is closed</source>
         <translation>Petrous wird beendet</translation>
+    </message>
+    <message>
+        <source>The axes of “%1” are corrected</source>
+        <translation>Die Achsen von „%1“ sind korrigiert</translation>
     </message>
 </context>
 <context>
@@ -4697,6 +4717,14 @@ Ohne ihn dreht Ziehen den Patienten.</translation>
     <message>
         <source>Which ear it is, is not known (Case &gt; Side): this is the patient&apos;s right</source>
         <translation>Welches Ohr es ist, ist nicht bekannt (Fall &gt; Seite): dies ist die rechte Seite des Patienten</translation>
+    </message>
+    <message>
+        <source>Correct the axes of the MR “%1”…</source>
+        <translation>Achsen des MR „%1“ korrigieren…</translation>
+    </message>
+    <message>
+        <source>Correct the axes of “%1”…</source>
+        <translation>Achsen von „%1“ korrigieren…</translation>
     </message>
 </context>
 <context>
@@ -7583,6 +7611,18 @@ Verletzt: %1, %2</translation>
         <source>Nothing is ticked: tick what is to be opened. Why a series cannot be used, or what its repair would change, is in its tooltip.</source>
         <translation>Nichts ist angehakt: Haken Sie an, was geöffnet werden soll. Warum eine Serie unbrauchbar ist oder was ihre Reparatur ändern würde, steht in ihrem Tooltip.</translation>
     </message>
+    <message>
+        <source>Axes</source>
+        <translation>Achsen</translation>
+    </message>
+    <message>
+        <source>For a file that states wrong axes. What else can be wrong, and how the image then looks, is in Case &gt; Correct the axes…</source>
+        <translation>Für eine Datei, die falsche Achsen nennt. Was sonst falsch sein kann, und wie das Bild dann aussieht, steht unter Fall &gt; Achsen korrigieren…</translation>
+    </message>
+    <message>
+        <source>as the file states</source>
+        <translation>wie die Datei sagt</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::SettingsDialog</name>
@@ -8656,6 +8696,10 @@ Nichts verlässt diesen Rechner.</translation>
     <message>
         <source>&amp;Find a structure</source>
         <translation>Eine Struktur &amp;suchen</translation>
+    </message>
+    <message>
+        <source>Correct the &amp;axes of its file…</source>
+        <translation>&amp;Achsen seiner Datei korrigieren…</translation>
     </message>
 </context>
 <context>

@@ -271,10 +271,14 @@ void correctPart(scene::Case& value, const std::string& part, const core::AxesCo
       if (map.labels.peek() != drawn)
         continue;
       forget(map.notes, correctedAxesText(map.provenance.axes));
+      // About the middle of the image on which it was drawn, as the builder of a case does, so that
+      // what lies on parts of its grid keeps its place among the rest.
+      const auto on = scene::placementOf(next, map).drawnOn;
+      const scene::ImagePart* mr = scene::findMr(next, on);
       forget(map.notes, followedNote(next.ct));
-      if (const scene::ImagePart* mr = scene::findMr(next, map.drawnOn.value_or(std::string())))
+      if (mr)
         forget(map.notes, followedNote(*mr));
-      correctMap(map, axes, drawn->voxels->geometry().center());
+      correctMap(map, axes, (mr ? *mr : next.ct).geometry.center());
       if (!made)
         made = map.labels;
       map.labels = made;

@@ -209,10 +209,29 @@ TEST(NodeList, IsKeptAndHoldsNoKey)
 TEST(NodeList, OfAnotherVersionIsRefused)
 {
   const TemporaryFolder folder;
-  for (const char* format : {"2", "0", "-1"})
+  for (const char* format : {"2", "0", "-1", "4294967297"})
   {
     std::ofstream(folder.path() / "nodes.json") << R"({"format":)" << format << R"(,"nodes":[]})";
     EXPECT_THROW(NodeList(folder.path()), core::InvalidParameter) << format;
+  }
+}
+
+// 4294967400 is 104 in the bits of an int.
+TEST(NodeList, APortThatIsNoneIsRefused)
+{
+  const TemporaryFolder folder;
+  const auto write = [&folder](const char* port)
+  {
+    std::ofstream(folder.path() / "nodes.json")
+        << R"({"format":1,"nodes":[{"name":"a","host":"pacs","ae_title":"ARCHIVE",)"
+        << R"("calling_ae_title":"PETROUS","port":)" << port << "}]}";
+  };
+  write("104");
+  EXPECT_NO_THROW(NodeList(folder.path()));
+  for (const char* port : {"4294967400", "-4294967192", "65536", "0"})
+  {
+    write(port);
+    EXPECT_THROW(NodeList(folder.path()), core::InvalidParameter) << port;
   }
 }
 

@@ -198,6 +198,23 @@ TEST(LeavingImages, AnMrIsLeftOutUnlessStructuresWereDrawnOnIt)
   EXPECT_EQ(value.meshes.size(), 1U);
 }
 
+// Names are unique, but not in every older case: what leaves must not be the face.
+TEST(LeavingImages, NoStructureIsLeftOutInPlaceOfAnMrOfItsName)
+{
+  scene::Case value;
+  value.mr.emplace_back();
+  value.mr.back().name = "T2";
+  value.labels.emplace_back();
+  value.labels.back().structures.emplace_back();
+  value.labels.back().structures.back().name = "T2";
+  value.meshes.emplace_back();
+  value.meshes.back().name = "T2";
+  leaveOutMrs(value, {"T2"});
+  EXPECT_TRUE(value.mr.empty());
+  EXPECT_EQ(value.labels.size(), 1U);
+  EXPECT_EQ(value.meshes.size(), 1U);
+}
+
 // Whether it is named or the only one; what stays is not looked at.
 TEST_F(CaseExport, MasksTheFaceOfTheImageThatIsWritten)
 {

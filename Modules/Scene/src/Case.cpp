@@ -14,6 +14,7 @@
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Scene/PlainText.h"
+#include "petrous/Scene/RemoveMr.h"
 
 namespace petrous::scene
 {
@@ -192,6 +193,26 @@ void checkNothingHangsOn(const Case& value, const std::string& mr)
 
 } // namespace
 
+void removeMr(Case& value, const std::string& name)
+{
+  const auto mr = std::find_if(value.mr.begin(), value.mr.end(),
+                               [&name](const ImagePart& one) { return one.name == name; });
+  if (mr == value.mr.end())
+    throw core::InvalidParameter("the case has no MR '" + name + "'");
+  checkNothingHangsOn(value, name);
+  value.mr.erase(mr);
+  readCtInsteadOf(value, name);
+  for (LabelPart& part : value.labels)
+    for (StructurePart& structure : part.structures)
+      for (MrReading& reading : structure.readings)
+        reading.isGone = reading.isGone || reading.mr == name;
+  for (Measurement& measurement : value.measurements)
+    for (MrReading& reading : measurement.readings)
+      reading.isGone = reading.isGone || reading.mr == name;
+  if (auto& slices = value.view.slices; slices && slices->overlay && slices->overlay->mr == name)
+    slices->overlay.reset();
+}
+
 void removePart(Case& value, const std::string& name)
 {
   const auto removeNamed = [&name](auto& parts)
@@ -219,21 +240,7 @@ void removePart(Case& value, const std::string& name)
   if (removeNamed(value.meshes))
     return forget();
   if (findMr(value, name))
-  {
-    checkNothingHangsOn(value, name);
-    removeNamed(value.mr);
-    readCtInsteadOf(value, name);
-    for (LabelPart& part : value.labels)
-      for (StructurePart& structure : part.structures)
-        for (MrReading& reading : structure.readings)
-          reading.isGone = reading.isGone || reading.mr == name;
-    for (Measurement& measurement : value.measurements)
-      for (MrReading& reading : measurement.readings)
-        reading.isGone = reading.isGone || reading.mr == name;
-    if (auto& slices = value.view.slices; slices && slices->overlay && slices->overlay->mr == name)
-      slices->overlay.reset();
-    return;
-  }
+    return removeMr(value, name);
   std::string there;
   for (const std::string& part : partNames(value))
     if (part != "ct")

@@ -6,6 +6,7 @@
 #include "CorrectAxes.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Scene/RemoveMr.h"
 #include "petrous/Volume/OnGrid.h"
 
 namespace petrous::presenters
@@ -13,6 +14,22 @@ namespace petrous::presenters
 
 namespace
 {
+
+// By where they lie and not by name, as names may be there twice in an older case.
+void leaveMrsBehind(scene::Case& value)
+{
+  const auto leave = [&value](auto& parts)
+  {
+    parts.erase(std::remove_if(parts.begin(), parts.end(),
+                               [&value](const auto& part)
+                               { return !scene::placementOf(value, part).drawnOn.empty(); }),
+                parts.end());
+  };
+  leave(value.labels);
+  leave(value.meshes);
+  while (!value.mr.empty())
+    scene::removeMr(value, std::string(value.mr.back().name));
+}
 
 void forget(std::vector<std::string>& notes, const std::string& note)
 {
@@ -75,12 +92,7 @@ scene::Case correctedCase(const scene::Case& value, const core::AxesCorrection& 
                                  "left, posterior and superior really points, such as RPS");
   scene::checkCaseName(name);
   scene::Case next = value;
-  for (const scene::ImagePart& mr : value.mr)
-  {
-    for (const std::string& part : scene::drawnOnMr(value, mr.name))
-      scene::removePart(next, part);
-    scene::removePart(next, mr.name);
-  }
+  leaveMrsBehind(next);
   next.name = name;
   next.id.clear();
   next.revision = 0;

@@ -4,6 +4,7 @@
 
 #include "petrous/Core/Error.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Scene/RemoveMr.h"
 
 namespace petrous::presenters
 {
@@ -49,7 +50,7 @@ void leaveOutMrs(scene::Case& value, const std::vector<std::string>& names)
     if (!scene::findMr(value, name))
       throw core::InvalidParameter("there is no MR '" + name + "' to leave out; the case has " +
                                    (there.empty() ? "none" : scene::listed(there)));
-    scene::removePart(value, name);
+    scene::removeMr(value, name);
   }
 }
 

@@ -17,7 +17,7 @@ std::vector<std::string> maskLeavingImages(const library::Library& library, scen
                                            const core::Progress& progress = {});
 
 /// The same for library::ArchiveOptions::prepare, without the MRs of these names, which throws like
-/// scene::removePart; empty for a mask that masks nothing, and no MR.
+/// scene::removeMr; empty for a mask that masks nothing, and no MR.
 std::function<std::vector<std::string>(scene::Case&, const core::Progress&)>
 maskForArchive(const library::Library& library, const scene::ImageMask& mask,
                const std::vector<std::string>& withoutMrs = {});

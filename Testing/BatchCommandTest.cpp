@@ -1,5 +1,8 @@
 #include <csignal>
+#include <sstream>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -410,6 +413,100 @@ TEST_F(BatchCommand, RefusesATableThatIsUnclear)
     expectRefused(batch(), 3, "is not the state of a batch");
     std::ifstream file(state(), std::ios::binary);
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), text);
+  }
+}
+
+// A file of meshes states neither the correction of its image's axes nor always frame and unit.
+TEST_F(BatchCommand, SaysOfMeshesWhatTheirFilesDoNot)
+{
+  const auto vertices = [](const std::string& obj)
+  {
+    std::vector<std::array<double, 3>> found;
+    std::istringstream lines(obj);
+    for (std::string line; std::getline(lines, line);)
+      if (line.rfind("v ", 0) == 0)
+      {
+        std::istringstream numbers(line.substr(2));
+        found.emplace_back();
+        numbers >> found.back()[0] >> found.back()[1] >> found.back()[2];
+      }
+    return found;
+  };
+  const std::string incus = textOf(m_folder / "patient/meshes/incus.obj");
+  const auto own = vertices(incus);
+  ASSERT_FALSE(own.empty());
+  std::string other; // the same in RAS and cm
+  std::istringstream lines(incus);
+  std::size_t n = 0;
+  for (std::string line; std::getline(lines, line);)
+    if (line.rfind("v ", 0) == 0)
+    {
+      other += "v " + std::to_string(-0.1 * own[n][0]) + " " + std::to_string(-0.1 * own[n][1]) +
+               " " + std::to_string(0.1 * own[n][2]) + "\n";
+      ++n;
+    }
+    else if (line.rfind("f ", 0) == 0)
+      other += line + "\n";
+  std::ofstream(m_folder / "ras.obj", std::ios::binary) << other;
+  write("name,folder,ct_axes,meshes,mesh_axes,mesh_frame,mesh_unit\n"
+        "stays,patient/ct,RPS,patient/meshes/incus.obj,LPS,,\n"
+        "open,patient/ct,RPS,patient/meshes/incus.obj,,,\n"
+        "follows,patient/ct,RPS,patient/meshes/incus.obj@ct,,,\n"
+        "told,patient/ct,,ras.obj,,RAS,cm\n"
+        "odd,patient/ct,,patient/meshes/incus.obj,,,ell\n");
+  const Outcome outcome = run(batch("--json"));
+  EXPECT_EQ(outcome.code, 3);
+  const auto rows = parsed(outcome)["rows"];
+  ASSERT_EQ(rows.size(), 5U) << outcome.out << outcome.err;
+  const std::vector<std::string> expected{"done", "failed", "done", "done", "failed"};
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    EXPECT_EQ(rows[row]["status"], expected[row]) << rows[row];
+  EXPECT_NE(rows[1]["error"].get<std::string>().find("--mesh-axes LPS"), std::string::npos);
+  EXPECT_NE(rows[4]["error"].get<std::string>().find("'mesh_unit' is "), std::string::npos);
+  // The CT's centre in x, about which it is mirrored.
+  const auto& ct = json("info told")["ct"];
+  const double center = ct["origin_mm"][0].get<double>() + 0.5 *
+                                                               (ct["dims"][0].get<double>() - 1.0) *
+                                                               ct["spacing_mm"][0].get<double>();
+  for (const char* const name : {"stays", "follows", "told"})
+  {
+    const auto out = m_folder / (name + std::string(".obj"));
+    const std::string part = json(std::string("info ") + name)["meshes"][0]["name"];
+    json(std::string("export ") + name + " --what structure '" + part + "' --out " + quoted(out));
+    const auto placed = vertices(textOf(out));
+    ASSERT_EQ(placed.size(), own.size()) << name;
+    for (std::size_t v = 0; v < own.size(); ++v)
+    {
+      const double x = name == std::string("follows") ? 2.0 * center - own[v][0] : own[v][0];
+      ASSERT_NEAR(placed[v][0], x, 1e-3) << name;
+      ASSERT_NEAR(placed[v][1], own[v][1], 1e-3) << name;
+      ASSERT_NEAR(placed[v][2], own[v][2], 1e-3) << name;
+    }
+  }
+}
+
+TEST_F(BatchCommand, NamesTheColumnOfAxesThatAreNone)
+{
+  for (const std::string column : {"ct_axes", "mr_axes", "labels_axes", "mesh_axes"})
+  {
+    write("name,folder,mr,labels,meshes," + column +
+          "\na,patient/ct,T2=patient/mr,patient/labels.seg.nrrd,patient/meshes/incus.obj,XYZ\n");
+    const auto rows = parsed(run(batch("--dry-run --json")))["rows"];
+    ASSERT_EQ(rows.size(), 1U) << column;
+    EXPECT_EQ(rows[0]["error"].get<std::string>().rfind("'" + column + "': axes: 'XYZ' is not", 0),
+              0U)
+        << rows[0]["error"];
+  }
+  for (const auto& [column, cell] : {std::pair<std::string, std::string>("mesh_axes", "RPS"),
+                                     {"mesh_frame", "ras"},
+                                     {"mesh_unit", "cm"}})
+  {
+    write("name,folder," + column + "\na,patient/ct," + cell + "\n");
+    const auto rows = parsed(run(batch("--dry-run --json")))["rows"];
+    ASSERT_EQ(rows.size(), 1U) << column;
+    EXPECT_NE(rows[0]["error"].get<std::string>().find("'" + column + "' goes with 'meshes'"),
+              std::string::npos)
+        << column << ": " << rows[0]["error"];
   }
 }
 

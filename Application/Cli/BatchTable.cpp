@@ -42,7 +42,7 @@ struct Column
   const char* text;
 };
 
-constexpr std::array<Column, 38> kColumns{{
+constexpr std::array<Column, 41> kColumns{{
     {"name", Step::None, "the case's name (needed)"},
     {"folder", Step::Build, "CT: DICOM folder or image file; blank: the case is there already"},
     {"series", Step::Build, "which series of the folder: UID or UID#VOLUME; of a file #VOLUME"},
@@ -69,6 +69,9 @@ constexpr std::array<Column, 38> kColumns{{
     {"rename_taken", Step::Build, "yes or no: number those whose names are taken, meshes too"},
     {"label_names", Step::Build, "table of the names of the labels"},
     {"meshes", Step::Build, "[NAME=]FILE[@MR], several with |"},
+    {"mesh_frame", Step::Build, "lps or ras, if the meshes' files do not say"},
+    {"mesh_axes", Step::Build, "as ct_axes, of the meshes; LPS: they lie where they belong"},
+    {"mesh_unit", Step::Build, "mm, cm, m, um or inch, if the meshes' files do not say"},
     {"mesh_parts", Step::Build, "yes or no: each object of a mesh file is a structure of its own"},
     {"tags", Step::Describe, "several with |"},
     {"note", Step::Describe, "free text"},
@@ -245,9 +248,16 @@ private:
   // nullopt: the column is blank.
   std::optional<core::AxesCorrection> axes(const std::string& column) const
   {
-    return cell(column).empty()
-               ? std::nullopt
-               : std::optional<core::AxesCorrection>(core::AxesCorrection::parse(cell(column)));
+    if (cell(column).empty())
+      return std::nullopt;
+    try
+    {
+      return parseAxes(cell(column), "'" + column + "'");
+    }
+    catch (const UsageError& error)
+    {
+      throw core::InvalidParameter(error.what());
+    }
   }
 
   // Of several texts one; empty: it is blank.
@@ -265,9 +275,11 @@ private:
   }
 
   // A unit of length in mm.
-  std::optional<double> unit(const std::string& column) const
+  std::optional<double> unit(const std::string& column,
+                             const std::vector<std::string>& units = {"mm", "cm", "m", "um", "nm",
+                                                                      "inch"}) const
   {
-    const std::string text = oneOf(column, {"mm", "cm", "m", "um", "nm", "inch"});
+    const std::string text = oneOf(column, units);
     return text.empty() ? std::nullopt : std::optional<double>(millimetresOf(text));
   }
 
@@ -334,8 +346,15 @@ private:
     sources.parts.meshes = parts("meshes", presenters::PartSource::parseDrawn);
     if (isYes("mesh_parts", cell("mesh_parts")) && sources.parts.meshes.empty())
       throw core::InvalidParameter("'mesh_parts' goes with 'meshes', which is blank");
+    for (const char* column : {"mesh_frame", "mesh_axes", "mesh_unit"})
+      if (!cell(column).empty() && sources.parts.meshes.empty())
+        throw core::InvalidParameter(std::string("'") + column +
+                                     "' goes with 'meshes', which is blank");
     for (presenters::PartSource& mesh : sources.parts.meshes)
     {
+      mesh.isRas = frame("mesh_frame");
+      mesh.axes = axes("mesh_axes");
+      mesh.unit = unit("mesh_unit", {"mm", "cm", "m", "um", "inch"});
       mesh.isPerObject = isYes("mesh_parts", cell("mesh_parts"));
       mesh.skipsTaken = isYes("skip_taken", cell("skip_taken"));
       mesh.numbersTaken = isYes("rename_taken", cell("rename_taken"));

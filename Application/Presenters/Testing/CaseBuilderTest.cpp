@@ -80,17 +80,33 @@ protected:
     return result;
   }
 
-  /// Adds labels on voxels of the CT's lattice. By how much they may be off where they are asked
-  /// about, mm; nullopt: they were added.
-  std::optional<double> unrepairedBy(scene::Case& value, const core::Index3& first,
-                                     const core::Index3& size) const
+  /// The same voxels in the order of other axes: along `from[a]` of the grid, backwards where
+  /// `backwards[a]`.
+  static core::GridGeometry reordered(const core::GridGeometry& grid, const core::Index3& from,
+                                      const std::array<bool, 3>& backwards)
   {
-    const core::GridGeometry& ct = value.ct.geometry;
-    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(
-        core::GridGeometry(size, ct.spacing(),
-                           ct.patientFromVoxel(Vector3d(first[0], first[1], first[2])),
-                           ct.direction()),
-        std::uint16_t{0});
+    core::Index3 dims;
+    Vector3d spacing;
+    Eigen::Matrix3d direction;
+    Vector3d first = Vector3d::Zero(); // its voxel, in those of the grid
+    for (int a = 0; a < 3; ++a)
+    {
+      const int of = from[static_cast<std::size_t>(a)];
+      const bool isBackwards = backwards[static_cast<std::size_t>(a)];
+      dims[static_cast<std::size_t>(a)] = grid.dims()[static_cast<std::size_t>(of)];
+      spacing[a] = grid.spacing()[of];
+      direction.col(a) = (isBackwards ? -1.0 : 1.0) * grid.direction().col(of);
+      if (isBackwards)
+        first[of] = grid.dims()[static_cast<std::size_t>(of)] - 1.0;
+    }
+    return {dims, spacing, grid.patientFromVoxel(first), direction};
+  }
+
+  /// Adds labels on this grid. By how much they may be off where they are asked about, mm; nullopt:
+  /// they were added.
+  std::optional<double> unrepairedBy(scene::Case& value, const core::GridGeometry& grid) const
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
     voxels->at(3, 3, 2) = 1;
     imaging::writeLabelFile(m_folder / "stack.nrrd", volume::makeLabelMap(voxels, {}));
     presenters::PartSources parts;
@@ -104,6 +120,20 @@ protected:
       return unrepaired.apart;
     }
     return std::nullopt;
+  }
+
+  /// A part of the CT's lattice, which may reach beyond the CT.
+  static core::GridGeometry onLattice(const core::GridGeometry& ct, const core::Index3& first,
+                                      const core::Index3& size)
+  {
+    return {size, ct.spacing(), ct.patientFromVoxel(Vector3d(first[0], first[1], first[2])),
+            ct.direction()};
+  }
+
+  std::optional<double> unrepairedBy(scene::Case& value, const core::Index3& first,
+                                     const core::Index3& size) const
+  {
+    return unrepairedBy(value, onLattice(value.ct.geometry, first, size));
   }
 
   /// A CT (`file` is "ct") or MR series of this patient.
@@ -373,6 +403,52 @@ TEST_F(CaseBuilder, AsksNotAboutLabelsOnTheVoxelsOfARepairedCt)
     EXPECT_FALSE(unrepairedBy(with, first, {6, 5, 4}));
     EXPECT_EQ(with.labels.size(), 1U);
   }
+}
+
+// NiBabel, 3D Slicer and others save again in RAS, or by planes: the order of the voxels is not
+// where they lie.
+TEST_F(CaseBuilder, AsksAboutLabelsOfARepairedCtInWhicheverOrderTheirVoxelsAre)
+{
+  auto value = presenters::buildCase("ear", m_sources, {});
+  const core::GridGeometry ct = value.ct.geometry;
+  const core::Index3 dims = ct.dims();
+  ASSERT_GE(dims[2], 8);
+  value.ct.provenance.interpolated = {{3, 4}};
+  const auto isAsked = [&](const core::GridGeometry& grid)
+  {
+    scene::Case with = value;
+    return unrepairedBy(with, grid).has_value();
+  };
+  constexpr bool kOn = false, kBack = true;
+  core::Index3 order{0, 1, 2};
+  do
+    for (const auto& backwards :
+         {std::array<bool, 3>{kOn, kOn, kOn}, {kBack, kBack, kOn}, {kOn, kBack, kBack}})
+    {
+      const auto of = [&](const core::Index3& first, const core::Index3& size)
+      { return reordered(onLattice(ct, first, size), order, backwards); };
+      const std::string way = std::to_string(order[0]) + std::to_string(order[1]) +
+                              std::to_string(order[2]) + (backwards[0] ? " back" : " on") +
+                              (backwards[2] ? " down" : " up");
+      EXPECT_FALSE(isAsked(of({0, 0, 0}, dims))) << way << ": the repaired CT's own";
+      EXPECT_FALSE(isAsked(of({4, 3, 1}, {6, 6, 5}))) << way << ": a cut of it";
+      EXPECT_TRUE(isAsked(of({0, 0, 0}, {dims[0], dims[1], dims[2] - 2})))
+          << way << ": as many slices as there are files";
+      const core::GridGeometry aside =
+          reordered(core::GridGeometry(dims, ct.spacing(), ct.patientFromVoxel({0.5, 0.0, 0.0})),
+                    order, backwards);
+      EXPECT_TRUE(isAsked(aside)) << way << ": half a voxel aside";
+    }
+  while (std::next_permutation(order.begin(), order.end()));
+  // A stack that its program counts from the head begins at the last slice.
+  const auto fromAbove = [&](int first, const std::array<bool, 3>& backwards)
+  {
+    return isAsked(reordered(onLattice(ct, {0, 0, first}, {dims[0], dims[1], dims[2] - 2}),
+                             {0, 1, 2}, backwards));
+  };
+  EXPECT_TRUE(fromAbove(2, {kOn, kOn, kBack}));
+  EXPECT_FALSE(fromAbove(1, {kOn, kOn, kBack})) << "a cut from neither end";
+  EXPECT_FALSE(fromAbove(2, {kBack, kBack, kOn})) << "counted from the feet it is a cut";
 }
 
 // A box without air and soft tissue shows no unit; that of the whole image is known.

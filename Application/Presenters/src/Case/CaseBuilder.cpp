@@ -907,22 +907,47 @@ std::optional<std::string> drawnOn(const scene::Case& value, const PartSource& s
   return names.front();
 }
 
-// Whether the voxels are some of those of another grid, or would be beyond its borders.
-bool isOnLatticeOf(const core::GridGeometry& grid, const core::GridGeometry& whole)
+// Voxels that are some of another grid's, or would be beyond its borders.
+struct OnLattice
+{
+  core::IndexBox box;         ///< in the other grid's voxels
+  bool isFromLastTo0 = false; ///< their slices are counted from the other end
+};
+
+// None if they are not, in whichever order and direction their axes have them: files that were
+// saved again in another orientation have the same voxels.
+std::optional<OnLattice> onLatticeOf(const core::GridGeometry& grid,
+                                     const core::GridGeometry& whole)
 {
   constexpr double kNear = 0.02; // voxels
-  const Eigen::Vector3d first = whole.voxelFromPatient(grid.patientFromVoxel({0.0, 0.0, 0.0}));
-  if ((first - first.array().round().matrix()).cwiseAbs().maxCoeff() > kNear)
-    return false;
+  constexpr double kFarthest = 1e6;
+  const Eigen::Vector3d corner = whole.voxelFromPatient(grid.patientFromVoxel({0.0, 0.0, 0.0}));
+  const Eigen::Vector3d first = corner.array().round().matrix();
+  if ((corner - first).cwiseAbs().maxCoeff() > kNear || first.cwiseAbs().maxCoeff() > kFarthest)
+    return std::nullopt;
+  Eigen::Vector3d last = first;
   for (int axis = 0; axis < 3; ++axis)
   {
-    Eigen::Vector3d last = Eigen::Vector3d::Zero();
-    last[axis] = grid.dims()[static_cast<std::size_t>(axis)];
-    const Eigen::Vector3d end = whole.voxelFromPatient(grid.patientFromVoxel(last));
-    if ((end - first - last).cwiseAbs().maxCoeff() > kNear)
-      return false;
+    const double count = grid.dims()[static_cast<std::size_t>(axis)];
+    Eigen::Vector3d end = Eigen::Vector3d::Zero();
+    end[axis] = count;
+    const Eigen::Vector3d along = whole.voxelFromPatient(grid.patientFromVoxel(end)) - corner;
+    int of = 0;
+    along.cwiseAbs().maxCoeff(&of);
+    const double sign = along[of] < 0.0 ? -1.0 : 1.0;
+    if ((along - sign * count * Eigen::Vector3d::Unit(of)).cwiseAbs().maxCoeff() > kNear)
+      return std::nullopt;
+    last[of] += sign * (count - 1.0);
   }
-  return true;
+  OnLattice found;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto a = static_cast<std::size_t>(axis);
+    found.box.lower[a] = static_cast<int>(std::min(first[axis], last[axis]));
+    found.box.upper[a] = static_cast<int>(std::max(first[axis], last[axis])) + 1;
+  }
+  found.isFromLastTo0 = last[2] < first[2];
+  return found;
 }
 
 // Whether what was drawn may be on the slices as they lie in the files. A program that takes them
@@ -933,19 +958,21 @@ bool mayBeUnrepaired(const core::GridGeometry& grid, const scene::ImagePart& ct)
 {
   if (core::sameGrid(grid, ct.geometry))
     return false;
-  if (!isOnLatticeOf(grid, ct.geometry))
+  const auto lies = onLatticeOf(grid, ct.geometry);
+  if (!lies)
     return true;
-  const double first =
-      ct.geometry.voxelFromPatient(grid.patientFromVoxel(Eigen::Vector3d::Zero()))[2];
-  if (std::lround(first) > 0) // not with the first slice
+  const core::IndexBox& box = lies->box;
+  if (box == ct.geometry.fullBox())
     return false;
+  if (box.lower[2] > 0 && !(lies->isFromLastTo0 && box.upper[2] >= ct.geometry.dims()[2]))
+    return false; // with neither the first slice nor, counted from there, the last
   const double aside = std::abs(ct.provenance.shift);
   const Eigen::Vector3d added(std::ceil(aside / ct.geometry.spacing()[0]),
                               std::ceil(aside / ct.geometry.spacing()[1]),
                               volume::sliceCount(ct.provenance.interpolated));
   for (int axis = 0; axis < 3; ++axis)
     if (const int absent = ct.geometry.dims()[static_cast<std::size_t>(axis)] -
-                           grid.dims()[static_cast<std::size_t>(axis)];
+                           box.size()[static_cast<std::size_t>(axis)];
         absent > added[axis])
       return false;
   return true;

@@ -58,6 +58,31 @@ TEST_F(ViewCommand, HoldsTheHandpieceForAnApproachAsTheCaseIsLookedAt)
   EXPECT_TRUE(usual["tool"].is_null());
 }
 
+// A block in the middle of the scanner opens to no side.
+TEST_F(ViewCommand, GuessesNoEarThatNothingTells)
+{
+  std::ofstream file(m_folder / "block.nrrd");
+  file << "NRRD0004\ntype: short\ndimension: 3\nsizes: 8 8 8\n"
+          "space: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+          "space origin: (0,0,0)\nencoding: ascii\n\n";
+  for (int n = 0; n < 8 * 8 * 8; ++n)
+    file << 900 + n / 8 << '\n'; // alike from left to right
+  file.close();
+  json("new block --modality CT --ct " + quoted(m_folder / "block.nrrd"));
+  const std::string slice =
+      "slice block --plane poeschl --at 4,4,4 --out " + quoted(m_folder / "slice.png");
+  expectRefused("view block --view left --handpiece transmastoid", 2, "--side");
+  expectRefused(slice, 2, "--side left or right");
+  const auto lateral = run("view block --view lateral");
+  EXPECT_EQ(lateral.code, 0) << lateral.err;
+  EXPECT_NE(lateral.err.find("does not tell which ear it is"), std::string::npos) << lateral.err;
+  EXPECT_EQ(run(slice + " --side right").code, 0);
+  json("describe block --side right");
+  EXPECT_EQ(run("view block --view right --handpiece transmastoid").code, 0);
+  EXPECT_EQ(run(slice).code, 0);
+  EXPECT_EQ(run("view block --view lateral").err.find("which ear"), std::string::npos);
+}
+
 TEST_F(ViewCommand, RenderAndSliceShowWhatIsSaved)
 {
   const Json info = json("info ear").at("ct");

@@ -1,8 +1,10 @@
 #include "CaseWarnings.h"
 
+#include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/CaseStamp.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/SceneAssembly.h"
+#include "petrous/Presenters/SlicePlanes.h"
 
 namespace petrous::cli
 {
@@ -32,6 +34,15 @@ void warnOfEar(const Context& context, const scene::Case& value, scene::Side ear
 
 void warnOfView(const Context& context, const scene::Case& value, const std::string& view)
 {
+  if (view == "lateral" && !presenters::earOf(value))
+  {
+    const core::CameraPose camera =
+        presenters::standardCamera(value, rendering::StandardView::Lateral);
+    context.warn(std::string("the case does not tell which ear it is: the lateral view is from the "
+                             "patient's ") +
+                 (camera.position.x() > camera.focalPoint.x() ? "left" : "right") +
+                 "; state the side with 'petrous describe CASE --side left' or right");
+  }
   warnOfEar(context, value,
             view == "surgical-left"    ? scene::Side::Left
             : view == "surgical-right" ? scene::Side::Right

@@ -32,7 +32,7 @@ void warnOfMrs(const Context& context, const scene::Case& value);
 /// Warns of an ear that the case does not have by its side or by the place of its images;
 /// Unknown: none is meant.
 void warnOfEar(const Context& context, const scene::Case& value, scene::Side ear);
-/// The same of the standard view of that name (rendering::parseView).
+/// The same of a standard view by its name; of the lateral one if the ear is not known (earOf).
 void warnOfView(const Context& context, const scene::Case& value, const std::string& view);
 
 /// The same parts: an array of "structure" and "text".

@@ -104,8 +104,13 @@ WantedPlane planeOf(const SliceOptions& options, const scene::Case& value)
                                      : SliceOrientation::Sagittal;
   if (!isPetrous)
     return {slice, presenters::axesOf(slice), presenters::nameOf(slice), true};
-  const auto side =
-      options.side.empty() ? presenters::earOf(value) : scene::sideFromName(options.side);
+  const auto ear = options.side.empty()
+                       ? presenters::earOf(value)
+                       : std::optional<scene::Side>(scene::sideFromName(options.side));
+  if (!ear)
+    throw UsageError("--plane " + word +
+                     ": the case does not tell which ear it is; say --side left or right");
+  const scene::Side side = *ear;
   const auto planes = presenters::SlicePlanes::petrous(side);
   return {slice, planes.axes(slice),
           planes.name(slice) + (side == scene::Side::Left ? ", left ear" : ", right ear")};

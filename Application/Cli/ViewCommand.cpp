@@ -125,9 +125,12 @@ void changeSlices(scene::Case& value, const ViewCommandOptions& options)
 ViewState::Handpiece handpieceFor(const scene::Case& value, const ViewCommandOptions& options)
 {
   const auto approach = presenters::parseSurgicalApproach(options.handpiece);
-  const scene::Side ear = presenters::earOf(value);
+  const auto ear = presenters::earOf(value);
+  if (!ear)
+    throw UsageError("--handpiece: the case does not tell which ear it is; state it first with "
+                     "'petrous describe CASE --side left' or right");
   const auto hand =
-      presenters::handpieceAlong(presenters::shaftOf(approach.value(), ear, options.leftHand),
+      presenters::handpieceAlong(presenters::shaftOf(approach.value(), *ear, options.leftHand),
                                  presenters::currentCamera(value), options.leftHand);
   if (!hand)
     throw UsageError("--handpiece: in this view the hand would come from behind the picture; look "

@@ -3350,6 +3350,10 @@ Ohne ihn dreht Ziehen den Patienten.</translation>
         <source>Handpiece for the right ear: %1° from the line of sight, at %2° on the screen</source>
         <translation>Handstück für das rechte Ohr: %1° zur Blickrichtung, bei %2° auf dem Bildschirm</translation>
     </message>
+    <message>
+        <source>Which ear it is, is not known: state the side first (Case &gt; Side)</source>
+        <translation>Welches Ohr es ist, ist nicht bekannt: zuerst die Seite angeben (Fall &gt; Seite)</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::DrillSound</name>
@@ -4665,6 +4669,14 @@ Ohne ihn dreht Ziehen den Patienten.</translation>
     <message>
         <source>%1 as soon as this is done: %2</source>
         <translation>%1, sobald dies fertig ist: %2</translation>
+    </message>
+    <message>
+        <source>Which ear it is, is not known (Case &gt; Side): this is the patient&apos;s left</source>
+        <translation>Welches Ohr es ist, ist nicht bekannt (Fall &gt; Seite): dies ist die linke Seite des Patienten</translation>
+    </message>
+    <message>
+        <source>Which ear it is, is not known (Case &gt; Side): this is the patient&apos;s right</source>
+        <translation>Welches Ohr es ist, ist nicht bekannt (Fall &gt; Seite): dies ist die rechte Seite des Patienten</translation>
     </message>
 </context>
 <context>
@@ -7980,6 +7992,10 @@ Rot und schraffiert: weggebohrt.</translation>
     <message>
         <source>The slices have the scale of the 3D view where it turns about</source>
         <translation>Die Schichten haben den Maßstab der 3D-Ansicht an deren Drehpunkt</translation>
+    </message>
+    <message>
+        <source>Which ear it is, is not known: choose it with the planes in the panel Slices, or state the side (Case &gt; Side)</source>
+        <translation>Welches Ohr es ist, ist nicht bekannt: mit den Ebenen im Bereich Schichten wählen oder die Seite angeben (Fall &gt; Seite)</translation>
     </message>
 </context>
 <context>

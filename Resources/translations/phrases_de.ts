@@ -3108,6 +3108,10 @@
         <translation>Weggelassen</translation>
     </message>
     <message>
+        <source>The surgical position is not shown, as the case does not tell which ear it is.</source>
+        <translation>Die Operationslage ist nicht gezeigt, da der Fall nicht sagt, welches Ohr es ist.</translation>
+    </message>
+    <message>
         <source>drawing slices</source>
         <translation>Schichten werden gezeichnet</translation>
     </message>

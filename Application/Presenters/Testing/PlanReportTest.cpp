@@ -286,10 +286,18 @@ TEST(PlanReport, NamesNoEarThatNobodyStated)
   const auto caption = [](const scene::Case& of)
   { return planReport(of, small()).sections.front().pictures.at(2).caption; };
   EXPECT_EQ(caption(value), "Surgical position, left ear");
+  const core::GridGeometry placed({40, 32, 32}, Vector3d::Constant(0.5), {-60.0, 0.0, 0.0});
   for (const scene::Side side : {scene::Side::Unknown, scene::Side::Both})
   {
     value.description.side = side;
-    EXPECT_EQ(caption(value), "Surgical position; the side is taken from where the image lies");
+    // Its image is in the middle of the scanner, as exports without a header are.
+    const PlanReport report = planReport(value, small());
+    EXPECT_EQ(report.sections.front().pictures.size(), 2U) << "as saved";
+    EXPECT_EQ(report.sections.front().paragraphs.back(),
+              "The surgical position is not shown, as the case does not tell which ear it is.");
+    scene::Case right = shapes::shapeCase(placed, {});
+    right.description.side = side;
+    EXPECT_EQ(caption(right), "Surgical position; the side is taken from where the image lies");
   }
 }
 

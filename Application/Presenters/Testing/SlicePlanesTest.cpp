@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <random>
 
 #include <Eigen/Geometry>
@@ -9,6 +11,7 @@
 #include "petrous/Presenters/PlaneSamples.h"
 #include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Scene/Case.h"
+#include "petrous/Volume/IntensityVolume.h"
 
 using namespace petrous;
 using namespace petrous::presenters;
@@ -265,4 +268,35 @@ TEST(SlicePlanes, TheEarIsTheCasesElseWhereTheImageLies)
   value.description.side = scene::Side::Unknown;
   value.ct.geometry = core::GridGeometry({3, 3, 3}, Vector3d::Ones(), Vector3d(-40, 0, 0));
   EXPECT_EQ(earOf(value), scene::Side::Right);
+}
+
+// Of a solid block no side is open.
+TEST(SlicePlanes, TheEarIsUnknownWhereNothingTellsIt)
+{
+  const auto solid = [](const Vector3d& origin)
+  {
+    scene::Case value;
+    value.ct.geometry = core::GridGeometry({9, 9, 9}, Vector3d::Ones(), origin);
+    value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+        std::make_shared<const volume::Volume<std::int16_t>>(value.ct.geometry,
+                                                             std::int16_t{1000}));
+    value.ct.range = {-1000.0, 1000.0};
+    return value;
+  };
+  for (const double x : {40.0, -40.0})
+  {
+    scene::Case value = solid(Vector3d(x, 0, 0));
+    EXPECT_EQ(earOf(value), x > 0.0 ? scene::Side::Left : scene::Side::Right);
+    value.ct.provenance.assumedRas = true;
+    EXPECT_FALSE(earOf(value)) << "its file left the side open";
+    value.ct.provenance.assumedRas.reset();
+    for (const char* const letters : {"RPS", "LPI"})
+    {
+      value.ct.provenance.axes = core::AxesCorrection::parse(letters);
+      EXPECT_FALSE(earOf(value)) << letters;
+    }
+    value.description.side = scene::Side::Left;
+    EXPECT_EQ(earOf(value), scene::Side::Left);
+  }
+  EXPECT_FALSE(earOf(solid(Vector3d::Zero()))) << "as exports without a header are placed";
 }

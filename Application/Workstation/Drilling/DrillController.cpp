@@ -255,8 +255,11 @@ void DrillController::holdFor(presenters::SurgicalApproach approach)
     return emit statusMessage(tr("The device turns the handpiece by itself"));
   if (!m_model.hasCase())
     return;
-  const scene::Side ear = presenters::earOf(m_model.value());
-  const auto hand = presenters::handpieceAlong(presenters::shaftOf(approach, ear, m_isLeft),
+  const auto ear = presenters::earOf(m_model.value());
+  if (!ear)
+    return emit statusMessage(
+        tr("Which ear it is, is not known: state the side first (Case > Side)"));
+  const auto hand = presenters::handpieceAlong(presenters::shaftOf(approach, *ear, m_isLeft),
                                                m_view.picture().camera(), m_isLeft);
   if (!hand)
     return emit statusMessage(

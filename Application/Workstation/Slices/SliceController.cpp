@@ -190,8 +190,12 @@ void SliceController::setPlanes(Kind kind, Side side)
   case Kind::Standard:
     return m_slices.setPlanes({});
   case Kind::Petrous:
-    return m_slices.setPlanes(
-        SlicePlanes::petrous(side == Side::Unknown ? presenters::earOf(m_model.value()) : side));
+    if (const auto ear =
+            side == Side::Unknown ? presenters::earOf(m_model.value()) : std::optional<Side>(side))
+      return m_slices.setPlanes(SlicePlanes::petrous(*ear));
+    showState(); // the menu has ticked it
+    return emit statusMessage(tr("Which ear it is, is not known: choose it with the planes in the "
+                                 "panel Slices, or state the side (Case > Side)"));
   case Kind::Tool:
   {
     const auto& tool = m_view.display().tool();

@@ -98,6 +98,7 @@
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Presenters/Recordings.h"
+#include "petrous/Presenters/SlicePlanes.h"
 
 namespace petrous::workstation
 {
@@ -1500,6 +1501,15 @@ void MainWindow::showView(rendering::StandardView view)
       !former.isEmpty() && statusBar()->currentMessage() == former)
     statusBar()->clearMessage();
   m_view->setCamera(presenters::standardCamera(m_model.value(), view));
+  if (view == rendering::StandardView::Lateral && !presenters::earOf(m_model.value()))
+  {
+    const core::CameraPose camera = m_view->picture().camera();
+    m_earDoubt = camera.position.x() > camera.focalPoint.x()
+                     ? tr("Which ear it is, is not known (Case > Side): this is the patient's left")
+                     : tr("Which ear it is, is not known (Case > Side): this is the patient's "
+                          "right");
+    return statusBar()->showMessage(m_earDoubt);
+  }
   if (view != rendering::StandardView::SurgicalLeft &&
       view != rendering::StandardView::SurgicalRight)
     return;

@@ -33,6 +33,8 @@ namespace
 {
 
 // Of a case without a side the renderer knows it by the place of the image, if that states one.
+// Where the ear is not known it is the side to which the coordinates lie: some camera is needed,
+// and whoever asked for this view is told (warnOfView, MainWindow::showView).
 rendering::StandardView lateralView(const scene::Case& value)
 {
   using rendering::StandardView;
@@ -40,7 +42,10 @@ rendering::StandardView lateralView(const scene::Case& value)
       value.description.side == scene::Side::Left || value.description.side == scene::Side::Right;
   if (!isDescribed && statesPlace(value.ct))
     return StandardView::Lateral;
-  return earOf(value) == scene::Side::Left ? StandardView::Left : StandardView::Right;
+  const bool isLeft = value.ct.geometry.center().x() > 0.0;
+  return earOf(value).value_or(isLeft ? scene::Side::Left : scene::Side::Right) == scene::Side::Left
+             ? StandardView::Left
+             : StandardView::Right;
 }
 
 } // namespace

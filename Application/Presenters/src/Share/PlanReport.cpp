@@ -562,7 +562,7 @@ private:
     ReportSection& views = section("views", say("Views"));
     if (std::string absent = absentText(true); !absent.empty())
       views.paragraphs.push_back(std::move(absent));
-    const bool isLeft = earOf(m_value) == scene::Side::Left;
+    const std::optional<scene::Side> ear = earOf(m_value);
     try
     {
       const scene::Case shown = m_options.keepIdentity ? m_value : thumbnailCase(m_value);
@@ -592,10 +592,15 @@ private:
       };
       add(say("3D view as saved"), currentCamera(m_value), m_value.view.clipping,
           progress.part(0.4, 0.7));
-      add(say(surgicalCaption()),
-          standardCamera(m_value, isLeft ? rendering::StandardView::SurgicalLeft
-                                         : rendering::StandardView::SurgicalRight),
-          {}, progress.part(0.7, 1.0));
+      if (ear)
+        add(say(surgicalCaption()),
+            standardCamera(m_value, ear == scene::Side::Left
+                                        ? rendering::StandardView::SurgicalLeft
+                                        : rendering::StandardView::SurgicalRight),
+            {}, progress.part(0.7, 1.0));
+      else
+        views.paragraphs.push_back(
+            say("The surgical position is not shown, as the case does not tell which ear it is."));
     }
     catch (const rendering::RenderingError& error)
     {

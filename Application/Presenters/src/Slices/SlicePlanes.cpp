@@ -204,18 +204,21 @@ bool statesPlace(const scene::ImagePart& image)
          image.provenance.axes.isIdentity();
 }
 
-scene::Side earOf(const scene::Case& value)
+std::optional<scene::Side> earOf(const scene::Case& value)
 {
   constexpr double kAir = -500.0; // HU
   const scene::Side side = value.description.side;
   if (side == scene::Side::Left || side == scene::Side::Right)
     return side;
-  const auto image = statesPlace(value.ct) ? nullptr : value.ct.volume.get();
+  if (statesPlace(value.ct))
+    return value.ct.geometry.center().x() > 0.0 ? scene::Side::Left : scene::Side::Right;
+  const auto image = value.ct.volume.get();
   const double air =
       calibratedScale(value).calibrated ? kAir : 0.5 * (value.ct.range.min + value.iso);
-  if (const int open = image ? volume::openSide(*image, air) : 0; open != 0)
-    return open > 0 ? scene::Side::Left : scene::Side::Right;
-  return value.ct.geometry.center().x() > 0.0 ? scene::Side::Left : scene::Side::Right;
+  const int open = image ? volume::openSide(*image, air) : 0;
+  if (open == 0)
+    return std::nullopt;
+  return open > 0 ? scene::Side::Left : scene::Side::Right;
 }
 
 } // namespace petrous::presenters

@@ -26,6 +26,8 @@ rendering::SceneContents sceneContents(const scene::Case& value,
                                        const core::Progress& progress = {});
 
 /// A standard view that frames the case's bone (TissueExtent.h), drilled or not. Loads the CT.
+/// Lateral: from the ear's side; where that is not known (earOf) from the side to which the image's
+/// coordinates lie, which the user is to be told.
 core::CameraPose standardCamera(const scene::Case& value, rendering::StandardView view);
 
 /// The case's last view, else the lateral one. Loads the CT for the latter.

@@ -93,7 +93,8 @@ bool statesPlace(const scene::ImagePart& image);
 
 /// The side that the case is described with; if none or both, left where the middle of its CT is
 /// left of the midline (LPS x > 0), else right. Of a CT that does not state its place it is the
-/// side on which it opens into air (volume::openSide), if it does, which loads it.
-scene::Side earOf(const scene::Case& value);
+/// side on which it opens into air (volume::openSide), which loads it; nullopt if it does not: the
+/// user has to say.
+std::optional<scene::Side> earOf(const scene::Case& value);
 
 } // namespace petrous::presenters

@@ -51,8 +51,8 @@ struct PartSource
   bool numbersTaken = false;
   /// Other names than the part, or its structures, would have.
   std::map<std::string, std::string> newNames = {};
-  /// Of an MR, as CaseSources. Of structures and meshes: theirs, in place of their image's and about
-  /// its centre; "LPS" leaves them where they are, also when an MR of their grid is added later.
+  /// Of an MR, as CaseSources. Of structures and meshes: theirs, about their image's centre and in
+  /// place of its; "LPS" leaves them where they are, also if an MR of their grid is added later.
   std::optional<core::AxesCorrection> axes = std::nullopt;
   std::string description = {}; ///< MR: SourceContent's
   /// Meshes: of a file that holds several objects each becomes a part of its own, named as

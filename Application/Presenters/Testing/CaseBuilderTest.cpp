@@ -451,6 +451,48 @@ TEST_F(CaseBuilder, AsksAboutLabelsOfARepairedCtInWhicheverOrderTheirVoxelsAre)
   EXPECT_FALSE(fromAbove(2, {kBack, kBack, kOn})) << "counted from the feet it is a cut";
 }
 
+// Resaved in RAS they would else lie in the CT, away from the MR by its registration.
+TEST_F(CaseBuilder, LabelsOnAnMrAreKnownInWhicheverOrderTheirVoxelsAre)
+{
+  const core::GridGeometry grid({9, 8, 7}, Vector3d(1.5, 1.4, 1.3), Vector3d(-30, 20, 10));
+  auto scan = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{7});
+  scan->at(2, 2, 1) = 90;
+  imaging::writeVolume(m_folder / "mr.nrrd", *scan);
+  const auto labelsOn = [&](const core::GridGeometry& of)
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(of, std::uint16_t{0});
+    voxels->at(3, 3, 2) = 1;
+    imaging::writeLabelFile(m_folder / "vein.nrrd", volume::makeLabelMap(voxels, {}));
+    presenters::PartSources parts;
+    parts.labels = {{"vein", m_folder / "vein.nrrd"}};
+    return parts;
+  };
+  presenters::PartSources mr;
+  mr.mr = {{"t2", m_folder / "mr.nrrd"}};
+  for (const core::GridGeometry& of : {reordered(grid, {0, 1, 2}, {true, true, false}),
+                                       reordered(grid, {2, 0, 1}, {false, true, false})})
+    for (const bool isMrFirst : {true, false})
+    {
+      auto value = presenters::buildCase("ear", m_sources, {});
+      if (isMrFirst)
+        presenters::addParts(value, mr, {});
+      presenters::addParts(value, labelsOn(of), {});
+      if (!isMrFirst)
+        presenters::addParts(value, mr, {});
+      EXPECT_EQ(value.labels.at(0).drawnOn, "t2") << isMrFirst;
+      EXPECT_TRUE(core::sameGrid(value.labels[0].labels.get()->voxels->geometry(), of))
+          << isMrFirst;
+    }
+  // A cut of it does not tell.
+  auto value = presenters::buildCase("ear", m_sources, {});
+  presenters::addParts(value, mr, {});
+  presenters::addParts(
+      value,
+      labelsOn(reordered(onLattice(grid, {0, 0, 0}, {9, 8, 6}), {0, 1, 2}, {true, true, false})),
+      {});
+  EXPECT_FALSE(value.labels.at(0).drawnOn);
+}
+
 // A box without air and soft tissue shows no unit; that of the whole image is known.
 TEST_F(CaseBuilder, ABoxHasTheUnitOfItsImage)
 {

@@ -496,11 +496,35 @@ core::GridGeometry statedGrid(const scene::ImagePart& image)
   return image.provenance.axes.inverse().applied(image.geometry);
 }
 
-// Of the image, as it is or as its file states it.
+// Whether two grids have the same voxels, with their axes in any order and direction.
+bool haveSameVoxels(const core::GridGeometry& a, const core::GridGeometry& b)
+{
+  constexpr double kNear = 1e-3; // mm, as core::sameGrid
+  const auto along = [](const core::GridGeometry& grid, int axis)
+  {
+    return Eigen::Vector3d(grid.patientFromVoxelLinear().col(axis) *
+                           grid.dims()[static_cast<std::size_t>(axis)]);
+  };
+  const auto isAxisOfB = [&](int axis)
+  {
+    const Eigen::Vector3d of = along(a, axis);
+    for (int other = 0; other < 3; ++other)
+      if (const Eigen::Vector3d one = along(b, other);
+          a.dims()[static_cast<std::size_t>(axis)] == b.dims()[static_cast<std::size_t>(other)] &&
+          std::min((of - one).norm(), (of + one).norm()) <= kNear)
+        return true;
+    return false;
+  };
+  return (a.center() - b.center()).norm() <= kNear && isAxisOfB(0) && isAxisOfB(1) && isAxisOfB(2);
+}
+
+// Of the image, as it is or as its file states it: where these are two, the order and direction of
+// the axes tell them apart.
 bool hasGridOf(const scene::ImagePart& image, const core::GridGeometry& grid)
 {
   return core::sameGrid(grid, image.geometry) ||
-         (!image.provenance.axes.isIdentity() && core::sameGrid(grid, statedGrid(image)));
+         (image.provenance.axes.isIdentity() ? haveSameVoxels(grid, image.geometry)
+                                             : core::sameGrid(grid, statedGrid(image)));
 }
 
 std::vector<std::string> mrOfGrid(const scene::Case& value, const core::GridGeometry& grid)
@@ -790,7 +814,8 @@ void placeOn(scene::Case& value, const scene::ImagePart& mr)
   {
     if (part.drawnOn || !hasGridOf(mr, part.labels.get()->voxels->geometry()))
       continue;
-    if (!core::sameGrid(part.labels.get()->voxels->geometry(), mr.geometry))
+    if (!mr.provenance.axes.isIdentity() &&
+        !core::sameGrid(part.labels.get()->voxels->geometry(), mr.geometry))
     {
       part.labels =
           std::make_shared<const volume::LabelMap>(volume::onGrid(*part.labels.get(), mr.geometry));

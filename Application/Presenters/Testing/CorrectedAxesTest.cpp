@@ -428,6 +428,38 @@ TEST_F(CorrectedAxes, AreFollowedByStructureSets)
       1e-6);
 }
 
+// Names are unique, but not in every older case.
+TEST_F(CorrectedAxes, LeaveBehindWhatWasDrawnOnAnMrAlsoIfNamesAreThereTwice)
+{
+  m_sources.axes = {};
+  m_sources.parts.labels = {labelsOn(kFileGrid, "incus.nrrd")};
+  imaging::writeVolume(
+      m_folder / "mr.nrrd",
+      volume::Volume<std::int16_t>(
+          core::GridGeometry({9, 9, 9}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{7}));
+  m_sources.parts.mr = {{"t2", m_folder / "mr.nrrd"}};
+  core::TriangleMesh mesh;
+  mesh.vertices = {{0, 4, 5}, {1, 4, 5}, {0, 5, 5}, {0, 4, 6}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  imaging::writeMesh(m_folder / "nerve.obj", mesh);
+  m_sources.parts.meshes = {{"nerve", m_folder / "nerve.obj", "t2"}};
+  const scene::Case value = presenters::buildCase("ear", m_sources, {});
+  for (const char* const name : {"nerve", "t2"}) // as the mesh on the MR, and as the MR itself
+  {
+    scene::Case older = value;
+    older.labels.at(0).structures.at(0).name = name;
+    older.boneLook.sourceImage = "t2";
+    const scene::Case next =
+        presenters::correctedCase(older, AxesCorrection::parse("RPS"), "corrected");
+    ASSERT_EQ(next.labels.size(), 1U) << name << " lies in the CT";
+    EXPECT_EQ(next.labels[0].structures.at(0).name, name);
+    EXPECT_LT((placeOf(next.labels[0]) - Vector3d(3, 6, 7)).norm(), 1e-9);
+    EXPECT_TRUE(next.meshes.empty()) << name << " lies in the MR";
+    EXPECT_TRUE(next.mr.empty()) << name;
+    EXPECT_TRUE(next.boneLook.sourceImage.empty()) << "there is no MR to read";
+  }
+}
+
 TEST_F(CorrectedAxes, TurnMeshesInsideOutNever)
 {
   core::TriangleMesh mesh;
@@ -502,36 +534,4 @@ TEST_F(CorrectedAxes, OfAnOpenCaseMakeAnotherOne)
   EXPECT_FALSE(isNoted(back.ct.notes, "axes of the file corrected"));
   EXPECT_FALSE(isNoted(back.labels.at(0).notes, "follows the correction"));
   EXPECT_THROW(presenters::correctedCase(value, {}, "same"), core::InvalidParameter);
-}
-
-// Names are unique, but not in every older case.
-TEST_F(CorrectedAxes, LeaveBehindWhatWasDrawnOnAnMrAlsoIfNamesAreThereTwice)
-{
-  m_sources.axes = {};
-  m_sources.parts.labels = {labelsOn(kFileGrid, "incus.nrrd")};
-  imaging::writeVolume(
-      m_folder / "mr.nrrd",
-      volume::Volume<std::int16_t>(
-          core::GridGeometry({9, 9, 9}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{7}));
-  m_sources.parts.mr = {{"t2", m_folder / "mr.nrrd"}};
-  core::TriangleMesh mesh;
-  mesh.vertices = {{0, 4, 5}, {1, 4, 5}, {0, 5, 5}, {0, 4, 6}};
-  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-  imaging::writeMesh(m_folder / "nerve.obj", mesh);
-  m_sources.parts.meshes = {{"nerve", m_folder / "nerve.obj", "t2"}};
-  const scene::Case value = presenters::buildCase("ear", m_sources, {});
-  for (const char* const name : {"nerve", "t2"}) // as the mesh on the MR, and as the MR itself
-  {
-    scene::Case older = value;
-    older.labels.at(0).structures.at(0).name = name;
-    older.boneLook.sourceImage = "t2";
-    const scene::Case next =
-        presenters::correctedCase(older, AxesCorrection::parse("RPS"), "corrected");
-    ASSERT_EQ(next.labels.size(), 1U) << name << " lies in the CT";
-    EXPECT_EQ(next.labels[0].structures.at(0).name, name);
-    EXPECT_LT((placeOf(next.labels[0]) - Vector3d(3, 6, 7)).norm(), 1e-9);
-    EXPECT_TRUE(next.meshes.empty()) << name << " lies in the MR";
-    EXPECT_TRUE(next.mr.empty()) << name;
-    EXPECT_TRUE(next.boneLook.sourceImage.empty()) << "there is no MR to read";
-  }
 }

@@ -13,8 +13,8 @@
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
-#include "petrous/Scene/RemoveMr.h"
 #include "petrous/Scene/PlainText.h"
+#include "petrous/Scene/RemoveMr.h"
 
 namespace petrous::scene
 {

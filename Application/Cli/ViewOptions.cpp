@@ -150,6 +150,7 @@ scene::ViewState::Light LightOptions::over(scene::ViewState::Light light) const
   light.exposure = exposure.value_or(light.exposure);
   light.toneCurve = toneCurve.value_or(light.toneCurve);
   light.edges = edges.value_or(light.edges);
+  light.grain = grain.value_or(light.grain);
   return light;
 }
 
@@ -208,6 +209,11 @@ void addLightOptions(CLI::App& command, LightOptions& options, const std::string
   command
       .add_option("--edges", options.edges,
                   "More opacity of translucent surfaces that are seen from the side, 0 to 1" +
+                      defaultText)
+      ->check(within({0.0, 1.0}));
+  command
+      .add_option("--grain", options.grain,
+                  "Contrast of a fine grain on cut bone, which the CT does not have, 0 to 1" +
                       defaultText)
       ->check(within({0.0, 1.0}));
 }

@@ -5514,6 +5514,14 @@ Verletzt: %1, %2</translation>
         <source>Any colour, of a dialog</source>
         <translation>Eine beliebige Farbe, aus einem Dialog</translation>
     </message>
+    <message>
+        <source>Grai&amp;n</source>
+        <translation>Körn&amp;ung</translation>
+    </message>
+    <message>
+        <source>A fine grain on bone where it was cut, for the eye alone: the CT has none. It fades from afar</source>
+        <translation>Eine feine Körnung auf abgetragenem Knochen, nur fürs Auge: Das CT hat keine. Von weitem verschwindet sie</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::PreviewBar</name>

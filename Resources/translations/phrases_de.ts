@@ -1640,6 +1640,10 @@
         <translation>Kanten</translation>
     </message>
     <message>
+        <source>grain</source>
+        <translation>Körnung</translation>
+    </message>
+    <message>
         <source>shadows</source>
         <translation>Schatten</translation>
     </message>
@@ -9287,6 +9291,10 @@
     <message>
         <source>the edges' emphasis must be 0 to 1</source>
         <translation>die Betonung der Kanten muss 0 bis 1 sein</translation>
+    </message>
+    <message>
+        <source>the grain of cut bone must be 0 to 1</source>
+        <translation>die Körnung von abgetragenem Knochen muss 0 bis 1 sein</translation>
     </message>
     <message>
         <source>the stereo mode is unknown</source>

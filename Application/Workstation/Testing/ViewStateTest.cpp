@@ -230,6 +230,7 @@ TEST_F(ViewStates, EachChangeOfTheLightIsAStepOfTheOneUndo)
   exposure.setValue(1.5);
   for (const int percent : {10, 20, 40}) // a slider that moves
     wetness.setValue(percent);
+  widget<QSlider>("grain").setValue(60);
   for (const char* name : {"shadows", "toneCurve"})
     widget<QAbstractButton>(name).setChecked(true);
 
@@ -243,6 +244,8 @@ TEST_F(ViewStates, EachChangeOfTheLightIsAStepOfTheOneUndo)
   EXPECT_TRUE(widget<QAbstractButton>("shadows").isChecked());
   undo("shadows");
   EXPECT_FALSE(widget<QAbstractButton>("shadows").isChecked());
+  undo("grain");
+  EXPECT_EQ(widget<QSlider>("grain").value(), 0);
   EXPECT_EQ(wetness.value(), 40);
   undo("wetness");
   EXPECT_EQ(wetness.value(), 0) << "one step";

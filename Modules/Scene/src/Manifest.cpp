@@ -765,6 +765,7 @@ ViewState::Light lightIn(const json& j)
   light.exposure = j.value("exposure_ev", 0.0);
   light.toneCurve = j.value("tone_curve", false);
   light.edges = j.value("edges", 0.0);
+  light.grain = j.value("grain", 0.0);
   return light;
 }
 
@@ -837,6 +838,8 @@ json viewOut(const Case& value)
       j["light"]["tone_curve"] = true;
     if (view.light->edges != 0.0)
       j["light"]["edges"] = view.light->edges;
+    if (view.light->grain != 0.0)
+      j["light"]["grain"] = view.light->grain;
   }
   if (view.stereo)
     j["stereo"] = stereoOut(*view.stereo);

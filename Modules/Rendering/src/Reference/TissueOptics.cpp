@@ -250,6 +250,13 @@ bool TissueOptics::isSmooth(const Eigen::Vector3d& patient) const
   return double{surfaceMaterial(patient).surfaceOpacity} >= optics::kSmoothOpacity;
 }
 
+// Whether the mask decides at a surface towards air.
+bool TissueOptics::isCut(const Eigen::Vector3d& patient) const
+{
+  return m_mask && m_mask->sample(m_mask->geometry().voxelFromPatient(patient)) - 0.5 <
+                       m_field.uncut(patient);
+}
+
 // The CT's gradient that gave the normal, intensity per mm; only where the CT decides.
 std::optional<Eigen::Vector3d> TissueOptics::ctGradientAt(const Eigen::Vector3d& patient,
                                                           State from) const
@@ -311,8 +318,17 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
   const double cosine = normal.norm() > 0.0 ? normal.dot(ray.direction) : 1.0;
   auto look = material.transfer.at(intensity(material, below));
   std::optional<std::array<double, 3>> overlay;
-  if (!face && (&material == &m_materials.front() || material.lumen))
+  const bool isBony = !face && (&material == &m_materials.front() || material.lumen);
+  if (isBony)
     overlay = overlayAt(point);
+  if (isBony && m_light.grain > 0.0 && !isSolid(from) && isCut(point))
+  {
+    const core::GridGeometry& grid = m_ct->geometry();
+    const double factor = optics::grainFactor(grid, grid.voxelFromPatient(point), cosine,
+                                              ray.pixelAt(t), m_light.grain);
+    for (double& channel : look.color)
+      channel = std::min(channel * factor, 1.0);
+  }
   look.color = overlay.value_or(look.color);
   if (face && m_section)
     return {{look.color[0], look.color[1], look.color[2]}, material.surfaceOpacity, false};

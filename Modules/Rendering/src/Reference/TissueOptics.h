@@ -86,6 +86,7 @@ private:
   std::optional<std::array<double, 3>> overlayAt(const Eigen::Vector3d& patient) const;
   Surface sectionAt(const Eigen::Vector3d& patient, double opacity) const;
   bool isSmooth(const Eigen::Vector3d& patient) const;
+  bool isCut(const Eigen::Vector3d& patient) const;
   std::optional<Eigen::Vector3d> ctGradientAt(const Eigen::Vector3d& patient, State from) const;
   Eigen::Vector3d gradientAside(const Eigen::Vector3d& patient) const;
   Eigen::Vector3d occupancyNormal(const Eigen::Vector3d& patient) const;

@@ -232,8 +232,9 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   float value = intensityAt(below, isGrey ? vec4(0.0) : ray.more);
   if (isGrey)
     overlay = vec4(vec3(clamp((value - section.x) * section.y, 0.0, 1.0)), 1.0);
+  float grained = grainAt(v, facing, hit, byMask && bony);
   vec3 lit =
-      surfaceColor(ray.material, ray.row, value, facing, hit, overlay, seen, isSection);
+      surfaceColor(ray.material, ray.row, value, facing, hit, grained, overlay, seen, isSection);
   float adds = ray.transmittance * opacity;
   bool isPlain = isSection || overlay.a > 0.0;
   ray.color += isPlain ? vec3(0.0) : adds * lit;

@@ -75,6 +75,7 @@ struct LightView
   double exposure = 0.0;  ///< EV, -kMaxExposure to kMaxExposure
   bool toneCurve = false; ///< highlights roll off instead of being clipped
   double edges = 0.0;     ///< opacity of translucent surfaces from the side, 0 to 1
+  double grain = 0.0;     ///< contrast of the grain of cut bone, 0 to 1
   static constexpr double kMaxExposure = 4.0;
 };
 

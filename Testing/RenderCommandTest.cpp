@@ -255,6 +255,7 @@ TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
   EXPECT_EQ(drawn("--no-shadows"), plain);
   EXPECT_EQ(drawn("--edges 0"), plain);
   EXPECT_EQ(drawn("--grain 1"), plain) << "nothing was cut";
+  EXPECT_EQ(drawn("--no-exit-surfaces"), plain);
   EXPECT_EQ(drawn("--exposure 0 --no-tone-curve"), plain);
   EXPECT_NE(drawn("--exposure -1"), plain);
   EXPECT_NE(drawn("--exposure 1"), plain);

@@ -151,6 +151,7 @@ scene::ViewState::Light LightOptions::over(scene::ViewState::Light light) const
   light.toneCurve = toneCurve.value_or(light.toneCurve);
   light.edges = edges.value_or(light.edges);
   light.grain = grain.value_or(light.grain);
+  light.exitSurfaces = exitSurfaces.value_or(light.exitSurfaces);
   return light;
 }
 
@@ -216,6 +217,8 @@ void addLightOptions(CLI::App& command, LightOptions& options, const std::string
                   "Contrast of a fine grain on cut bone, which the CT does not have, 0 to 1" +
                       defaultText)
       ->check(within({0.0, 1.0}));
+  addFlag("exit-surfaces", options.exitSurfaces,
+          "Shade translucent tissue also where a line of sight leaves it");
 }
 
 void addBackgroundOption(CLI::App& command, rendering::BackgroundColor& color)

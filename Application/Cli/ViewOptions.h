@@ -34,11 +34,11 @@ std::optional<core::IndexBox> parseCrop(const std::string& crop, const std::stri
 struct LightOptions
 {
   std::optional<double> falloff, wetness, exposure, edges, grain;
-  std::optional<bool> shadows, toneCurve;
+  std::optional<bool> shadows, toneCurve, exitSurfaces;
 
   bool any() const
   {
-    return falloff || wetness || exposure || edges || grain || shadows || toneCurve;
+    return falloff || wetness || exposure || edges || grain || shadows || toneCurve || exitSurfaces;
   }
   /// What was given, in place of that of `light`.
   scene::ViewState::Light over(scene::ViewState::Light light) const;

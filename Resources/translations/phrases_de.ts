@@ -1652,6 +1652,10 @@
         <translation>weiche Glanzlichter</translation>
     </message>
     <message>
+        <source>exit surfaces</source>
+        <translation>Austrittsflächen</translation>
+    </message>
+    <message>
         <source>stroke %#1</source>
         <translation>Bohrzug %#1</translation>
     </message>

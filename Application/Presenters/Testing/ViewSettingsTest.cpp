@@ -35,7 +35,8 @@ TEST(ViewSettings, ExposureAndToneCurveComeBackFromASavedView)
   settings.setToneCurve(true);
   settings.setEdges(0.25);
   settings.setGrain(0.125);
-  EXPECT_EQ(lights, 4);
+  settings.setExitSurfaces(true);
+  EXPECT_EQ(lights, 5);
   petrous::scene::ViewState view;
   view.light = settings.lightState();
   ViewSettings other, copy;
@@ -45,12 +46,14 @@ TEST(ViewSettings, ExposureAndToneCurveComeBackFromASavedView)
   EXPECT_TRUE(copy.light().toneCurve);
   EXPECT_EQ(copy.light().edges, 0.25);
   EXPECT_EQ(copy.light().grain, 0.125);
+  EXPECT_TRUE(copy.light().exitSurfaces);
   view.light.emplace(); // as saved before there was any
   copy.take(view, false);
   EXPECT_EQ(copy.light().exposure, 0.0);
   EXPECT_FALSE(copy.light().toneCurve);
   EXPECT_EQ(copy.light().edges, 0.0);
   EXPECT_EQ(copy.light().grain, 0.0);
+  EXPECT_FALSE(copy.light().exitSurfaces);
 }
 
 // It is the user's: a case that is shown neither has nor changes it.

@@ -110,6 +110,12 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
          "bright colours of structures become a little darker than in their list"),
       [this] { return m_settings.light().toneCurve; },
       [this](bool on) { m_settings.setToneCurve(on); });
+  addCheck(
+      form, tr("Exit s&urfaces"), "exitSurfaces",
+      tr("Translucent tissue is shaded also where a line of sight leaves it, so that its far walls "
+         "are seen; it lets less through, and needs lower opacities"),
+      [this] { return m_settings.light().exitSurfaces; },
+      [this](bool on) { m_settings.setExitSurfaces(on); });
   m_softTissue = new QCheckBox(tr("So&ft tissue"));
   m_softTissue->setObjectName("softTissue");
   m_bound.add(

@@ -46,6 +46,7 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   widget<QAbstractButton>("shadows").click();
   widget<QDoubleSpinBox>("exposure").setValue(-1.5);
   widget<QAbstractButton>("toneCurve").click();
+  widget<QAbstractButton>("exitSurfaces").click();
   widget<QComboBox>("background")
       .setCurrentIndex(widget<QComboBox>("background").findText("White"));
   widget<QDoubleSpinBox>("eyeSeparation").setValue(22.0);
@@ -68,6 +69,7 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   EXPECT_FALSE(widget<QAbstractButton>("shadows").isChecked());
   EXPECT_EQ(widget<QDoubleSpinBox>("exposure").value(), 0.0);
   EXPECT_FALSE(widget<QAbstractButton>("toneCurve").isChecked());
+  EXPECT_FALSE(widget<QAbstractButton>("exitSurfaces").isChecked());
   presenters::ViewSettings kept;
   WindowSettings(QString::fromStdString((folder() / "settings.conf").string()))
       .restore(kept, false);
@@ -78,6 +80,7 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   EXPECT_TRUE(kept.light().shadows);
   EXPECT_EQ(kept.light().exposure, -1.5);
   EXPECT_TRUE(kept.light().toneCurve);
+  EXPECT_TRUE(kept.light().exitSurfaces);
   EXPECT_EQ(widget<QComboBox>("background").currentText(), "White");
   EXPECT_EQ(view().display().background(), (rendering::BackgroundColor{1.0, 1.0, 1.0}));
   EXPECT_EQ(widget<QDoubleSpinBox>("eyeSeparation").value(), 22.0);

@@ -231,7 +231,7 @@ TEST_F(ViewStates, EachChangeOfTheLightIsAStepOfTheOneUndo)
   for (const int percent : {10, 20, 40}) // a slider that moves
     wetness.setValue(percent);
   widget<QSlider>("grain").setValue(60);
-  for (const char* name : {"shadows", "toneCurve"})
+  for (const char* name : {"shadows", "toneCurve", "exitSurfaces"})
     widget<QAbstractButton>(name).setChecked(true);
 
   const auto undo = [this](const char* what)
@@ -239,6 +239,8 @@ TEST_F(ViewStates, EachChangeOfTheLightIsAStepOfTheOneUndo)
     EXPECT_TRUE(action("Undo")->text().endsWith(what)) << action("Undo")->text().toStdString();
     action("Undo")->trigger();
   };
+  undo("exit surfaces");
+  EXPECT_FALSE(widget<QAbstractButton>("exitSurfaces").isChecked());
   undo("soft highlights");
   EXPECT_FALSE(widget<QAbstractButton>("toneCurve").isChecked());
   EXPECT_TRUE(widget<QAbstractButton>("shadows").isChecked());

@@ -72,6 +72,7 @@ void WindowSettings::restore(presenters::ViewSettings& view, bool quadBuffer) co
     view.setEdges(*edges);
   if (const auto grain = number("light/grain"))
     view.setGrain(*grain);
+  view.setExitSurfaces(m_file.value("light/exit_surfaces").toBool());
   if (const auto color = presenters::parseBackground(bytes(m_file.value(kBackground).toString())))
     view.setBackground(*color);
   view.setEyeSeparation(number("stereo/eye_separation_mm"));
@@ -91,6 +92,7 @@ void WindowSettings::keep(const presenters::ViewSettings& view)
   m_file.setValue("light/tone_curve", view.light().toneCurve);
   m_file.setValue("light/edges", view.light().edges);
   m_file.setValue("light/grain", view.light().grain);
+  m_file.setValue("light/exit_surfaces", view.light().exitSurfaces);
   m_file.setValue(kBackground, words(presenters::backgroundText(view.background())));
   for (const auto& [value, name] : kModes)
     if (value == view.stereo())

@@ -4,6 +4,7 @@
 #include "PictureComparison.h"
 #include "PictureScenes.h"
 #include "petrous/Rendering/PixelRays.h"
+#include "petrous/Rendering/PrintPicture.h"
 #include "petrous/Rendering/ScenePicture.h"
 
 using namespace petrous;
@@ -179,6 +180,19 @@ TEST(CutGrain, FadesWithTheResolutionOfTheMovingPicture)
   EXPECT_EQ(
       countDifferentPixels(draw(mattBall(1.0), pose, coarse), draw(mattBall(0.0), pose, coarse)),
       0U);
+}
+
+// A tile has the grain of the whole picture, whose pixels it has.
+TEST(CutGrain, IsThatOfThePictureInEachTile)
+{
+  const core::CameraPose pose = near(0.1); // where it fades
+  ScenePicture scene;
+  scene.setContents(mattBall(1.0));
+  scene.setCamera(pose);
+  OffscreenView view(kWidth, kHeight);
+  const Picture whole = view.render(scene);
+  EXPECT_LE(rmsOf(renderTiled(scene, pose, kWidth, kHeight, {}, 64), whole), 0.5);
+  EXPECT_GT(rmsOf(draw(mattBall(0.0), pose), whole), 3.0);
 }
 
 TEST(CutGrain, FollowsTheCutAndItsUndo)

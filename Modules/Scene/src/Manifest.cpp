@@ -766,6 +766,7 @@ ViewState::Light lightIn(const json& j)
   light.toneCurve = j.value("tone_curve", false);
   light.edges = j.value("edges", 0.0);
   light.grain = j.value("grain", 0.0);
+  light.exitSurfaces = j.value("exit_surfaces", false);
   return light;
 }
 
@@ -840,6 +841,8 @@ json viewOut(const Case& value)
       j["light"]["edges"] = view.light->edges;
     if (view.light->grain != 0.0)
       j["light"]["grain"] = view.light->grain;
+    if (view.light->exitSurfaces)
+      j["light"]["exit_surfaces"] = true;
   }
   if (view.stereo)
     j["stereo"] = stereoOut(*view.stereo);

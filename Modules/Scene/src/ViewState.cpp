@@ -138,8 +138,9 @@ bool operator==(const Slices& a, const Slices& b)
 
 bool operator==(const ViewState::Light& a, const ViewState::Light& b)
 {
-  return std::tie(a.falloff, a.wetness, a.shadows, a.exposure, a.toneCurve, a.edges, a.grain) ==
-         std::tie(b.falloff, b.wetness, b.shadows, b.exposure, b.toneCurve, b.edges, b.grain);
+  return std::tie(a.falloff, a.wetness, a.shadows, a.exposure, a.toneCurve, a.edges, a.grain,
+                  a.exitSurfaces) == std::tie(b.falloff, b.wetness, b.shadows, b.exposure,
+                                              b.toneCurve, b.edges, b.grain, b.exitSurfaces);
 }
 
 bool operator==(const ViewState::Stereo& a, const ViewState::Stereo& b)

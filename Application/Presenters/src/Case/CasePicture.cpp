@@ -122,6 +122,7 @@ void illuminate(rendering::SceneContents& contents,
   contents.light.toneCurve = given.toneCurve;
   contents.light.edges = given.edges;
   contents.light.grain = given.grain;
+  contents.light.exitSurfaces = given.exitSurfaces;
 }
 
 std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clipping,

@@ -78,6 +78,11 @@ void ViewSettings::setGrain(double grain)
   change(m_light.grain, held(grain, 0.0, 1.0), events.lightChanged);
 }
 
+void ViewSettings::setExitSurfaces(bool on)
+{
+  change(m_light.exitSurfaces, on, events.lightChanged);
+}
+
 void ViewSettings::setStereo(rendering::StereoMode mode)
 {
   change(m_stereo, mode, events.stereoChanged);
@@ -137,12 +142,13 @@ void ViewSettings::setLight(const scene::ViewState::Light& light)
   setToneCurve(light.toneCurve);
   setEdges(light.edges);
   setGrain(light.grain);
+  setExitSurfaces(light.exitSurfaces);
 }
 
 scene::ViewState::Light ViewSettings::lightState() const
 {
   return {m_light.falloff,   m_light.wetness, m_light.shadows, m_light.exposure,
-          m_light.toneCurve, m_light.edges,   m_light.grain};
+          m_light.toneCurve, m_light.edges,   m_light.grain,   m_light.exitSurfaces};
 }
 
 scene::ViewState::Stereo ViewSettings::stereoState() const
@@ -174,6 +180,7 @@ LightEdit lightEdit(const scene::ViewState::Light& before, const scene::ViewStat
   const bool isNumber = changed == 1;
   note(before.shadows == after.shadows, "shadows");
   note(before.toneCurve == after.toneCurve, "soft highlights");
+  note(before.exitSurfaces == after.exitSurfaces, "exit surfaces");
   if (changed != 1)
     what = "light";
   return {what, isNumber && changed == 1};

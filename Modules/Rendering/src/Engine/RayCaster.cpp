@@ -393,6 +393,7 @@ RayFeatures RayCaster::features(const Frame& frame) const
   features.soft = softTissueSeen();
   features.interior = interiorSeen();
   features.edges = m_contents.light.edges > 0.0 && translucent(m_contents.materials);
+  features.exits = m_contents.light.exitSurfaces && translucent(m_contents.materials);
   features.grain = m_contents.light.grain > 0.0 && features.mask;
   features.thickness = static_cast<bool>(m_contents.thickness.distance);
   features.clip = !m_contents.clipping.empty();

@@ -39,6 +39,7 @@ constexpr Part kParts[] = {
     {&RayFeatures::third, "PETROUS_THIRD", "third"},
     {&RayFeatures::interior, "PETROUS_INTERIOR", "interior"},
     {&RayFeatures::edges, "PETROUS_EDGES", "edges"},
+    {&RayFeatures::exits, "PETROUS_EXITS", "exit surfaces"},
     {&RayFeatures::grain, "PETROUS_GRAIN", "grain"},
     {&RayFeatures::soft, "PETROUS_SOFT", "soft tissue"},
     {&RayFeatures::clip, "PETROUS_CLIP", "clipping"},

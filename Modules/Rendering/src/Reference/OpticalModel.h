@@ -24,7 +24,9 @@ namespace petrous::rendering
 ///                    voxel nearest to x and, where two structures meet, the one with the greatest
 ///                    weight among the eight voxels around x (Volume/LabelBorders.h)
 /// There is a surface where the state changes from air or soft tissue to bone or a structure, or
-/// from anything to a structure; all other changes only change the material. A surface adds its lit
+/// from anything to a structure; with LightSettings::exitSurfaces (record 85) also where it changes
+/// from bone or a structure to air or soft tissue, but not where the drawn region ends. All other
+/// changes only change the material. A surface adds its lit
 /// colour weighted by the material's surface opacity; inside tissue the colour and extinction of
 /// the material's transfer function are integrated:
 ///   C = sum_surfaces T a_s c_s + integral T sigma(v) c(v) l ds,  T the transmittance so far

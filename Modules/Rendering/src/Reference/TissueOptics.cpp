@@ -138,9 +138,11 @@ TissueOptics::Place TissueOptics::at(const Eigen::Vector3d& patient) const
   return {kBone, std::min(f, -inside)};
 }
 
-bool TissueOptics::isSurface(State from, State to)
+bool TissueOptics::isSurface(State from, State to) const
 {
-  return from != to && isSolid(to) && (!isSolid(from) || to > kBone);
+  if (!isSolid(to))
+    return m_light.exitSurfaces && isSolid(from);
+  return from != to && (!isSolid(from) || to > kBone);
 }
 
 const appearance::Material& TissueOptics::materialOf(State state) const
@@ -259,14 +261,14 @@ bool TissueOptics::isCut(const Eigen::Vector3d& patient) const
 
 // The CT's gradient that gave the normal, intensity per mm; only where the CT decides.
 std::optional<Eigen::Vector3d> TissueOptics::ctGradientAt(const Eigen::Vector3d& patient,
-                                                          State from) const
+                                                          State from, State to) const
 {
   const core::GridGeometry& grid = m_ct->geometry();
   const Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
   const auto ctAt = [this](const Eigen::Vector3d& v) { return m_ct->sample(v); };
   const double bone = (ctAt(voxel) - m_iso) / kScale;
   const bool isCut = m_mask && m_mask->sample(voxel) - 0.5 < bone;
-  if (isSolid(from) || isCut || !m_boneShown || occupancyAt(patient) - 0.5 > bone)
+  if ((isSolid(from) && isSolid(to)) || isCut || !m_boneShown || occupancyAt(patient) - 0.5 > bone)
     return std::nullopt;
   return isSmooth(patient) ? volume::edgeGradientInPatient(grid, voxel, ctAt)
                            : volume::gradientInPatient(grid, voxel, 1.0, ctAt);
@@ -321,7 +323,7 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
   const bool isBony = !face && (&material == &m_materials.front() || material.lumen);
   if (isBony)
     overlay = overlayAt(point);
-  if (isBony && m_light.grain > 0.0 && !isSolid(from) && isCut(point))
+  if (isBony && m_light.grain > 0.0 && !(isSolid(from) && isSolid(to)) && isCut(point))
   {
     const core::GridGeometry& grid = m_ct->geometry();
     const double factor = optics::grainFactor(grid, grid.voxelFromPatient(point), cosine,
@@ -337,7 +339,7 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
   const bool hasEdge = !face && m_light.edges > 0.0 && opacity < 1.0;
   const bool isAside = !face && !m_aside.isZero() && opacity >= optics::kSmoothOpacity;
   const std::optional<Eigen::Vector3d> gradient =
-      hasEdge || isAside ? ctGradientAt(point, from) : std::nullopt;
+      hasEdge || isAside ? ctGradientAt(point, from, to) : std::nullopt;
   if (hasEdge)
     opacity = optics::edgeOpacity(
         opacity, gradient ? optics::edgeFacing(cosine, gradient->norm()) : cosine, m_light.edges);

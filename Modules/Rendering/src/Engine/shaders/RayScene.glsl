@@ -8,6 +8,7 @@
 //   NESTED     translucent structures
 //   INTERIOR   translucent tissue             CLIP     clipping planes
 //   EDGES      translucent surfaces are more opaque from the side (with INTERIOR)
+//   EXITS      tissue has a surface where a ray leaves it (with INTERIOR)
 //   GRAIN      cut bone has a fine grain (with MASK)
 //   THICKNESS  bone is coloured by its distance to a structure
 //   SOFT       soft tissue (with INTERIOR)

@@ -254,6 +254,8 @@ TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
   EXPECT_NE(drawn("--shadows"), plain);
   EXPECT_EQ(drawn("--no-shadows"), plain);
   EXPECT_EQ(drawn("--edges 0"), plain);
+  EXPECT_EQ(drawn("--grain 1"), plain) << "nothing was cut";
+  EXPECT_EQ(drawn("--no-exit-surfaces"), plain);
   EXPECT_EQ(drawn("--exposure 0 --no-tone-curve"), plain);
   EXPECT_NE(drawn("--exposure -1"), plain);
   EXPECT_NE(drawn("--exposure 1"), plain);
@@ -267,6 +269,7 @@ TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
     for (const char* value : {"false", "true", "3", "some"})
       expectRefused(render(std::string(flag) + "=" + value), 2, "takes no value");
   expectRefused(render("--edges 1.5"), 2, "--edges");
+  expectRefused(render("--grain 1.5"), 2, "--grain");
   for (const char* both : {"--shadows --no-shadows", "--no-tone-curve --tone-curve=true",
                            "--soft-tissue=skin --no-soft-tissue"})
     expectRefused(render(both), 2, "contradict");

@@ -95,7 +95,8 @@ TEST_F(ViewCommand, RenderAndSliceShowWhatIsSaved)
                          std::to_string(center(2));
   const std::string render =
       "--view superior --light-falloff 150 --wetness 0.5 --shadows --exposure 0.5 "
-      "--tone-curve --edges 0.25 --stereo anaglyph --eye-separation 20 --clip " +
+      "--tone-curve --edges 0.25 --grain 0.5 --exit-surfaces --stereo anaglyph --eye-separation 20 "
+      "--clip " +
       at + ",0,0,-1 --crop 0,47,0,40,0,44";
   const std::string plain = drawn("render ear");
   const std::string wanted = drawn("render ear " + render);
@@ -113,6 +114,8 @@ TEST_F(ViewCommand, RenderAndSliceShowWhatIsSaved)
   EXPECT_EQ(set.at("light").at("exposure_ev"), 0.5);
   EXPECT_EQ(set.at("light").at("tone_curve"), true);
   EXPECT_EQ(set.at("light").at("edges"), 0.25);
+  EXPECT_EQ(set.at("light").at("grain"), 0.5);
+  EXPECT_EQ(set.at("light").at("exit_surfaces"), true);
   EXPECT_EQ(json("view ear --exposure 0 --no-tone-curve").at("light").at("exposure_ev"), 0.0);
   EXPECT_NE(drawn("render ear"), wanted);
   EXPECT_EQ(drawn("render ear --exposure 0.5 --tone-curve"), wanted);

@@ -272,7 +272,8 @@ nlohmann::json viewJson(const scene::Case& value)
   if (view.light)
     light = {{"falloff_mm", view.light->falloff},   {"wetness", view.light->wetness},
              {"shadows", view.light->shadows},      {"exposure_ev", view.light->exposure},
-             {"tone_curve", view.light->toneCurve}, {"edges", view.light->edges}};
+             {"tone_curve", view.light->toneCurve}, {"edges", view.light->edges},
+             {"grain", view.light->grain},          {"exit_surfaces", view.light->exitSurfaces}};
   nlohmann::json stereo = nullptr;
   if (view.stereo)
     stereo = {{"mode", view.stereo->mode},

@@ -150,6 +150,8 @@ scene::ViewState::Light LightOptions::over(scene::ViewState::Light light) const
   light.exposure = exposure.value_or(light.exposure);
   light.toneCurve = toneCurve.value_or(light.toneCurve);
   light.edges = edges.value_or(light.edges);
+  light.grain = grain.value_or(light.grain);
+  light.exitSurfaces = exitSurfaces.value_or(light.exitSurfaces);
   return light;
 }
 
@@ -210,6 +212,13 @@ void addLightOptions(CLI::App& command, LightOptions& options, const std::string
                   "More opacity of translucent surfaces that are seen from the side, 0 to 1" +
                       defaultText)
       ->check(within({0.0, 1.0}));
+  command
+      .add_option("--grain", options.grain,
+                  "Contrast of a fine grain on cut bone, which the CT does not have, 0 to 1" +
+                      defaultText)
+      ->check(within({0.0, 1.0}));
+  addFlag("exit-surfaces", options.exitSurfaces,
+          "Shade translucent tissue also where a line of sight leaves it");
 }
 
 void addBackgroundOption(CLI::App& command, rendering::BackgroundColor& color)

@@ -33,10 +33,13 @@ std::optional<core::IndexBox> parseCrop(const std::string& crop, const std::stri
 /// The lamp, of `render` and `view`; nullopt: not given.
 struct LightOptions
 {
-  std::optional<double> falloff, wetness, exposure, edges;
-  std::optional<bool> shadows, toneCurve;
+  std::optional<double> falloff, wetness, exposure, edges, grain;
+  std::optional<bool> shadows, toneCurve, exitSurfaces;
 
-  bool any() const { return falloff || wetness || exposure || edges || shadows || toneCurve; }
+  bool any() const
+  {
+    return falloff || wetness || exposure || edges || grain || shadows || toneCurve || exitSurfaces;
+  }
   /// What was given, in place of that of `light`.
   scene::ViewState::Light over(scene::ViewState::Light light) const;
 };

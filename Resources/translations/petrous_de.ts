@@ -5574,6 +5574,22 @@ Verletzt: %1, %2</translation>
         <source>Any colour, of a dialog</source>
         <translation>Eine beliebige Farbe, aus einem Dialog</translation>
     </message>
+    <message>
+        <source>Grai&amp;n</source>
+        <translation>Körn&amp;ung</translation>
+    </message>
+    <message>
+        <source>A fine grain on bone where it was cut, for the eye alone: the CT has none. It fades from afar</source>
+        <translation>Eine feine Körnung auf abgetragenem Knochen, nur fürs Auge: Das CT hat keine. Von weitem verschwindet sie</translation>
+    </message>
+    <message>
+        <source>Exit s&amp;urfaces</source>
+        <translation>Aus&amp;trittsflächen</translation>
+    </message>
+    <message>
+        <source>Translucent tissue is shaded also where a line of sight leaves it, so that its far walls are seen; it lets less through, and needs lower opacities</source>
+        <translation>Durchscheinendes Gewebe wird auch dort schattiert, wo eine Blicklinie es verlässt, sodass man seine hinteren Wände sieht; es lässt weniger durch und braucht geringere Deckkräfte</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::PreviewBar</name>

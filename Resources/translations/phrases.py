@@ -325,7 +325,7 @@ SHORT = {" ".join(word.split()) for word in """
     Axial | Bone | Coronal | Distance | MR '%1' | Mark | None | Sagittal | angle | appearance |
     area | background | cancelled | case | closed | color | create | create %1 | cutting | damaged | diamond
     | difference %1 | dimensions | dissected | distance | document | doubtful | drilled |
-    edges | emptied | empty | encrypted | exposure | failed | good | gradient %#1 | gradient %1 | growing | half |
+    edges | emptied | empty | encrypted | exposure | failed | good | gradient %#1 | gradient %1 | grain | growing | half |
     hand | hide %1 | hide %~1 | image | islands | iso | kept | label %#1 | label %1 | labels |
     landmarks | left | length | margin | mark | mark %#1 | mark %1 | mask | mesh | metadata | missing |
     move %~1 | nerve | node | none | ok | one | opacity | other | point | points | position |

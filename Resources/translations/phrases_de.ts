@@ -1648,12 +1648,20 @@
         <translation>Kanten</translation>
     </message>
     <message>
+        <source>grain</source>
+        <translation>Körnung</translation>
+    </message>
+    <message>
         <source>shadows</source>
         <translation>Schatten</translation>
     </message>
     <message>
         <source>soft highlights</source>
         <translation>weiche Glanzlichter</translation>
+    </message>
+    <message>
+        <source>exit surfaces</source>
+        <translation>Austrittsflächen</translation>
     </message>
     <message>
         <source>stroke %#1</source>
@@ -9323,6 +9331,10 @@
     <message>
         <source>the edges' emphasis must be 0 to 1</source>
         <translation>die Betonung der Kanten muss 0 bis 1 sein</translation>
+    </message>
+    <message>
+        <source>the grain of cut bone must be 0 to 1</source>
+        <translation>die Körnung von abgetragenem Knochen muss 0 bis 1 sein</translation>
     </message>
     <message>
         <source>the stereo mode is unknown</source>

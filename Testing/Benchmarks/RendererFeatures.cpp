@@ -114,6 +114,8 @@ std::vector<Feature> featuresOf(const BenchmarkPatient& patient)
             Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), scene.tool->axisToHand);
       });
   add("edges", translucent, [](SceneContents& scene) { scene.light.edges = 1.0; });
+  add("exit surfaces", translucent, [](SceneContents& scene) { scene.light.exitSurfaces = true; });
+  add("grain", opaque, [](SceneContents& scene) { scene.light.grain = 1.0; });
   add("tone curve and exposure", opaque,
       [](SceneContents& scene)
       {

@@ -19,8 +19,9 @@ struct FeatureExtent
 };
 
 /// A frame near the cavity with each feature of the picture and without it, in turns in one window:
-/// shadows (and with them occlusion and the lamp alone), edges, light, sections, soft tissue of the
-/// CT and of an MR, tools, a drilled mesh, and a card that rounds the weights of its filter.
+/// shadows (and with them occlusion and the lamp alone), edges, grain, exits, light, sections, soft
+/// tissue of the CT and of an MR, tools, a drilled mesh, and a card that rounds the weights of its
+/// filter.
 ///
 /// seconds: with the feature. extra: without_ms, share_percent of the frame, fetches_per_pixel and
 /// fetches_per_pixel_without. error: against the reference with the feature, as in

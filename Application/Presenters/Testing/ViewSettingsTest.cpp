@@ -34,7 +34,9 @@ TEST(ViewSettings, ExposureAndToneCurveComeBackFromASavedView)
   settings.setToneCurve(true);
   settings.setToneCurve(true);
   settings.setEdges(0.25);
-  EXPECT_EQ(lights, 3);
+  settings.setGrain(0.125);
+  settings.setExitSurfaces(true);
+  EXPECT_EQ(lights, 5);
   petrous::scene::ViewState view;
   view.light = settings.lightState();
   ViewSettings other, copy;
@@ -43,11 +45,15 @@ TEST(ViewSettings, ExposureAndToneCurveComeBackFromASavedView)
   EXPECT_EQ(copy.light().exposure, 1.0 / 3.0);
   EXPECT_TRUE(copy.light().toneCurve);
   EXPECT_EQ(copy.light().edges, 0.25);
+  EXPECT_EQ(copy.light().grain, 0.125);
+  EXPECT_TRUE(copy.light().exitSurfaces);
   view.light.emplace(); // as saved before there was any
   copy.take(view, false);
   EXPECT_EQ(copy.light().exposure, 0.0);
   EXPECT_FALSE(copy.light().toneCurve);
   EXPECT_EQ(copy.light().edges, 0.0);
+  EXPECT_EQ(copy.light().grain, 0.0);
+  EXPECT_FALSE(copy.light().exitSurfaces);
 }
 
 // It is the user's: a case that is shown neither has nor changes it.
@@ -79,6 +85,8 @@ TEST(ViewSettings, HoldsValuesWithinTheirLimits)
   EXPECT_EQ(settings.light().wetness, 1.0);
   settings.setEdges(-1.0);
   EXPECT_EQ(settings.light().edges, 0.0);
+  settings.setGrain(3.0);
+  EXPECT_EQ(settings.light().grain, 1.0);
   settings.setFalloff(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(settings.light().falloff, 0.0);
   settings.setExposure(-7.0);
@@ -98,6 +106,10 @@ TEST(ViewSettings, NamesWhatChangedOfTheLight)
   auto after = before;
   after.exposure = 1.0;
   EXPECT_EQ(lightEdit(before, after).what, "exposure");
+  EXPECT_TRUE(lightEdit(before, after).isContinuous);
+  after = before;
+  after.grain = 0.5;
+  EXPECT_EQ(lightEdit(before, after).what, "grain");
   EXPECT_TRUE(lightEdit(before, after).isContinuous);
   after = before;
   after.shadows = !before.shadows;

@@ -81,6 +81,13 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
                                     "the side, as a shell is, so that they keep their shape")),
           [this] { return percent(m_settings.light().edges); },
           [this](int percent) { m_settings.setEdges(0.01 * percent); }));
+  addPercent(
+      form, tr("Grai&n"),
+      m_bound.add(
+          percentSlider("grain", tr("A fine grain on bone where it was cut, for the eye alone: the "
+                                    "CT has none. It fades from afar")),
+          [this] { return percent(m_settings.light().grain); },
+          [this](int percent) { m_settings.setGrain(0.01 * percent); }));
   addCheck(
       form, tr("&Shadows"), "shadows",
       tr("Cavities are darker than what is open, and a lamp somewhat above the line "
@@ -103,6 +110,12 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
          "bright colours of structures become a little darker than in their list"),
       [this] { return m_settings.light().toneCurve; },
       [this](bool on) { m_settings.setToneCurve(on); });
+  addCheck(
+      form, tr("Exit s&urfaces"), "exitSurfaces",
+      tr("Translucent tissue is shaded also where a line of sight leaves it, so that its far walls "
+         "are seen; it lets less through, and needs lower opacities"),
+      [this] { return m_settings.light().exitSurfaces; },
+      [this](bool on) { m_settings.setExitSurfaces(on); });
   m_softTissue = new QCheckBox(tr("So&ft tissue"));
   m_softTissue->setObjectName("softTissue");
   m_bound.add(

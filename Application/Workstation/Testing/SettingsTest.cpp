@@ -42,9 +42,11 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   widget<QDoubleSpinBox>("lightFalloff").setValue(120.0);
   widget<QSlider>("wetness").setValue(40);
   widget<QSlider>("edges").setValue(70);
+  widget<QSlider>("grain").setValue(30);
   widget<QAbstractButton>("shadows").click();
   widget<QDoubleSpinBox>("exposure").setValue(-1.5);
   widget<QAbstractButton>("toneCurve").click();
+  widget<QAbstractButton>("exitSurfaces").click();
   widget<QComboBox>("background")
       .setCurrentIndex(widget<QComboBox>("background").findText("White"));
   widget<QDoubleSpinBox>("eyeSeparation").setValue(22.0);
@@ -63,18 +65,22 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   EXPECT_EQ(widget<QDoubleSpinBox>("lightFalloff").value(), 0.0);
   EXPECT_EQ(widget<QSlider>("wetness").value(), 0);
   EXPECT_EQ(widget<QSlider>("edges").value(), 0);
+  EXPECT_EQ(widget<QSlider>("grain").value(), 0);
   EXPECT_FALSE(widget<QAbstractButton>("shadows").isChecked());
   EXPECT_EQ(widget<QDoubleSpinBox>("exposure").value(), 0.0);
   EXPECT_FALSE(widget<QAbstractButton>("toneCurve").isChecked());
+  EXPECT_FALSE(widget<QAbstractButton>("exitSurfaces").isChecked());
   presenters::ViewSettings kept;
   WindowSettings(QString::fromStdString((folder() / "settings.conf").string()))
       .restore(kept, false);
   EXPECT_EQ(kept.light().falloff, 120.0);
   EXPECT_NEAR(kept.light().wetness, 0.4, 1e-9);
   EXPECT_NEAR(kept.light().edges, 0.7, 1e-9);
+  EXPECT_NEAR(kept.light().grain, 0.3, 1e-9);
   EXPECT_TRUE(kept.light().shadows);
   EXPECT_EQ(kept.light().exposure, -1.5);
   EXPECT_TRUE(kept.light().toneCurve);
+  EXPECT_TRUE(kept.light().exitSurfaces);
   EXPECT_EQ(widget<QComboBox>("background").currentText(), "White");
   EXPECT_EQ(view().display().background(), (rendering::BackgroundColor{1.0, 1.0, 1.0}));
   EXPECT_EQ(widget<QDoubleSpinBox>("eyeSeparation").value(), 22.0);

@@ -230,7 +230,8 @@ TEST_F(ViewStates, EachChangeOfTheLightIsAStepOfTheOneUndo)
   exposure.setValue(1.5);
   for (const int percent : {10, 20, 40}) // a slider that moves
     wetness.setValue(percent);
-  for (const char* name : {"shadows", "toneCurve"})
+  widget<QSlider>("grain").setValue(60);
+  for (const char* name : {"shadows", "toneCurve", "exitSurfaces"})
     widget<QAbstractButton>(name).setChecked(true);
 
   const auto undo = [this](const char* what)
@@ -238,11 +239,15 @@ TEST_F(ViewStates, EachChangeOfTheLightIsAStepOfTheOneUndo)
     EXPECT_TRUE(action("Undo")->text().endsWith(what)) << action("Undo")->text().toStdString();
     action("Undo")->trigger();
   };
+  undo("exit surfaces");
+  EXPECT_FALSE(widget<QAbstractButton>("exitSurfaces").isChecked());
   undo("soft highlights");
   EXPECT_FALSE(widget<QAbstractButton>("toneCurve").isChecked());
   EXPECT_TRUE(widget<QAbstractButton>("shadows").isChecked());
   undo("shadows");
   EXPECT_FALSE(widget<QAbstractButton>("shadows").isChecked());
+  undo("grain");
+  EXPECT_EQ(widget<QSlider>("grain").value(), 0);
   EXPECT_EQ(wetness.value(), 40);
   undo("wetness");
   EXPECT_EQ(wetness.value(), 0) << "one step";

@@ -70,6 +70,9 @@ void WindowSettings::restore(presenters::ViewSettings& view, bool quadBuffer) co
   view.setToneCurve(m_file.value("light/tone_curve").toBool());
   if (const auto edges = number("light/edges"))
     view.setEdges(*edges);
+  if (const auto grain = number("light/grain"))
+    view.setGrain(*grain);
+  view.setExitSurfaces(m_file.value("light/exit_surfaces").toBool());
   if (const auto color = presenters::parseBackground(bytes(m_file.value(kBackground).toString())))
     view.setBackground(*color);
   view.setEyeSeparation(number("stereo/eye_separation_mm"));
@@ -88,6 +91,8 @@ void WindowSettings::keep(const presenters::ViewSettings& view)
   m_file.setValue("light/exposure_ev", view.light().exposure);
   m_file.setValue("light/tone_curve", view.light().toneCurve);
   m_file.setValue("light/edges", view.light().edges);
+  m_file.setValue("light/grain", view.light().grain);
+  m_file.setValue("light/exit_surfaces", view.light().exitSurfaces);
   m_file.setValue(kBackground, words(presenters::backgroundText(view.background())));
   for (const auto& [value, name] : kModes)
     if (value == view.stereo())

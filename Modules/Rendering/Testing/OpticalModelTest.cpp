@@ -1,5 +1,6 @@
 #include "OpticalModel.h"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -303,6 +304,92 @@ TEST(OpticalModel, WhatIsAsideLightsASurfaceOnlyIfItIsAlike)
   const double apart = std::acos(0.75);
   const Eigen::Vector3d half(std::sin(apart), 0.0, std::cos(apart));
   EXPECT_NEAR(optics::asideFacing(ray, optics::kAsideSlope * half, ray), 0.5 * (1.0 + 0.75), 1e-12);
+}
+
+// Values of its equation in another program (Python, with whole numbers of any length).
+TEST(OpticalModel, GrainIsThatOfItsEquation)
+{
+  EXPECT_EQ(optics::grainNoise({0.0, 0.0, 0.0}), -1.0);
+  EXPECT_EQ(optics::grainNoise({1.0, 0.0, 0.0}), 0.2902712821960449);
+  EXPECT_EQ(optics::grainNoise({17.0, 201.0, 5.0}), -0.43672049045562744);
+  EXPECT_EQ(optics::grainNoise({2000.0, 3.0, 999.0}), -0.16250836849212646);
+  // Half way between two corners, and by the smoothstep of a quarter.
+  const double first = optics::grainNoise({0.0, 0.0, 0.0});
+  const double next = optics::grainNoise({1.0, 0.0, 0.0});
+  EXPECT_NEAR(optics::grainNoise({0.5, 0.0, 0.0}), 0.5 * (first + next), 1e-12);
+  EXPECT_NEAR(optics::grainNoise({0.25, 0.0, 0.0}), first + 0.15625 * (next - first), 1e-12);
+}
+
+// Uniform numbers from -1 to 1 have the mean 0 and the variance 1/3; those of neighbours along an
+// axis or a diagonal are independent. 32^3 of them: bounds of four standard errors and more.
+TEST(OpticalModel, GrainHasNeitherABiasNorAPattern)
+{
+  constexpr int kSide = 32;
+  double sum = 0.0;
+  double squares = 0.0;
+  const Eigen::Vector3d steps[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, -1, 1}};
+  std::array<double, 5> products{};
+  for (int n = 0; n < kSide * kSide * kSide; ++n)
+  {
+    const Eigen::Vector3d at(100 + n % kSide, 50 + n / kSide % kSide, 10 + n / kSide / kSide);
+    const double value = optics::grainNoise(at);
+    EXPECT_LE(std::abs(value), 1.0);
+    sum += value;
+    squares += value * value;
+    for (std::size_t s = 0; s < products.size(); ++s)
+      products[s] += value * optics::grainNoise(at + steps[s]);
+  }
+  const double count = kSide * kSide * kSide;
+  EXPECT_NEAR(sum / count, 0.0, 0.015);
+  EXPECT_NEAR(squares / count, 1.0 / 3.0, 0.01);
+  for (const double product : products)
+    EXPECT_NEAR(product / count, 0.0, 0.01);
+}
+
+// A pixel has nearly the mean of what it covers, whatever its size: then the picture does not
+// flicker when it moves by a part of a pixel.
+TEST(OpticalModel, GrainIsNoFinerThanAPixelShows)
+{
+  const core::GridGeometry grid({400, 400, 400}, {0.25, 0.25, 0.25}, {0.0, 0.0, 0.0});
+  const auto factor = [&](double x, double y, double pixel) {
+    return optics::grainFactor(grid, {x, y, 10.3}, 1.0, pixel, 1.0);
+  }; // a voxel is a cell
+  for (const double cells : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 1.0, 3.0})
+  {
+    const double pixel = cells * optics::kGrainCell;
+    double squares = 0.0;
+    constexpr int kPixels = 40;
+    for (int n = 0; n < kPixels * kPixels; ++n)
+    {
+      const double x = 20.0 + 1.37 * (n % kPixels);
+      const double y = 20.0 + 1.71 * (n / kPixels);
+      double mean = 0.0;
+      constexpr int kParts = 8;
+      for (int part = 0; part < kParts * kParts; ++part)
+        mean += factor(x + cells * ((part % kParts + 0.5) / kParts - 0.5),
+                       y + cells * ((part / kParts + 0.5) / kParts - 0.5), pixel) /
+                (kParts * kParts);
+      squares += std::pow(factor(x, y, pixel) - mean, 2.0);
+    }
+    EXPECT_LE(std::sqrt(squares / (kPixels * kPixels)), 0.008) << cells << " cells in a pixel";
+  }
+}
+
+TEST(OpticalModel, GrainFadesWithThePixelsItCovers)
+{
+  const core::GridGeometry grid({64, 64, 64}, {0.5, 0.5, 0.5}, {0.0, 0.0, 0.0});
+  const Eigen::Vector3d voxel(8.5, 3.0, 4.0); // at the corner 17, 6, 8
+  const double noise = optics::grainNoise({17.0, 6.0, 8.0});
+  ASSERT_GT(std::abs(noise), 0.1);
+  const auto at = [&](double cosine, double pixel, double grain)
+  { return optics::grainFactor(grid, voxel, cosine, pixel, grain); };
+  EXPECT_NEAR(at(1.0, 0.05, 1.0), 1.0 + optics::kGrainContrast * noise, 1e-12);
+  EXPECT_NEAR(at(-1.0, 0.05, 0.5), 1.0 + 0.5 * optics::kGrainContrast * noise, 1e-12);
+  EXPECT_NEAR(at(1.0, 0.125, 1.0), 1.0 + 0.5 * optics::kGrainContrast * noise,
+              1e-12); // half a cell
+  EXPECT_EQ(at(1.0, 0.17, 1.0), 1.0);
+  EXPECT_EQ(at(0.25, 0.05, 1.0), 1.0) << "a pixel covers four times as much from the side";
+  EXPECT_EQ(at(0.5, 0.05, 0.0), 1.0);
 }
 
 // A shell of opacity 0.12 is passed twice as long at 60 degrees.

@@ -89,6 +89,27 @@ TEST(PixelRays, SpanTheAngleVertically)
   EXPECT_GT(top.z(), bottom.z());
 }
 
+// Rays of pixels below each other are apart by the edge of a pixel.
+TEST(PixelRays, KnowHowWideAPixelIs)
+{
+  core::CameraPose pose = camera();
+  for (const bool parallel : {false, true})
+  {
+    if (parallel)
+      pose.parallelScale = 17.0;
+    const PixelRays rays(pose, kWidth, kHeight);
+    const PixelRay one = rays.through(0.5 * (kWidth - 1), 0.5 * (kHeight - 1));
+    const PixelRay next = rays.through(0.5 * (kWidth - 1), 0.5 * (kHeight + 1));
+    for (const double distance : {10.0, 300.0})
+    {
+      const double apart =
+          ((next.origin + distance * next.direction) - (one.origin + distance * one.direction))
+              .norm();
+      EXPECT_NEAR(one.pixelAt(distance) / apart, 1.0, 1e-4);
+    }
+  }
+}
+
 TEST(PixelRays, SpanTwiceTheParallelScaleVertically)
 {
   core::CameraPose pose = camera();

@@ -268,6 +268,14 @@ std::vector<Case> cases()
       {"Edges", [] { return edged(View{translucentBall()}, 1.0); }},
       {"EdgesOfNoise", [] { return edged(View{noisy(0.12F)}, 1.0); }},
       {"EdgesOfEverything", [] { return edged(View{fullScene()}, 0.5); }},
+      // A pixel is a fifth of a cell of the grain.
+      {"GrainOfEverything",
+       []
+       {
+         View view{fullScene(), from(slanting(45.0).position, {0.6, -3.4, 1.2}, 7.0)};
+         view.contents.light.grain = 1.0;
+         return view;
+       }},
       {"FalloffAndWetness", [] { return lit(View{fullScene()}, 50.0, 0.5); }},
       {"FalloffInTheInside",
        [] {

@@ -389,7 +389,8 @@ TEST(RendererVariant, FetchesNoMoreThanItDid)
   }
 }
 
-// Light that is not looked up on the way is free: the tone curve, the water film, the falloff.
+// Light that is not looked up on the way is free: the tone curve, the water film, the falloff,
+// the grain.
 TEST(RendererVariant, LightThatIsReckonedAtTheSurfaceTakesNoFetch)
 {
   const RenderStatistics plain = counted(cutBall(), slanting());
@@ -400,6 +401,7 @@ TEST(RendererVariant, LightThatIsReckonedAtTheSurfaceTakesNoFetch)
                                       c.light.exposure = 0.7;
                                       c.light.wetness = 1.0;
                                       c.light.falloff = 30.0;
+                                      c.light.grain = 1.0;
                                     });
   EXPECT_GT(
       countDifferentPixels(shoot(cutBall(), slanting()).picture, shoot(lit, slanting()).picture),

@@ -156,6 +156,96 @@ TEST(TissueRay, LetsTheBackgroundThroughAHalfOpaqueSurface)
   EXPECT_NEAR(static_cast<double>(picture.depth.at(5, 5)), 32.0, 1e-5);
 }
 
+// A chord of a sphere meets it at the same angle where it enters and where it leaves.
+TEST(TissueRay, WithExitSurfacesSeesTheFarWallsOfAShell)
+{
+  constexpr double kInner = 6.0;
+  constexpr double kOpacity = 0.3F;
+  SceneContents contents;
+  contents.ct = ct<float>(cube(64, kSpacing, oblique()), [](const Vector& p)
+                          { return std::min(kRadius - p.norm(), p.norm() - kInner); });
+  contents.iso = kIso;
+  contents.materials = {fog(kRed, 0.0F)};
+  contents.materials[0].surfaceOpacity = kOpacity;
+  for (const bool exits : {false, true})
+  {
+    contents.light.exitSurfaces = exits;
+    const ReferencePicture picture = see(contents, sideCamera());
+    std::array<int, 2> compared{};
+    forEachRay(sideCamera(),
+               [&](int column, int row, const PixelRay& ray)
+               {
+                 const double aside = ray.origin.cross(ray.direction).norm();
+                 const bool isInner = aside < 0.9 * kInner;
+                 if (aside > 0.93 * kRadius || (!isInner && aside < 1.1 * kInner))
+                   return;
+                 const auto light = [&](double radius)
+                 { return lambert(std::sqrt(1.0 - aside * aside / (radius * radius))); };
+                 std::vector<double> met{light(kRadius)};
+                 if (isInner && exits)
+                   met.push_back(light(kInner));
+                 if (isInner)
+                   met.push_back(light(kInner));
+                 if (exits)
+                   met.push_back(light(kRadius));
+                 Vector expected = Vector::Zero();
+                 double left = 1.0;
+                 for (const double lit : met)
+                 {
+                   expected += left * kOpacity * lit * vectorOf(kRed);
+                   left *= 1.0 - kOpacity;
+                 }
+                 expected += left * background();
+                 EXPECT_LT((rgbOf(picture, column, row) - expected).cwiseAbs().maxCoeff(), 4e-3);
+                 ++compared[isInner ? 0 : 1];
+               });
+    EXPECT_GT(compared[0], 60);
+    EXPECT_GT(compared[1], 100);
+  }
+}
+
+TEST(TissueRay, WithExitSurfacesSeesTheFarWallOfAStructureInItsOwnColour)
+{
+  SceneContents contents = block();
+  contents.boneShown = false;
+  contents.labels = labelField(
+      cube(65, 0.25), [](const Vector& p) { return 3.0 - std::abs(p.x()); },
+      [](const Vector&) { return 1; });
+  contents.materials = {fog(kGreen, 0.0F), fog(kRed, 0.0F)};
+  contents.materials[1].surfaceOpacity = 0.4F;
+  contents.light.exitSurfaces = true;
+  const ReferencePicture picture = see(contents, along({1.0, 0.0, 0.0}, 40.0));
+  const double left = (1.0 - 0.4) * (1.0 - 0.4);
+  EXPECT_LT((rgbOf(picture, kWidth / 2, kHeight / 2) -
+             ((1.0 - left) * vectorOf(kRed) + left * background()))
+                .norm(),
+            1e-4);
+}
+
+// Neither the border of the image nor a plane or the box is a surface that is left.
+TEST(TissueRay, HasNoExitSurfaceWhereTheDrawnRegionEnds)
+{
+  SceneContents contents = block();
+  contents.materials = {fog(kRed, 0.1F)};
+  contents.materials[0].surfaceOpacity = 0.5F;
+  const auto expectNone = [](SceneContents scene, const core::CameraPose& pose)
+  {
+    const ReferencePicture without = see(scene, pose);
+    scene.light.exitSurfaces = true;
+    EXPECT_EQ(see(scene, pose).rgb, without.rgb);
+  };
+  for (const Vector& direction : {Vector(1.0, 0.0, 0.0), Vector(0.3, -0.5, 0.8)})
+    expectNone(contents, along(direction, 40.0));
+  expectNone(contents, sideCamera());
+  contents.clipping = {{{0.3, 0.0, 0.0}, Vector(-1.0, 0.2, 0.0).normalized()}};
+  expectNone(contents, along({1.0, 0.0, 0.0}, 40.0));
+  expectNone(contents, sideCamera());
+  contents.clipping.clear();
+  contents.crop = core::IndexBox{{5, 6, 7}, {25, 22, 28}};
+  expectNone(contents, along({0.3, -0.5, 0.8}, 40.0));
+  expectNone(contents, sideCamera());
+}
+
 TEST(TissueRay, MeasuresTheDepthOfASurfaceThatIsNotSeen)
 {
   SceneContents contents = ballScene(Eigen::Matrix3d::Identity());

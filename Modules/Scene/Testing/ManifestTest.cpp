@@ -876,7 +876,7 @@ scene::Case viewedCase()
   view.slices->planes.emplace();
   (*view.slices->planes)[2] = {10.0 / 3.0, Vector3d(0.1, 0.2, 0.30000000000000004)};
   view.slices->overlay = scene::ViewState::Slices::Overlay{"T2", "checker", 1.0 / 3.0};
-  view.light = scene::ViewState::Light{1000.0 / 3.0, 0.1, true, -1.0 / 3.0, true, 2.0 / 3.0};
+  view.light = scene::ViewState::Light{1000.0 / 3.0, 0.1, true, -1.0 / 3.0, true, 2.0 / 3.0, 0.3, true};
   view.stereo = scene::ViewState::Stereo{"interleaved", 22.2, std::nullopt};
   view.clipping.planes = {{Vector3d(0.1, 0.2, 0.3), Vector3d(0.0, 0.6, 0.8)}};
   view.clipping.crop = core::IndexBox{{1, 2, 3}, {4, 5, 6}};
@@ -952,10 +952,16 @@ TEST(Manifest, ExposureAndToneCurveAreWrittenWhereTheyAreSet)
   EXPECT_EQ(j["view"]["light"]["edges"].get<double>(), 2.0 / 3.0);
   j["view"]["light"].erase("tone_curve");
   j["view"]["light"].erase("edges");
+  EXPECT_EQ(j["view"]["light"]["grain"].get<double>(), 0.3);
+  j["view"]["light"].erase("grain");
+  EXPECT_EQ(j["view"]["light"]["exit_surfaces"], true);
+  j["view"]["light"].erase("exit_surfaces");
   const scene::Case old = scene::fromManifest(j.dump(), "m.json");
   EXPECT_EQ(old.view.light->exposure, 0.0);
   EXPECT_FALSE(old.view.light->toneCurve);
   EXPECT_EQ(old.view.light->edges, 0.0);
+  EXPECT_EQ(old.view.light->grain, 0.0);
+  EXPECT_FALSE(old.view.light->exitSurfaces);
   EXPECT_FALSE(*old.view.light == *value.view.light);
   const auto again = nlohmann::json::parse(scene::toManifest(old));
   EXPECT_EQ(again["view"]["light"], j["view"]["light"]);
@@ -1140,6 +1146,9 @@ TEST(Manifest, RefusesAHostileViewOrAttachment)
   refused("/view/light/tone_curve", 1);
   refused("/view/light/edges", 1.5);
   refused("/view/light/edges", "sharp");
+  refused("/view/light/grain", -0.1);
+  refused("/view/light/grain", true);
+  refused("/view/light/exit_surfaces", 1);
   refused("/view/stereo/mode", "holographic");
   refused("/view/stereo/eye_separation_mm", 1e9);
   refused("/view/clipping/planes/0/normal", {0, 0, 0});

@@ -754,6 +754,8 @@ ViewState::Light lightIn(const json& j)
   light.exposure = j.value("exposure_ev", 0.0);
   light.toneCurve = j.value("tone_curve", false);
   light.edges = j.value("edges", 0.0);
+  light.grain = j.value("grain", 0.0);
+  light.exitSurfaces = j.value("exit_surfaces", false);
   return light;
 }
 
@@ -826,6 +828,10 @@ json viewOut(const Case& value)
       j["light"]["tone_curve"] = true;
     if (view.light->edges != 0.0)
       j["light"]["edges"] = view.light->edges;
+    if (view.light->grain != 0.0)
+      j["light"]["grain"] = view.light->grain;
+    if (view.light->exitSurfaces)
+      j["light"]["exit_surfaces"] = true;
   }
   if (view.stereo)
     j["stereo"] = stereoOut(*view.stereo);

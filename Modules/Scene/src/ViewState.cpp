@@ -139,8 +139,9 @@ bool operator==(const Slices& a, const Slices& b)
 
 bool operator==(const ViewState::Light& a, const ViewState::Light& b)
 {
-  return std::tie(a.falloff, a.wetness, a.shadows, a.exposure, a.toneCurve, a.edges) ==
-         std::tie(b.falloff, b.wetness, b.shadows, b.exposure, b.toneCurve, b.edges);
+  return std::tie(a.falloff, a.wetness, a.shadows, a.exposure, a.toneCurve, a.edges, a.grain,
+                  a.exitSurfaces) == std::tie(b.falloff, b.wetness, b.shadows, b.exposure,
+                                              b.toneCurve, b.edges, b.grain, b.exitSurfaces);
 }
 
 bool operator==(const ViewState::Stereo& a, const ViewState::Stereo& b)
@@ -216,6 +217,8 @@ void checkView(const ViewState& view)
             "the exposure_ev must be -4 to 4 EV");
   if (view.light)
     require(isWithin(view.light->edges, 0.0, 1.0), "the edges' emphasis must be 0 to 1");
+  if (view.light)
+    require(isWithin(view.light->grain, 0.0, 1.0), "the grain of cut bone must be 0 to 1");
   if (view.stereo)
   {
     constexpr std::string_view kModes[] = {"none", "side-by-side", "interleaved", "anaglyph",

@@ -107,6 +107,8 @@ void illuminate(rendering::SceneContents& contents,
   contents.light.exposure = given.exposure;
   contents.light.toneCurve = given.toneCurve;
   contents.light.edges = given.edges;
+  contents.light.grain = given.grain;
+  contents.light.exitSurfaces = given.exitSurfaces;
 }
 
 std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clipping,

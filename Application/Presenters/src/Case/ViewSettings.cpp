@@ -73,6 +73,16 @@ void ViewSettings::setEdges(double edges)
   change(m_light.edges, held(edges, 0.0, 1.0), events.lightChanged);
 }
 
+void ViewSettings::setGrain(double grain)
+{
+  change(m_light.grain, held(grain, 0.0, 1.0), events.lightChanged);
+}
+
+void ViewSettings::setExitSurfaces(bool on)
+{
+  change(m_light.exitSurfaces, on, events.lightChanged);
+}
+
 void ViewSettings::setStereo(rendering::StereoMode mode)
 {
   change(m_stereo, mode, events.stereoChanged);
@@ -131,12 +141,14 @@ void ViewSettings::setLight(const scene::ViewState::Light& light)
   setExposure(light.exposure);
   setToneCurve(light.toneCurve);
   setEdges(light.edges);
+  setGrain(light.grain);
+  setExitSurfaces(light.exitSurfaces);
 }
 
 scene::ViewState::Light ViewSettings::lightState() const
 {
-  return {m_light.falloff,  m_light.wetness,   m_light.shadows,
-          m_light.exposure, m_light.toneCurve, m_light.edges};
+  return {m_light.falloff,   m_light.wetness, m_light.shadows, m_light.exposure,
+          m_light.toneCurve, m_light.edges,   m_light.grain,   m_light.exitSurfaces};
 }
 
 scene::ViewState::Stereo ViewSettings::stereoState() const
@@ -164,9 +176,11 @@ LightEdit lightEdit(const scene::ViewState::Light& before, const scene::ViewStat
   note(before.wetness == after.wetness, "wetness");
   note(before.exposure == after.exposure, "exposure");
   note(before.edges == after.edges, "edges");
+  note(before.grain == after.grain, "grain");
   const bool isNumber = changed == 1;
   note(before.shadows == after.shadows, "shadows");
   note(before.toneCurve == after.toneCurve, "soft highlights");
+  note(before.exitSurfaces == after.exitSurfaces, "exit surfaces");
   if (changed != 1)
     what = "light";
   return {what, isNumber && changed == 1};

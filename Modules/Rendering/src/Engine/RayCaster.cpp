@@ -393,6 +393,8 @@ RayFeatures RayCaster::features(const Frame& frame) const
   features.soft = softTissueSeen();
   features.interior = interiorSeen();
   features.edges = m_contents.light.edges > 0.0 && translucent(m_contents.materials);
+  features.exits = m_contents.light.exitSurfaces && translucent(m_contents.materials);
+  features.grain = m_contents.light.grain > 0.0 && features.mask;
   features.thickness = static_cast<bool>(m_contents.thickness.distance);
   features.clip = !m_contents.clipping.empty();
   features.shadows = m_contents.light.shadows;
@@ -732,7 +734,7 @@ void RayCaster::draw(const Frame& frame, bool count)
   GlProgram& shader = program(frame, count);
   shader.use();
   bindTextures(shader, frame);
-  setRays(shader, frame);
+  setRays(shader, frame, height);
   setVolume(shader);
   setLight(shader, frame);
   setShadows(shader, frame);
@@ -794,7 +796,7 @@ void RayCaster::drawPart(const Frame& frame, const RenderQuality& quality,
   GlProgram& shader = program(frame, false);
   shader.use();
   bindTextures(shader, frame);
-  setRays(shader, frame);
+  setRays(shader, frame, viewport[3]);
   setVolume(shader);
   setLight(shader, frame);
   setShadows(shader, frame);

@@ -158,7 +158,7 @@ private:
   GlProgram& program(const Frame& frame, bool count);
   void findFilterBits();
   void bindTextures(GlProgram& program, const Frame& frame) const;
-  void setRays(GlProgram& program, const Frame& frame) const;
+  void setRays(GlProgram& program, const Frame& frame, int height) const;
   void setVolume(GlProgram& program) const;
   void setLight(GlProgram& program, const Frame& frame) const;
   void setShadows(GlUniforms& program, const Frame& frame) const;

@@ -75,7 +75,8 @@ void RayCaster::bindTextures(GlProgram& program, const Frame& frame) const
   program.set("hasOpaque", frame.opaque ? 1 : 0);
 }
 
-void RayCaster::setRays(GlProgram& program, const Frame& frame) const
+// `height`: of the target, pixels.
+void RayCaster::setRays(GlProgram& program, const Frame& frame, int height) const
 {
   const core::GridGeometry& grid = m_contents.ct->geometry();
   const Eigen::Matrix3d& voxelFromMm = grid.voxelFromPatientLinear();
@@ -91,6 +92,8 @@ void RayCaster::setRays(GlProgram& program, const Frame& frame) const
   program.set("viewY", view.directionY);
   program.set("parallel", view.parallel ? 1 : 0);
   program.set("opaqueDepth", view.depth);
+  const double pixel = 2.0 * (view.parallel ? view.originY : view.directionY).norm() / height;
+  program.set("pixel", view.parallel ? Eigen::Vector2d(pixel, 0.0) : Eigen::Vector2d(0.0, pixel));
 }
 
 // The part of the volume that is drawn.
@@ -205,6 +208,9 @@ void RayCaster::setLight(GlProgram& program, const Frame& frame) const
                                        light.specular, light.wetness));
   program.set("plainLight", light.intensity);
   program.set("edges", light.edges);
+  program.set("grain", light.grain);
+  program.set("cellsPerVoxel",
+              Eigen::Vector3d(m_contents.ct->geometry().spacing() / optics::kGrainCell));
   program.set("falloff", light.falloff);
   program.set("aside", optics::asideOf(m_contents.ct->geometry(), frame.sample));
   const SectionWindow window = m_contents.section.value_or(SectionWindow());

@@ -22,6 +22,8 @@ struct RayFeatures
   bool third = false;      ///< two of them; with `second`
   bool interior = false;   ///< translucent tissue
   bool edges = false;      ///< its surfaces are more opaque from the side; with `interior`
+  bool exits = false;      ///< tissue has a surface where a ray leaves it; with `interior`
+  bool grain = false;      ///< of cut bone; with `mask`
   bool soft = false;       ///< soft tissue; with `interior`
   bool clip = false;       ///< clipping planes
   bool thickness = false;  ///< bone is coloured by its distance to a structure

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <Eigen/Geometry>
 
@@ -62,6 +63,42 @@ double edgeFacing(double cosine, double slope)
   const double square = slope * slope;
   const double weight = square / (square + kEdgeSlope * kEdgeSlope);
   return 1.0 + weight * (std::min(std::abs(cosine), 1.0) - 1.0);
+}
+
+double grainNoise(const Eigen::Vector3d& at)
+{
+  const Eigen::Vector3d lower = at.array().floor();
+  const Eigen::Array3d within = at - lower;
+  const Eigen::Array3d share = within.square() * (3.0 - 2.0 * within);
+  double noise = 0.0;
+  for (std::uint32_t corner = 0; corner < 8; ++corner)
+  {
+    constexpr std::uint32_t kPrimes[] = {73856093, 19349663, 83492791};
+    std::uint32_t hash = 0;
+    double weight = 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const std::uint32_t up = corner >> axis & 1U;
+      hash ^=
+          (static_cast<std::uint32_t>(static_cast<std::int64_t>(lower[axis])) + up) * kPrimes[axis];
+      weight *= up != 0 ? share[axis] : 1.0 - share[axis];
+    }
+    hash = (hash ^ hash >> 16) * 0x85ebca6bU;
+    hash = (hash ^ hash >> 13) * 0xc2b2ae35U;
+    hash ^= hash >> 16;
+    noise += weight * (2.0 * (hash >> 8) / 16777216.0 - 1.0);
+  }
+  return noise;
+}
+
+double grainFactor(const core::GridGeometry& grid, const Eigen::Vector3d& voxel, double cosine,
+                   double pixel, double grain)
+{
+  const double cells = pixel / (kGrainCell * std::clamp(std::abs(cosine), kLeastFacing, 1.0));
+  const double part = std::clamp((cells - kFineGrain) / (kCoarseGrain - kFineGrain), 0.0, 1.0);
+  const double left = 1.0 - part * part * (3.0 - 2.0 * part);
+  const Eigen::Vector3d at = voxel.cwiseProduct(grid.spacing()) / kGrainCell;
+  return 1.0 + grain * kGrainContrast * left * grainNoise(at);
 }
 
 Eigen::Vector3d asideOf(const core::GridGeometry& grid, int sample)

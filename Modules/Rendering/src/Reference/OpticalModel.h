@@ -24,7 +24,9 @@ namespace petrous::rendering
 ///                    voxel nearest to x and, where two structures meet, the one with the greatest
 ///                    weight among the eight voxels around x (Volume/LabelBorders.h)
 /// There is a surface where the state changes from air or soft tissue to bone or a structure, or
-/// from anything to a structure; all other changes only change the material. A surface adds its lit
+/// from anything to a structure; with LightSettings::exitSurfaces (record 85) also where it changes
+/// from bone or a structure to air or soft tissue, but not where the drawn region ends. All other
+/// changes only change the material. A surface adds its lit
 /// colour weighted by the material's surface opacity; inside tissue the colour and extinction of
 /// the material's transfer function are integrated:
 ///   C = sum_surfaces T a_s c_s + integral T sigma(v) c(v) l ds,  T the transmittance so far
@@ -59,6 +61,10 @@ namespace petrous::rendering
 /// the CT's value, or of transfer(v) if it reads another image. A zero gradient (n = 0) faces the
 /// camera, as does tissue that contains the camera. Depth is that of the first surface, whatever
 /// its opacity.
+///
+/// Grain (LightSettings::grain; record 80): where a surface that is not such a face has the
+/// material of bone or of a lumen and the mask decides, the transfer function's colour c becomes
+/// min(c grainFactor, 1).
 ///
 /// Thickness over a structure: if a surface that is not such a face has the material of bone or of
 /// a lumen, and the distance d to the structure there (trilinear, ThicknessOverlay) is below
@@ -121,6 +127,14 @@ constexpr double kLeastFacing = 1.0 / 8.0;
 /// Slope of the CT, intensity per mm, at which edgeFacing is half of what the normal says. Borders
 /// of cortical bone rise by 300 and more, noise about the iso value (diploe) by less than 150.
 constexpr double kEdgeSlope = 150.0;
+
+/// Edge, mm, of the cells of the grain of cut bone, along the CT's axes from its first voxel; by
+/// how much it changes the colour at most; and the cells a pixel covers up to which it is drawn in
+/// full, and from which it is not drawn, so that it does not flicker.
+constexpr double kGrainCell = 0.25;
+constexpr double kGrainContrast = 0.4;
+constexpr double kFineGrain = 1.0 / 3.0;
+constexpr double kCoarseGrain = 2.0 / 3.0;
 
 /// Distance, mm, up to which tissue keeps the light of the sky from a surface, and that of the
 /// lamp.
@@ -205,6 +219,20 @@ double edgeOpacity(double opacity, double cosine, double edges);
 /// its normal is that of the noise, and one surface in a few hundred is seen from the side
 /// anywhere.
 double edgeFacing(double cosine, double slope);
+
+/// Value noise, -1 to 1 with mean 0: a random number for each corner of a cell, blended by the
+/// smoothstep of `at`, in cells, at least 0. The number is that of the corner's indices (i, j, k):
+/// i 73856093 xor j 19349663 xor k 83492791 modulo 2^32 (Teschner et al., Optimized spatial hashing
+/// for collision detection of deformable objects, 2003) after the finalizer of MurmurHash3, of
+/// which the upper 24 bits count.
+double grainNoise(const Eigen::Vector3d& at);
+
+/// Factor of the colour of bone that is cut at a point `voxel` of the CT and seen at a cosine:
+///   1 + grain kGrainContrast (1 - smoothstep(kFineGrain, kCoarseGrain, q)) grainNoise
+/// with q = pixel / (kGrainCell max(|cosine|, kLeastFacing)) the cells that a pixel covers.
+/// `pixel`: its edge there, mm.
+double grainFactor(const core::GridGeometry& grid, const Eigen::Vector3d& voxel, double cosine,
+                   double pixel, double grain);
 
 /// How far aside, in voxels of the CT, the sample of that number (sampleCorner) takes its light;
 /// zero if negative.

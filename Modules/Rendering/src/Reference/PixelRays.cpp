@@ -43,8 +43,8 @@ PixelRay PixelRays::through(double column, double row) const
   const Eigen::Vector3d aside =
       m_pixel * ((column - m_centerColumn) * m_right + (row - m_centerRow) * m_down);
   if (m_camera.parallelScale)
-    return {m_camera.position + aside, m_forward};
-  return {m_camera.position, (m_forward + aside).normalized()};
+    return {m_camera.position + aside, m_forward, m_pixel, 0.0};
+  return {m_camera.position, (m_forward + aside).normalized(), 0.0, m_pixel};
 }
 
 } // namespace petrous::rendering

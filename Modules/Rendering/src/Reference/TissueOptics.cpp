@@ -127,9 +127,11 @@ TissueOptics::Place TissueOptics::at(const Eigen::Vector3d& patient) const
   return {kBone, std::min(f, -inside)};
 }
 
-bool TissueOptics::isSurface(State from, State to)
+bool TissueOptics::isSurface(State from, State to) const
 {
-  return from != to && isSolid(to) && (!isSolid(from) || to > kBone);
+  if (!isSolid(to))
+    return m_light.exitSurfaces && isSolid(from);
+  return from != to && (!isSolid(from) || to > kBone);
 }
 
 const appearance::Material& TissueOptics::materialOf(State state) const
@@ -239,16 +241,23 @@ bool TissueOptics::isSmooth(const Eigen::Vector3d& patient) const
   return double{surfaceMaterial(patient).surfaceOpacity} >= optics::kSmoothOpacity;
 }
 
+// Whether the mask decides at a surface towards air.
+bool TissueOptics::isCut(const Eigen::Vector3d& patient) const
+{
+  return m_mask && m_mask->sample(m_mask->geometry().voxelFromPatient(patient)) - 0.5 <
+                       m_field.uncut(patient);
+}
+
 // The CT's gradient that gave the normal, intensity per mm; only where the CT decides.
 std::optional<Eigen::Vector3d> TissueOptics::ctGradientAt(const Eigen::Vector3d& patient,
-                                                          State from) const
+                                                          State from, State to) const
 {
   const core::GridGeometry& grid = m_ct->geometry();
   const Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
   const auto ctAt = [this](const Eigen::Vector3d& v) { return m_ct->sample(v); };
   const double bone = (ctAt(voxel) - m_iso) / kScale;
   const bool isCut = m_mask && m_mask->sample(voxel) - 0.5 < bone;
-  if (isSolid(from) || isCut || !m_boneShown || occupancyAt(patient) - 0.5 > bone)
+  if ((isSolid(from) && isSolid(to)) || isCut || !m_boneShown || occupancyAt(patient) - 0.5 > bone)
     return std::nullopt;
   return isSmooth(patient) ? volume::edgeGradientInPatient(grid, voxel, ctAt)
                            : volume::gradientInPatient(grid, voxel, 1.0, ctAt);
@@ -300,8 +309,17 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
   const double cosine = normal.norm() > 0.0 ? normal.dot(ray.direction) : 1.0;
   auto look = material.transfer.at(intensity(material, below));
   std::optional<std::array<double, 3>> overlay;
-  if (!face && (&material == &m_materials.front() || material.lumen))
+  const bool isBony = !face && (&material == &m_materials.front() || material.lumen);
+  if (isBony)
     overlay = overlayAt(point);
+  if (isBony && m_light.grain > 0.0 && !(isSolid(from) && isSolid(to)) && isCut(point))
+  {
+    const core::GridGeometry& grid = m_ct->geometry();
+    const double factor = optics::grainFactor(grid, grid.voxelFromPatient(point), cosine,
+                                              ray.pixelAt(t), m_light.grain);
+    for (double& channel : look.color)
+      channel = std::min(channel * factor, 1.0);
+  }
   look.color = overlay.value_or(look.color);
   if (face && m_section)
     return {{look.color[0], look.color[1], look.color[2]}, material.surfaceOpacity, false};
@@ -310,7 +328,7 @@ TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, Sta
   const bool hasEdge = !face && m_light.edges > 0.0 && opacity < 1.0;
   const bool isAside = !face && !m_aside.isZero() && opacity >= optics::kSmoothOpacity;
   const std::optional<Eigen::Vector3d> gradient =
-      hasEdge || isAside ? ctGradientAt(point, from) : std::nullopt;
+      hasEdge || isAside ? ctGradientAt(point, from, to) : std::nullopt;
   if (hasEdge)
     opacity = optics::edgeOpacity(
         opacity, gradient ? optics::edgeFacing(cosine, gradient->norm()) : cosine, m_light.edges);

@@ -48,7 +48,7 @@ public:
   static bool isSolid(State state) { return state >= kBone; }
 
   /// Whether the transition between two states is a surface.
-  static bool isSurface(State from, State to);
+  bool isSurface(State from, State to) const;
 
   /// Material of a state; not for air.
   const appearance::Material& materialOf(State state) const;
@@ -86,7 +86,9 @@ private:
   std::optional<std::array<double, 3>> overlayAt(const Eigen::Vector3d& patient) const;
   Surface sectionAt(const Eigen::Vector3d& patient, double opacity) const;
   bool isSmooth(const Eigen::Vector3d& patient) const;
-  std::optional<Eigen::Vector3d> ctGradientAt(const Eigen::Vector3d& patient, State from) const;
+  bool isCut(const Eigen::Vector3d& patient) const;
+  std::optional<Eigen::Vector3d> ctGradientAt(const Eigen::Vector3d& patient, State from,
+                                              State to) const;
   Eigen::Vector3d gradientAside(const Eigen::Vector3d& patient) const;
   Eigen::Vector3d occupancyNormal(const Eigen::Vector3d& patient) const;
   Eigen::Vector3d borderNormal(const Eigen::Vector3d& patient, std::size_t index) const;

@@ -22,6 +22,7 @@ struct TissueRay::Walk
   Eigen::Vector3d lit{0.0, 0.0, 0.0};
   double litShare = 0.0;
   TissueOptics::State state = TissueOptics::kAir;
+  double end = 0.0;        // of the drawn region, or the opaque hit
   double t = 0.0;          // up to which tissue is accumulated
   double value = 0.0;      // intensity at t, if `valueKnown`
   bool valueKnown = false; // for the material of `state`
@@ -53,6 +54,7 @@ GatheredLight TissueRay::cast(const PixelRay& ray, double end, const optics::Lam
     return walk.light;
 
   walk.t = span.first;
+  walk.end = last;
   const auto steps = static_cast<long>(std::ceil((last - span.first) / m_step));
   const auto sample = [&](long i)
   { return sampleAt(ray, std::min(span.first + static_cast<double>(i) * m_step, last)); };
@@ -138,7 +140,9 @@ void TissueRay::walkTo(Walk& walk, const Sample& target) const
     }
     const double hit = 0.5 * (low + high);
     gather(walk, hit);
-    if (TissueOptics::isSurface(walk.state, next))
+    // Outside the hull of the voxels is air, where rounding takes the end of the ray there.
+    const bool ends = !TissueOptics::isSolid(next) && hit > walk.end - 2.0 * m_tolerance;
+    if (m_optics.isSurface(walk.state, next) && !ends)
       addSurface(walk, hit, next, std::nullopt);
     walk.state = next;
     walk.valueKnown = false;

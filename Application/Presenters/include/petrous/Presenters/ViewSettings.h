@@ -34,6 +34,8 @@ public:
   void setExposure(double exposure); ///< EV, clamped to +-ViewState::Light::kMaxExposure
   void setToneCurve(bool on);
   void setEdges(double edges); ///< clamped to 0 to 1
+  void setGrain(double grain); ///< of cut bone, clamped to 0 to 1
+  void setExitSurfaces(bool on);
 
   rendering::StereoMode stereo() const noexcept { return m_stereo; }
   const rendering::StereoRig& rig() const noexcept { return m_rig; }

@@ -12,6 +12,11 @@ struct PixelRay
 {
   Eigen::Vector3d origin;    ///< perspective: the camera; parallel: on the camera plane
   Eigen::Vector3d direction; ///< unit
+  double edge = 0.0;         ///< of the pixel at the origin, mm
+  double spread = 0.0;       ///< by which that grows per mm along the ray
+
+  /// Edge of the pixel at a distance along the ray, both mm.
+  double pixelAt(double distance) const { return edge + spread * distance; }
 };
 
 /// A camera's rays for a picture of width x height, top row first. The view angle is vertical and

@@ -77,6 +77,12 @@ struct LightSettings
   /// How much of the path through a shell its opacity follows, 0 to 1: translucent surfaces are
   /// the more opaque the more they are seen from the side, and keep their shape (record 42).
   double edges = 0.0;
+  /// Contrast of the fine grain of bone where it was cut, 0 to 1; 0: none, as the CT has none
+  /// (record 80).
+  double grain = 0.0;
+  /// Translucent tissue has a surface also where a ray leaves it towards air or soft tissue, as it
+  /// has where it is entered (record 85).
+  bool exitSurfaces = false;
 
   /// With the ambient light that goes with it.
   void setShadows(bool on)

@@ -119,7 +119,7 @@ int materialAt(vec3 v, Operands at, int state, int next)
 {
 #ifdef PETROUS_LABELS
 #ifdef PETROUS_NESTED
-  if (state >= kStructure)
+  if (state >= kStructure && next > kAir)
     return next - kStructure;
 #endif
   if (next >= kStructure || at.occupancy > kOccupancyThreshold)
@@ -145,10 +145,11 @@ void setMaterial(inout Ray ray, int material)
 void shade(inout Ray ray, vec3 v, float hit, float facing)
 {
   Operands at = ray.at;
+  int outer = min(ray.state, ray.next); // where a ray leaves, too, the border to air decides
   vec3 slopeMm = vec3(0.0);
   float along = 0.0;
 #ifdef PETROUS_NESTED
-  bool between = ray.state >= kStructure; // between two structures
+  bool between = outer >= kStructure; // between two structures
   vec3 borderSlope = indexGradient(labelPosition(v), ray.material, between);
   if (between)
   {
@@ -159,12 +160,12 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   const bool between = false;
 #endif
 #ifdef PETROUS_LABELS
-  bool byLabel = !between && (ray.state == kBone || at.occupancy - 0.5 > at.ct);
+  bool byLabel = !between && (outer == kBone || at.occupancy - 0.5 > at.ct);
 #else
   const bool byLabel = false;
 #endif
 #ifdef PETROUS_MASK
-  bool byMask = !between && ray.state != kBone && at.left - 0.5 < max(at.ct, at.occupancy - 0.5);
+  bool byMask = !between && outer != kBone && at.left - 0.5 < max(at.ct, at.occupancy - 0.5);
 #else
   const bool byMask = false;
 #endif
@@ -232,8 +233,9 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   float value = intensityAt(below, isGrey ? vec4(0.0) : ray.more);
   if (isGrey)
     overlay = vec4(vec3(clamp((value - section.x) * section.y, 0.0, 1.0)), 1.0);
+  float grained = grainAt(v, facing, hit, byMask && bony);
   vec3 lit =
-      surfaceColor(ray.material, ray.row, value, facing, hit, overlay, seen, isSection);
+      surfaceColor(ray.material, ray.row, value, facing, hit, grained, overlay, seen, isSection);
   float adds = ray.transmittance * opacity;
   bool isPlain = isSection || overlay.a > 0.0;
   ray.color += isPlain ? vec3(0.0) : adds * lit;
@@ -252,7 +254,11 @@ int pass(inout Ray ray, float hit, float facing, inout float depth)
   if (ray.state != kAir)
     passTissue(ray, hit, ray.at.value, 0.0);
 #endif
-  if (ray.next > kAir && (ray.state <= kAir || ray.next >= kStructure))
+  bool isSurface = ray.next > kAir && (ray.state <= kAir || ray.next >= kStructure);
+#ifdef PETROUS_EXITS
+  isSurface = isSurface || (ray.state > kAir && ray.next <= kAir);
+#endif
+  if (isSurface)
   {
     setMaterial(ray, materialAt(v, ray.at, ray.state, ray.next));
     shade(ray, v, mmOf(ray, hit), facing);

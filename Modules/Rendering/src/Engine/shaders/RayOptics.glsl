@@ -81,6 +81,33 @@ float opacityFrom(float opacity, float facing, bool ofCt, float slope)
 #endif
 }
 
+// Factor of the colour of cut bone; see grainFactor in OpticalModel.h. `wanted`: otherwise 1.
+float grainAt(vec3 v, float facing, float t, bool wanted)
+{
+#ifdef PETROUS_GRAIN
+  vec3 at = v * cellsPerVoxel;
+  vec3 lower = floor(at);
+  vec3 share = smoothstep(0.0, 1.0, at - lower);
+  float noise = 0.0;
+  int turns = wanted ? 8 : 0;
+  for (int corner = 0; corner < turns; ++corner)
+  {
+    uvec3 up = uvec3(corner, corner >> 1, corner >> 2) & 1u;
+    uvec3 part = (uvec3(ivec3(lower)) + up) * uvec3(73856093u, 19349663u, 83492791u);
+    uint hash = part.x ^ part.y ^ part.z;
+    hash = (hash ^ (hash >> 16)) * 0x85ebca6bu;
+    hash = (hash ^ (hash >> 13)) * 0xc2b2ae35u;
+    hash ^= hash >> 16;
+    vec3 near = mix(1.0 - share, share, vec3(up));
+    noise += near.x * near.y * near.z * (2.0 * float(hash >> 8) / 16777216.0 - 1.0);
+  }
+  float cells = (pixel.x + pixel.y * t) / (kGrainCell * max(facing, kLeastFacing));
+  return 1.0 + grain * kGrainContrast * (1.0 - smoothstep(kFineGrain, kCoarseGrain, cells)) * noise;
+#else
+  return 1.0;
+#endif
+}
+
 // Colour, and specular, of a material where it reads a value.
 vec4 lookAt(int material, vec4 row, float value)
 {
@@ -90,12 +117,15 @@ vec4 lookAt(int material, vec4 row, float value)
   return texture(lookTexture, vec2(u, rowCoordinate(material)));
 }
 
-// Lit, without an upper bound. `overlay`: see overlayAt; `seen`: of the surface; `isSection`: a
-// face, which is not lit.
-vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, vec4 overlay,
-                  Seen seen, bool isSection)
+// Lit, without an upper bound. `grained`: see grainAt; `overlay`: see overlayAt; `seen`: of the
+// surface; `isSection`: a face, which is not lit.
+vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, float grained,
+                  vec4 overlay, Seen seen, bool isSection)
 {
   vec4 look = lookAt(material, row, value);
+#ifdef PETROUS_GRAIN
+  look.rgb = min(look.rgb * grained, vec3(1.0));
+#endif
   look.rgb = mix(look.rgb, overlay.rgb, overlay.a);
   bool isScale = overlay.a > 0.0; // compared with a legend: no brighter than that, and its hue
   float gloss = look.a * light.z;

@@ -8,6 +8,8 @@
 //   NESTED     translucent structures
 //   INTERIOR   translucent tissue             CLIP     clipping planes
 //   EDGES      translucent surfaces are more opaque from the side (with INTERIOR)
+//   EXITS      tissue has a surface where a ray leaves it (with INTERIOR)
+//   GRAIN      cut bone has a fine grain (with MASK)
 //   THICKNESS  bone is coloured by its distance to a structure
 //   SOFT       soft tissue (with INTERIOR)
 //   SHADOWS    surfaces see less of the sky and of the lamp where something is in the way
@@ -18,7 +20,8 @@
 //   ROUNDED    the card's filter is made to round its weights, for tests on one that does not
 // Preceded by the constants that the C++ code defines (RayShader.cpp): kMaxPlanes,
 // kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity, kLeastFacing,
-// kEdgeSlope, kUnlike, kAlike, kAsideSlope, kMostAside, kSoftInSection (OpticalModel.h),
+// kEdgeSlope, kUnlike, kAlike, kAsideSlope, kMostAside, kSoftInSection, kGrainCell, kGrainContrast,
+// kFineGrain, kCoarseGrain (OpticalModel.h),
 // kOcclusionReach, kShadowReach, kLampTangent, kSliceGrowth (OpticalModel.h, RayShader.h),
 // kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h), kMeeting,
 // kDeepest, kMarginPerDepth (LabelBorders.h).
@@ -84,6 +87,11 @@ uniform float falloff;
 uniform vec3 aside; // voxels by which the light of a sample is taken aside; zero: of the only one
 #ifdef PETROUS_EDGES
 uniform float edges; // 0 to 1
+#endif
+#ifdef PETROUS_GRAIN
+uniform float grain;        // 0 to 1
+uniform vec3 cellsPerVoxel; // cells of the grain
+uniform vec2 pixel;         // its edge at a distance of t mm is x + y t mm
 #endif
 // Grey of faces: value of black, 1 / range; 0, 0: bone's are lit as surfaces are, and soft tissue
 // has none.

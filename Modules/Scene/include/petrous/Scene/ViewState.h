@@ -69,12 +69,14 @@ struct SlicesView
 
 struct LightView
 {
-  double falloff = 0.0;   ///< mm from the lamp to half its intensity; 0: none
-  double wetness = 0.0;   ///< 0 to 1
-  bool shadows = false;   ///< ambient occlusion, and the lamp's shadow
-  double exposure = 0.0;  ///< EV, -kMaxExposure to kMaxExposure
-  bool toneCurve = false; ///< highlights roll off instead of being clipped
-  double edges = 0.0;     ///< opacity of translucent surfaces from the side, 0 to 1
+  double falloff = 0.0;      ///< mm from the lamp to half its intensity; 0: none
+  double wetness = 0.0;      ///< 0 to 1
+  bool shadows = false;      ///< ambient occlusion, and the lamp's shadow
+  double exposure = 0.0;     ///< EV, -kMaxExposure to kMaxExposure
+  bool toneCurve = false;    ///< highlights roll off instead of being clipped
+  double edges = 0.0;        ///< opacity of translucent surfaces from the side, 0 to 1
+  double grain = 0.0;        ///< contrast of the grain of cut bone, 0 to 1
+  bool exitSurfaces = false; ///< translucent tissue is shaded also where a ray leaves it
   static constexpr double kMaxExposure = 4.0;
 };
 

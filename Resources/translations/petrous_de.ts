@@ -2275,10 +2275,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>Härte, HV</translation>
     </message>
     <message>
-        <source>Source, and how certain</source>
-        <translation>Quelle und Sicherheit</translation>
-    </message>
-    <message>
         <source>Burrs</source>
         <translation>Fräsen</translation>
     </message>
@@ -2385,6 +2381,18 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>Another burr, of the kind and with the numbers of the one that is selected. Their source is not stated until you enter it</source>
         <translation>Eine weitere Fräse von der Art und mit den Zahlen der ausgewählten. Ihre Quelle ist nicht angegeben, bis Sie sie eingeben</translation>
+    </message>
+    <message>
+        <source>How certain</source>
+        <translation>Wie sicher</translation>
+    </message>
+    <message>
+        <source>Source</source>
+        <translation>Quelle</translation>
+    </message>
+    <message>
+        <source>Grit, µm</source>
+        <translation>Körnung, µm</translation>
     </message>
 </context>
 <context>

@@ -1852,6 +1852,10 @@
         <translation>über 0 HV</translation>
     </message>
     <message>
+        <source>within 0 to %#1 micrometres</source>
+        <translation>in 0 bis %#1 Mikrometern</translation>
+    </message>
+    <message>
         <source>within -%1 to %2 degrees</source>
         <translation>zwischen -%1 und %2 Grad</translation>
     </message>
@@ -4200,8 +4204,16 @@
         <translation>Fräse „%1“ muss von der Art dieses Namens sein</translation>
     </message>
     <message>
+        <source>burr '%1': 'grit_um' must be 0 to %#2 um</source>
+        <translation>Fräser „%1“: „grit_um“ muss 0 bis %#2 µm sein</translation>
+    </message>
+    <message>
         <source>burr '%1': 'diameters_mm' must list diameters above 0 to %#2 mm</source>
         <translation>Fräse „%1“: „diameters_mm“ muss Durchmesser über 0 bis %#2 mm nennen</translation>
+    </message>
+    <message>
+        <source>grit and wear coefficient must be above 0</source>
+        <translation>Körnung und Verschleißbeiwert müssen über 0 liegen</translation>
     </message>
     <message>
         <source>there are two burrs '%1'; each needs a name of its own</source>
@@ -10320,12 +10332,20 @@
         <translation>Kompakter Knochen</translation>
     </message>
     <message>
+        <source>derived, within a factor of 2</source>
+        <translation>abgeleitet, auf einen Faktor 2 genau</translation>
+    </message>
+    <message>
         <source>energy calibrated; hardness 33 to 44 HV in abstracts on human cortical bone; friction unsure (0.3 to 0.7)</source>
         <translation>Energie kalibriert; Härte 33 bis 44 HV in Abstracts über menschlichen kompakten Knochen; Reibung unsicher (0.3 bis 0.7)</translation>
     </message>
     <message>
         <source>Cellular bone</source>
         <translation>Pneumatisierter Knochen</translation>
+    </message>
+    <message>
+        <source>assumption</source>
+        <translation>Annahme</translation>
     </message>
     <message>
         <source>unsure: a third of cortical bone, about the ratio of their mineral densities</source>
@@ -10360,8 +10380,16 @@
         <translation>Implantat (Titan)</translation>
     </message>
     <message>
+        <source>hardness: published range; otherwise assumption</source>
+        <translation>Härte: veröffentlichter Bereich; sonst Annahme</translation>
+    </message>
+    <message>
         <source>hardness of titanium alloys 330 to 380 HV in handbooks; energy and friction unsure</source>
         <translation>Härte von Titanlegierungen 330 bis 380 HV in Handbüchern; Energie und Reibung unsicher</translation>
+    </message>
+    <message>
+        <source>published range</source>
+        <translation>veröffentlichter Bereich</translation>
     </message>
     <message>
         <source>rake 0 to -30 degrees tested, 0 to -10 best (Krause 1987, abstract)</source>
@@ -10370,6 +10398,38 @@
     <message>
         <source>0.05 to 0.2 [Chan2016] after Misra &amp; Finnie</source>
         <translation>0.05 bis 0.2 [Chan2016] nach Misra &amp; Finnie</translation>
+    </message>
+    <message>
+        <source>the steep end of the rakes tested on bone, 0 to -30 degrees (Krause 1987, abstract)</source>
+        <translation>das steile Ende der an Knochen geprüften Spanwinkel, 0 bis -30 Grad (Krause 1987, Abstract)</translation>
+    </message>
+    <message>
+        <source>the flat end of the rakes tested on bone, 0 to -30 degrees (Krause 1987, abstract)</source>
+        <translation>das flache Ende der an Knochen geprüften Spanwinkel, 0 bis -30 Grad (Krause 1987, Abstract)</translation>
+    </message>
+    <message>
+        <source>125 to 150 micrometres (green, dental). No faster than medium while both are new: so were medium to super-coarse dental burrs (Siegel &amp; von Fraunhofer), and wear does not depend on coarse grains' size (De Pellegrin 2009)</source>
+        <translation>125 bis 150 Mikrometer (grün, zahnärztlich). Nicht schneller als mittel, solange beide neu sind: so auch zahnärztliche Fräser von mittlerer bis supergrober Körnung (Siegel &amp; von Fraunhofer), und der Verschleiß hängt nicht von der Größe grober Körner ab (De Pellegrin 2009)</translation>
+    </message>
+    <message>
+        <source>106 to 125 micrometres (blue, dental); coefficient of the usual diamond burr</source>
+        <translation>106 bis 125 Mikrometer (blau, zahnärztlich); Beiwert des üblichen Diamantfräsers</translation>
+    </message>
+    <message>
+        <source>derived, within a factor of 3</source>
+        <translation>abgeleitet, auf einen Faktor 3 genau</translation>
+    </message>
+    <message>
+        <source>53 to 63 micrometres (red, dental); coefficient in proportion to the grit below 100 micrometres</source>
+        <translation>53 bis 63 Mikrometer (rot, zahnärztlich); Beiwert im Verhältnis zur Körnung unter 100 Mikrometern</translation>
+    </message>
+    <message>
+        <source>derived, within a factor of 4</source>
+        <translation>abgeleitet, auf einen Faktor 4 genau</translation>
+    </message>
+    <message>
+        <source>20 to 30 micrometres (yellow, dental); coefficient in proportion to the grit below 100 micrometres</source>
+        <translation>20 bis 30 Mikrometer (gelb, zahnärztlich); Beiwert im Verhältnis zur Körnung unter 100 Mikrometern</translation>
     </message>
 </context>
 </TS>

@@ -10,6 +10,7 @@
 #include "BenchCommand.h"
 #include "ChildProcess.h"
 #include "CutBenchmark.h"
+#include "DelaysBenchmark.h"
 #include "DevicesBenchmark.h"
 #include "DistanceBenchmark.h"
 #include "HistoryBenchmark.h"
@@ -126,6 +127,8 @@ constexpr Benchmark kBenchmarks[] = {
      }},
     {"devices", [](const auto&, const BenchOptions& options, const core::Progress& progress)
      { return runDevicesBenchmark(options.quick, progress); }},
+    {"delays", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     { return runDelaysBenchmark(work, options.quick, progress); }},
     {"removal", [](const auto&, const BenchOptions& options, const core::Progress& progress)
      { return session::runRemovalBenchmark(options.quick, progress); }},
     {"registration",
@@ -292,7 +295,7 @@ void addBenchCommand(CLI::App& app, Context& context)
   command
       ->add_option("NAME", options->name,
                    "import, structures, tilt, cut, distance, history, save, library, node, qp, "
-                   "touch, servo, devices, "
+                   "touch, servo, devices, delays, "
                    "removal, registration, "
                    "nerve, segment, renderer or all")
       ->required();

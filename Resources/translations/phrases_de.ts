@@ -10416,12 +10416,12 @@
         <translation>0.05 bis 0.2 [Chan2016] nach Misra &amp; Finnie</translation>
     </message>
     <message>
-        <source>the steep end of the rakes tested on bone, 0 to -30 degrees (Krause 1987, abstract)</source>
-        <translation>das steile Ende der an Knochen geprüften Spanwinkel, 0 bis -30 Grad (Krause 1987, Abstract)</translation>
+        <source>steeper than the usual one, among the best rakes on bone, 0 to -10 degrees (Krause 1987, abstract)</source>
+        <translation>steiler als der übliche, unter den besten Spanwinkeln an Knochen, 0 bis -10 Grad (Krause 1987, Abstract)</translation>
     </message>
     <message>
-        <source>the flat end of the rakes tested on bone, 0 to -30 degrees (Krause 1987, abstract)</source>
-        <translation>das flache Ende der an Knochen geprüften Spanwinkel, 0 bis -30 Grad (Krause 1987, Abstract)</translation>
+        <source>flatter than the usual one, among the rakes tested on bone, 0 to -30 degrees (Krause 1987, abstract)</source>
+        <translation>flacher als der übliche, unter den an Knochen geprüften Spanwinkeln, 0 bis -30 Grad (Krause 1987, Abstract)</translation>
     </message>
     <message>
         <source>125 to 150 micrometres (green, dental). No faster than medium while both are new: so were medium to super-coarse dental burrs (Siegel &amp; von Fraunhofer), and wear does not depend on coarse grains' size (De Pellegrin 2009)</source>

@@ -154,8 +154,8 @@ void tap(bool quick, const core::Progress& progress, core::TickHistogram& delays
   haptics::SimulatedDevice hand(
       [](double time)
       {
-        haptics::Pose pose; // the tissue lies towards -z, from some 0 mm on
-        pose.position.z() = 10.0 * std::cos(2.0 * 3.14159265358979323846 * time);
+        haptics::Pose pose; // the tissue lies towards -z; the cavity is some mm deep
+        pose.position.z() = 25.0 * std::cos(2.0 * 3.14159265358979323846 * time) - 15.0;
         return pose;
       });
   presenters::DeviceMapping mapping;

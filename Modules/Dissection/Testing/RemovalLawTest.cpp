@@ -177,6 +177,20 @@ TEST(BurrCatalogue, TheWearOfAGritFollowsFromItsSize)
               4.0 * resistanceOf(bone, burrs.model("diamond-coarse")), 1e-6);
 }
 
+// A library's table of materials that went with the usual burrs goes with all that come with the
+// program: none has a rake that a friction of 0 to 2 forbids.
+TEST(BurrCatalogue, ComesWithNoBurrThatRefusesATableOfMaterials)
+{
+  for (const char* friction : {"1e-9", "0.05", "0.5", "2"})
+    EXPECT_EQ(thrown(
+                  [friction] {
+                    checkPairs(MaterialCatalogue(materials("3", friction, "40"), "F"),
+                               BurrCatalogue::builtIn());
+                  }),
+              "")
+        << friction;
+}
+
 TEST(BurrCatalogue, RefusesAGritThatNoBurrHas)
 {
   const auto load = [](const std::string& grit)

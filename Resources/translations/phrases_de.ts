@@ -10396,10 +10396,6 @@
         <translation>Implantat (Titan)</translation>
     </message>
     <message>
-        <source>hardness: published range; otherwise assumption</source>
-        <translation>Härte: veröffentlichter Bereich; sonst Annahme</translation>
-    </message>
-    <message>
         <source>hardness of titanium alloys 330 to 380 HV in handbooks; energy and friction unsure</source>
         <translation>Härte von Titanlegierungen 330 bis 380 HV in Handbüchern; Energie und Reibung unsicher</translation>
     </message>

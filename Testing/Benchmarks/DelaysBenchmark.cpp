@@ -189,7 +189,7 @@ void tap(bool quick, const core::Progress& progress, core::TickHistogram& delays
   session.stop();
 }
 
-// Samples until the drill, which has just met tissue, is twice as loud as in air over 2 ms.
+// From the first sample in tissue until half of the change in loudness has come, over 2 ms; s.
 double onset(const sound::DrillState& state)
 {
   constexpr std::size_t kWindow = 96; // 2 ms
@@ -198,11 +198,13 @@ double onset(const sound::DrillState& state)
   air.load = 0.0;
   sound::heard(voice, air, 0.5);
   const double before = sound::loudness(sound::heard(voice, air, 0.1));
-  std::vector<float> samples = sound::heard(voice, state, 0.1);
+  const std::vector<float> samples = sound::heard(voice, state, 0.1);
+  sound::heard(voice, state, 0.4);
+  const double after = sound::loudness(sound::heard(voice, state, 0.1));
   for (std::size_t end = kWindow; end <= samples.size(); ++end)
   {
     const auto from = samples.begin() + static_cast<std::ptrdiff_t>(end - kWindow);
-    if (sound::loudness({from, from + kWindow}) >= 2.0 * before)
+    if (sound::loudness({from, from + kWindow}) >= 0.5 * (before + after))
       return static_cast<double>(end) / sound::kHeardRate;
   }
   return std::numeric_limits<double>::infinity();

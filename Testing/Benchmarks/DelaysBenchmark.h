@@ -17,8 +17,8 @@ namespace petrous::cli
 ///
 /// "contact to sound": a touch session that taps on the phantom; from the beginning of a tick to
 /// its being heard (TouchSession::Setup::heard), then the wait for the speaker's next block, then
-/// the samples until the drill is twice as loud as in air. The sound card's own delay comes on top.
-/// With it the spectral centroid of the sound over the thickness of the wall.
+/// the samples until half of the change in loudness has come. The sound card's own delay comes on
+/// top. With it the spectral centroid of the sound over the thickness of the wall.
 ///
 /// quick: a second of each. Throws CancelledError, core::Error.
 core::BenchmarkReport runDelaysBenchmark(const std::filesystem::path& work, bool quick,

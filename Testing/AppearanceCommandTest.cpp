@@ -255,6 +255,15 @@ TEST_F(AppearanceCommand, SaysHowAStructureYieldsUnderTheHand)
   const auto outcome = run("appearance ear --stiffness cochlea=1 --flags cochlea=shown");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_NE(outcome.err.find("'cochlea' is not felt"), std::string::npos) << outcome.err;
+  // By the name of a soft tissue, with what that value is worth.
+  const auto named = run("appearance ear --stiffness incus=nerve");
+  EXPECT_EQ(named.code, 0) << named.err;
+  EXPECT_NE(named.err.find("derived, within a factor of 8"), std::string::npos) << named.err;
+  const nlohmann::json tables = json("materials");
+  const auto& tissues = tables["soft_tissues"];
+  ASSERT_EQ(tissues[0]["name"], "nerve");
+  EXPECT_EQ(part("incus")["stiffness_n_per_mm"], tissues[0]["stiffness_n_per_mm"]);
+  expectRefused("appearance ear --stiffness incus=cartilage", 2, "--stiffness");
   json("appearance ear --stiffness cochlea=rigid --set incus=ossicle");
   EXPECT_TRUE(part("cochlea")["stiffness_n_per_mm"].is_null());
   EXPECT_TRUE(part("incus")["stiffness_n_per_mm"].is_null()) << "the preset is rigid";

@@ -404,6 +404,53 @@ TEST_F(BenchCommand, SweepsTheStiffnessOfDevicesOverTheirDelay)
   expectPlots(out, {"devices.svg", "devices-2.svg"});
 }
 
+// How long they are is the machine's; what is said of them must hold together.
+TEST_F(BenchCommand, MeasuresTheDelaysFromTheHandToForceAndSound)
+{
+  const auto out = m_folder / "figures";
+  const auto report = json("bench delays --quick --out " + quoted(out));
+  int forces = 0;
+  int sounds = 0;
+  for (const auto& point : report.at("points"))
+  {
+    const auto& extra = point.at("extra");
+    const auto rises = [&extra](const std::string& what)
+    {
+      double last = 0.0;
+      for (const char* at : {"_us_p50", "_us_p90", "_us_p99", "_us_p99.9", "_us_max"})
+      {
+        EXPECT_GE(extra.at(what + at).get<double>(), last) << what << at;
+        last = extra.at(what + at);
+      }
+      EXPECT_GT(last, 0.0) << what;
+    };
+    if (point.at("setting").at("scene") == "server to force")
+    {
+      ++forces;
+      for (const char* what : {"pose_to_servo", "servo_to_motors", "pose_to_motors"})
+        rises(what);
+      EXPECT_EQ(extra.at("ticks"), 1000.0);
+      EXPECT_GT(extra.at("arrived").get<double>(), 100.0);
+      EXPECT_LE(extra.at("arrived"), extra.at("ticks"));
+      continue;
+    }
+    ++sounds;
+    rises("tick_to_heard");
+    EXPECT_GE(extra.at("taps").get<double>(), 1.0);
+    EXPECT_NEAR(extra.at("without_card_ms").get<double>(),
+                1e-3 * extra.at("tick_to_heard_us_p99.9").get<double>() +
+                    extra.at("block_ms").get<double>() + extra.at("onset_ms").get<double>(),
+                1e-9);
+    EXPECT_LT(extra.at("onset_ms").get<double>(), 15.0);
+    EXPECT_EQ(extra.at("centroid_monotone"), 1.0) << point;
+    EXPECT_GT(extra.at("centroid_hz_at_0_mm").get<double>(),
+              extra.at("centroid_hz_at_5_mm").get<double>());
+  }
+  EXPECT_EQ(forces, 2);
+  EXPECT_EQ(sounds, 6);
+  expectPlots(out, {"delays.svg"});
+}
+
 // A plot that cannot be drawn costs no figures.
 TEST_F(BenchCommand, NamesWhatDrawsThePlotsThatCouldNotBeDrawn)
 {

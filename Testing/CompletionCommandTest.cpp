@@ -149,9 +149,12 @@ TEST_F(Completion, ProposesWhatTheHelpLists)
 
 TEST_F(Completion, ProposesWhatAnOptionTakes)
 {
-  EXPECT_EQ(proposed("drill --burr ''"), (Words{"cutting", "diamond"}));
+  const Words burrs{"cutting",        "cutting-rake-25",    "cutting-rake-6", "diamond",
+                    "diamond-coarse", "diamond-extra-fine", "diamond-fine",   "diamond-medium"};
+  EXPECT_EQ(proposed("drill --burr ''"), burrs);
+  EXPECT_EQ(proposed("view head --burr ''"), burrs);
   EXPECT_EQ(proposed("drill head --burr diamond --mode 6"), (Words{"6dof", "3dof"}));
-  EXPECT_EQ(proposed("drill --burr=c"), (Words{"cutting", "diamond"}));
+  EXPECT_EQ(proposed("drill --burr=c"), burrs);
   EXPECT_EQ(proposed("drill head --path ''"), (Words{"\tfiles\t.csv"}));
   EXPECT_EQ(proposed("new x --ct ''"), (Words{"\tfiles"}));
   EXPECT_EQ(proposed("info --library ''"), (Words{"\tfolders"}));
@@ -191,7 +194,8 @@ TEST_F(Completion, BashCompletesAndQuotes)
   EXPECT_EQ(inBash("info '$'"), Words()) << "not run, and begins with a backslash when typed";
   EXPECT_EQ(inBash("drill head --path p"), (Words{"path.csv", "plan/"}));
   EXPECT_EQ(inBash("attach head a"), (Words{"a\\ picture.png"}));
-  EXPECT_EQ(inBash("drill --burr = c"), (Words{"cutting"})) << "--burr=c, taken apart at =";
+  EXPECT_EQ(inBash("drill --burr = c"), (Words{"cutting", "cutting-rake-25", "cutting-rake-6"}))
+      << "--burr=c, taken apart at =";
   EXPECT_EQ(inBash("new x --mr T2 = pl"), (Words{"plan/"}));
   EXPECT_EQ(inBash("info --library pla"), (Words{"plan/"}));
   inBash("info '$(touch owned)' ''");
@@ -212,6 +216,6 @@ TEST_F(Completion, FishAndZshReadTheirScripts)
   };
   EXPECT_EQ(fish("petrous regi").rfind("register\t", 0), 0U) << fish("petrous regi");
   EXPECT_EQ(fish("petrous info hea"), "head\n");
-  EXPECT_EQ(fish("petrous drill --burr c"), "cutting\n");
+  EXPECT_EQ(fish("petrous drill --burr diamond-e"), "diamond-extra-fine\n");
   EXPECT_EQ(fish("petrous drill head --path pa"), "path.csv\n");
 }

@@ -10,9 +10,11 @@
 #include "Numbers.h"
 #include "petrous/Appearance/AppearanceMaterial.h"
 #include "petrous/Appearance/OwnPresets.h"
+#include "petrous/Appearance/SoftTissues.h"
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Core/InputFile.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Dissection/Catalogues.h"
 #include "petrous/Presenters/AppearanceEditor.h"
@@ -463,7 +465,13 @@ void setPartFlags(const Context& context, scene::Case& value, const std::string&
 void setStiffness(const Context& context, scene::Case& value, const StructureProperty& property,
                   const Part& part, const std::string& text)
 {
-  setNumber(context, value, property, part, text);
+  const appearance::SoftTissue* tissue = appearance::findSoftTissue(text);
+  setNumber(context, value, property, part, tissue ? core::plainText(tissue->stiffness) : text);
+  if (tissue)
+    context.warn("'" + part.name + "' yields with " + core::plainText(tissue->stiffness) +
+                 " N/mm (" + core::plainText(tissue->lowest) + " to " +
+                 core::plainText(tissue->highest) + " N/mm; " + tissue->certainty +
+                 "): " + tissue->status);
   if (part.looks.front()->stiffness > 0.0)
     warnIfNotFelt(context, part);
 }

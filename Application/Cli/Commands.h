@@ -21,6 +21,7 @@ void addRenderCommand(CLI::App& app, Context& context);
 void addSliceCommand(CLI::App& app, Context& context);
 void addVideoCommand(CLI::App& app, Context& context);
 void addViewCommand(CLI::App& app, Context& context);
+void addMaterialsCommand(CLI::App& app, Context& context);
 void addMeasureCommand(CLI::App& app, Context& context);
 void addProbeCommand(CLI::App& app, Context& context);
 void addDrillCommand(CLI::App& app, Context& context);

@@ -375,9 +375,11 @@ void addDrillCommand(CLI::App& app, Context& context)
                      options->tool)
           ->excludes(replayed);
   command
-      ->add_option("--burr", options->burr,
-                   "A burr's name in the catalogue: cutting, diamond or one of your own (cutting)")
-      ->check(offers({"cutting", "diamond"}))
+      ->add_option(
+          "--burr", options->burr,
+          "A burr's name in the catalogue (materials): cutting, diamond, one of other rake "
+          "or grit, or of your own (cutting)")
+      ->check(offers(builtInBurrs()))
       ->excludes(instrument);
   command->add_option("--diameter", options->diameter, "Diameter of the burr, mm (4)")
       ->check(within({0.1, 20.0, "mm"}))

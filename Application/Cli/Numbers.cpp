@@ -187,6 +187,15 @@ dissection::BurrModel burrNamed(const std::string& name, const dissection::BurrC
   }
 }
 
+std::vector<std::string> builtInBurrs()
+{
+  std::vector<std::string> names;
+  const dissection::BurrCatalogue burrs = dissection::BurrCatalogue::builtIn();
+  for (const dissection::BurrModel& one : burrs.all())
+    names.push_back(one.name);
+  return names;
+}
+
 imaging::UndeclaredBits undeclaredBitsOf(const std::string& bits)
 {
   return bits == "stored"      ? imaging::UndeclaredBits::LeaveOut

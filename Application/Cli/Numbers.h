@@ -72,6 +72,9 @@ double millimetresOf(const std::string& unit);
 /// The burr that --burr names; otherwise throws UsageError naming those that there are.
 dissection::BurrModel burrNamed(const std::string& name, const dissection::BurrCatalogue& burrs);
 
+/// The burrs that come with the program, for completion; a library may have others.
+std::vector<std::string> builtInBurrs();
+
 /// What "stored", "allocated" or nothing says of --bits.
 imaging::UndeclaredBits undeclaredBitsOf(const std::string& bits);
 

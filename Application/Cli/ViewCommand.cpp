@@ -417,8 +417,9 @@ void addViewCommand(CLI::App& app, Context& context)
       ->type_name("x0,x1,y0,y1,z0,z1");
   command
       ->add_option("--burr", options->burr,
-                   "A burr's name in the library's catalogue: cutting, diamond or one of your own")
-      ->check(offers({"cutting", "diamond"}));
+                   "A burr's name in the library's catalogue (materials): cutting, diamond, one of "
+                   "other rake or grit, or of your own")
+      ->check(offers(builtInBurrs()));
   command->add_option("--diameter", options->diameter, "Of the burr")
       ->type_name("MM")
       ->check(within({0.01, 100.0, "mm"}));

@@ -2295,10 +2295,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>Härte, HV</translation>
     </message>
     <message>
-        <source>Source, and how certain</source>
-        <translation>Quelle und Sicherheit</translation>
-    </message>
-    <message>
         <source>Burrs</source>
         <translation>Fräsen</translation>
     </message>
@@ -2405,6 +2401,18 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>Another burr, of the kind and with the numbers of the one that is selected. Their source is not stated until you enter it</source>
         <translation>Eine weitere Fräse von der Art und mit den Zahlen der ausgewählten. Ihre Quelle ist nicht angegeben, bis Sie sie eingeben</translation>
+    </message>
+    <message>
+        <source>How certain</source>
+        <translation>Wie sicher</translation>
+    </message>
+    <message>
+        <source>Source</source>
+        <translation>Quelle</translation>
+    </message>
+    <message>
+        <source>Grit, µm</source>
+        <translation>Körnung, µm</translation>
     </message>
 </context>
 <context>
@@ -8384,8 +8392,20 @@ Nichts verlässt diesen Rechner.</translation>
         <translation>Deckkraft; eines Lumens: wie sehr es tönt, was um es ist; des Weichgewebes: ein Faktor der Deckkraft seiner Funktion</translation>
     </message>
     <message>
-        <source>The presets are rigid: no stiffness of these structures under a burr is known to us, and a value is your own estimate</source>
-        <translation>Die Vorgaben sind starr: Uns ist keine Steifigkeit dieser Strukturen unter einer Fräse bekannt, ein Wert ist Ihre eigene Schätzung</translation>
+        <source>The presets are rigid: no stiffness of these structures was measured under a burr. Below are values derived from published moduli</source>
+        <translation>Die Vorgaben sind starr: Von diesen Strukturen wurde keine Steifigkeit unter einem Fräser gemessen. Darunter stehen Werte, die aus veröffentlichten Moduln abgeleitet sind</translation>
+    </message>
+    <message>
+        <source>As soft tissue</source>
+        <translation>Wie Weichgewebe</translation>
+    </message>
+    <message>
+        <source>Stiffness of a kind of soft tissue, derived from published moduli: each with its range and how certain it is</source>
+        <translation>Steifigkeit einer Art von Weichgewebe, aus veröffentlichten Moduln abgeleitet: jede mit ihrem Bereich und wie sicher sie ist</translation>
+    </message>
+    <message>
+        <source>%1: %2 N/mm (%3 to %4), %5</source>
+        <translation>%1: %2 N/mm (%3 bis %4), %5</translation>
     </message>
 </context>
 <context>

@@ -470,9 +470,14 @@ def phrases():
         found.setdefault(text, "Assembled")
     for material in json.loads((TREE / "Resources" / "materials.json").read_text())["materials"]:
         found.setdefault(material["title"], "Materials")
+        found.setdefault(material["certainty"], "Materials")
         found.setdefault(material["status"], "Materials")
     for burr in json.loads((TREE / "Resources" / "burrs.json").read_text())["burrs"]:
+        found.setdefault(burr["certainty"], "Materials")
         found.setdefault(burr["status"], "Materials")
+    for tissue in json.loads((TREE / "Resources" / "soft-tissues.json").read_text(encoding="utf-8"))["soft_tissues"]:
+        for key in ("title", "certainty", "status"):
+            found.setdefault(tissue[key], "Materials")
     return [(folder, text) for text, folder in found.items()]
 
 

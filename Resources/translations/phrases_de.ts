@@ -1880,6 +1880,10 @@
         <translation>über 0 HV</translation>
     </message>
     <message>
+        <source>within 0 to %#1 micrometres</source>
+        <translation>in 0 bis %#1 Mikrometern</translation>
+    </message>
+    <message>
         <source>within -%1 to %2 degrees</source>
         <translation>zwischen -%1 und %2 Grad</translation>
     </message>
@@ -3355,8 +3359,8 @@
         <translation>starr</translation>
     </message>
     <message>
-        <source>How a structure yields: newtons a millimetre deep</source>
-        <translation>Wie eine Struktur nachgibt: Newton je Millimeter Tiefe</translation>
+        <source>How a structure yields: newtons a millimetre deep; or as a soft tissue (materials)</source>
+        <translation>Wie eine Struktur nachgibt: Newton je Millimeter Tiefe; oder wie ein Weichgewebe (materials)</translation>
     </message>
     <message>
         <source>bone is rigid; only structures and meshes can yield</source>
@@ -3437,6 +3441,22 @@
     <message>
         <source>'%1' is a built-in preset</source>
         <translation>„%1“ ist eine eingebaute Vorgabe</translation>
+    </message>
+    <message>
+        <source>modulus and lengths of a contact must be above 0</source>
+        <translation>Modul und Längen eines Kontakts müssen über 0 liegen</translation>
+    </message>
+    <message>
+        <source>'%1' must be the lowest, the usual and the highest value, above 0</source>
+        <translation>„%1“ muss der niedrigste, der übliche und der höchste Wert sein, über 0</translation>
+    </message>
+    <message>
+        <source>there is no contact '%1'; there are solid and membrane</source>
+        <translation>es gibt keinen Kontakt „%1“; es gibt solid und membrane</translation>
+    </message>
+    <message>
+        <source>%1: not a table of soft tissues</source>
+        <translation>%1: keine Tabelle von Weichgeweben</translation>
     </message>
     <message>
         <source>flag '%~1' is unknown; use %2 or none</source>
@@ -4236,8 +4256,16 @@
         <translation>Fräse „%1“ muss von der Art dieses Namens sein</translation>
     </message>
     <message>
+        <source>burr '%1': 'grit_um' must be 0 to %#2 um</source>
+        <translation>Fräser „%1“: „grit_um“ muss 0 bis %#2 µm sein</translation>
+    </message>
+    <message>
         <source>burr '%1': 'diameters_mm' must list diameters above 0 to %#2 mm</source>
         <translation>Fräse „%1“: „diameters_mm“ muss Durchmesser über 0 bis %#2 mm nennen</translation>
+    </message>
+    <message>
+        <source>grit and wear coefficient must be above 0</source>
+        <translation>Körnung und Verschleißbeiwert müssen über 0 liegen</translation>
     </message>
     <message>
         <source>there are two burrs '%1'; each needs a name of its own</source>
@@ -10368,12 +10396,20 @@
         <translation>Kompakter Knochen</translation>
     </message>
     <message>
+        <source>derived, within a factor of 2</source>
+        <translation>abgeleitet, auf einen Faktor 2 genau</translation>
+    </message>
+    <message>
         <source>energy calibrated; hardness 33 to 44 HV in abstracts on human cortical bone; friction unsure (0.3 to 0.7)</source>
         <translation>Energie kalibriert; Härte 33 bis 44 HV in Abstracts über menschlichen kompakten Knochen; Reibung unsicher (0.3 bis 0.7)</translation>
     </message>
     <message>
         <source>Cellular bone</source>
         <translation>Pneumatisierter Knochen</translation>
+    </message>
+    <message>
+        <source>assumption</source>
+        <translation>Annahme</translation>
     </message>
     <message>
         <source>unsure: a third of cortical bone, about the ratio of their mineral densities</source>
@@ -10412,12 +10448,116 @@
         <translation>Härte von Titanlegierungen 330 bis 380 HV in Handbüchern; Energie und Reibung unsicher</translation>
     </message>
     <message>
+        <source>published range</source>
+        <translation>veröffentlichter Bereich</translation>
+    </message>
+    <message>
         <source>rake 0 to -30 degrees tested, 0 to -10 best (Krause 1987, abstract)</source>
         <translation>Spanwinkel 0 bis -30 Grad geprüft, 0 bis -10 am besten (Krause 1987, Abstract)</translation>
     </message>
     <message>
         <source>0.05 to 0.2 [Chan2016] after Misra &amp; Finnie</source>
         <translation>0.05 bis 0.2 [Chan2016] nach Misra &amp; Finnie</translation>
+    </message>
+    <message>
+        <source>steeper than the usual one, among the best rakes on bone, 0 to -10 degrees (Krause 1987, abstract)</source>
+        <translation>steiler als der übliche, unter den besten Spanwinkeln an Knochen, 0 bis -10 Grad (Krause 1987, Abstract)</translation>
+    </message>
+    <message>
+        <source>flatter than the usual one, among the rakes tested on bone, 0 to -30 degrees (Krause 1987, abstract)</source>
+        <translation>flacher als der übliche, unter den an Knochen geprüften Spanwinkeln, 0 bis -30 Grad (Krause 1987, Abstract)</translation>
+    </message>
+    <message>
+        <source>125 to 150 micrometres (green, dental). No faster than medium while both are new: so were medium to super-coarse dental burrs (Siegel &amp; von Fraunhofer), and wear does not depend on coarse grains' size (De Pellegrin 2009)</source>
+        <translation>125 bis 150 Mikrometer (grün, zahnärztlich). Nicht schneller als mittel, solange beide neu sind: so auch zahnärztliche Fräser von mittlerer bis supergrober Körnung (Siegel &amp; von Fraunhofer), und der Verschleiß hängt nicht von der Größe grober Körner ab (De Pellegrin 2009)</translation>
+    </message>
+    <message>
+        <source>106 to 125 micrometres (blue, dental); coefficient of the usual diamond burr</source>
+        <translation>106 bis 125 Mikrometer (blau, zahnärztlich); Beiwert des üblichen Diamantfräsers</translation>
+    </message>
+    <message>
+        <source>derived, within a factor of 3</source>
+        <translation>abgeleitet, auf einen Faktor 3 genau</translation>
+    </message>
+    <message>
+        <source>53 to 63 micrometres (red, dental); coefficient in proportion to the grit below 100 micrometres</source>
+        <translation>53 bis 63 Mikrometer (rot, zahnärztlich); Beiwert im Verhältnis zur Körnung unter 100 Mikrometern</translation>
+    </message>
+    <message>
+        <source>derived, within a factor of 4</source>
+        <translation>abgeleitet, auf einen Faktor 4 genau</translation>
+    </message>
+    <message>
+        <source>20 to 30 micrometres (yellow, dental); coefficient in proportion to the grit below 100 micrometres</source>
+        <translation>20 bis 30 Mikrometer (gelb, zahnärztlich); Beiwert im Verhältnis zur Körnung unter 100 Mikrometern</translation>
+    </message>
+    <message>
+        <source>derived, within a factor of 8</source>
+        <translation>abgeleitet, auf einen Faktor 8 genau</translation>
+    </message>
+    <message>
+        <source>median nerve compressed across, shear modulus 12.9 kPa (Main 2011); range of shear waves along the sciatic nerve, 1.9 to 9.9 m/s (Neto 2024). No facial nerve was measured</source>
+        <translation>N. medianus, quer gedrückt, Schubmodul 12.9 kPa (Main 2011); Bereich aus Scherwellen längs des N. ischiadicus, 1.9 bis 9.9 m/s (Neto 2024). Kein N. facialis wurde gemessen</translation>
+    </message>
+    <message>
+        <source>Dura mater</source>
+        <translation>Dura mater</translation>
+    </message>
+    <message>
+        <source>derived, within a factor of 6</source>
+        <translation>abgeleitet, auf einen Faktor 6 genau</translation>
+    </message>
+    <message>
+        <source>tension: 68.1 MPa pooled from 17 studies (2022, doi 10.1007/s10237-022-01566-5), 31.5 MPa (Galford 1970) to 151 MPa (Pearcy 2022); 0.36 mm thick at the petrous apex, 0.68 mm temporal; a bare window of 10 mm is assumed</source>
+        <translation>Zug: 68.1 MPa aus 17 Studien zusammen (2022, doi 10.1007/s10237-022-01566-5), 31.5 MPa (Galford 1970) bis 151 MPa (Pearcy 2022); 0.36 mm dick an der Felsenbeinspitze, 0.68 mm temporal; ein freies Fenster von 10 mm ist angenommen</translation>
+    </message>
+    <message>
+        <source>Artery</source>
+        <translation>Arterie</translation>
+    </message>
+    <message>
+        <source>common carotid artery in the living, tangent modulus 0.40 ± 0.25 MPa in diastole to 1.50 ± 2.05 MPa in systole (PMC3470810); a wall of 1 mm and a lumen of 5 mm are assumed</source>
+        <translation>A. carotis communis beim Lebenden, Tangentenmodul 0.40 ± 0.25 MPa in der Diastole bis 1.50 ± 2.05 MPa in der Systole (PMC3470810); eine Wand von 1 mm und ein Lumen von 5 mm sind angenommen</translation>
+    </message>
+    <message>
+        <source>Brain</source>
+        <translation>Gehirn</translation>
+    </message>
+    <message>
+        <source>shear modulus 1.54 ± 0.27 kPa, MR elastography at 30 to 60 Hz (Streitberger 2014), one study</source>
+        <translation>Schubmodul 1.54 ± 0.27 kPa, MR-Elastographie bei 30 bis 60 Hz (Streitberger 2014), eine Studie</translation>
+    </message>
+    <message>
+        <source>Soft tumour</source>
+        <translation>Weicher Tumor</translation>
+    </message>
+    <message>
+        <source>as glioblastoma, shear modulus 1.32 ± 0.26 kPa (Streitberger 2014); of no tumour of the ear a value is known to us, and firm ones are stiffer</source>
+        <translation>wie Glioblastom, Schubmodul 1.32 ± 0.26 kPa (Streitberger 2014); von keinem Tumor des Ohres ist uns ein Wert bekannt, und feste sind steifer</translation>
+    </message>
+    <message>
+        <source>Muscle</source>
+        <translation>Muskel</translation>
+    </message>
+    <message>
+        <source>derived, within a factor of 7</source>
+        <translation>abgeleitet, auf einen Faktor 7 genau</translation>
+    </message>
+    <message>
+        <source>shear waves of 1.0 to 4.1 m/s (MR, review PMC9631468); 62.2 ± 10.3 kPa compressed by 5 N (Isogai 2022)</source>
+        <translation>Scherwellen von 1.0 bis 4.1 m/s (MR, Übersicht PMC9631468); 62.2 ± 10.3 kPa, mit 5 N gedrückt (Isogai 2022)</translation>
+    </message>
+    <message>
+        <source>Fat</source>
+        <translation>Fett</translation>
+    </message>
+    <message>
+        <source>derived, within a factor of 11</source>
+        <translation>abgeleitet, auf einen Faktor 11 genau</translation>
+    </message>
+    <message>
+        <source>shear modulus 0.53 ± 0.31 kPa (porcine, Sims 2010) to 26.1 ± 19.0 kPa compressed by 1 N (subcutaneous, Isogai 2022)</source>
+        <translation>Schubmodul 0.53 ± 0.31 kPa (Schwein, Sims 2010) bis 26.1 ± 19.0 kPa, mit 1 N gedrückt (subkutan, Isogai 2022)</translation>
     </message>
 </context>
 </TS>

@@ -11,6 +11,7 @@
 #include "BenchCommand.h"
 #include "ChildProcess.h"
 #include "CutBenchmark.h"
+#include "DelaysBenchmark.h"
 #include "DevicesBenchmark.h"
 #include "DistanceBenchmark.h"
 #include "HistoryBenchmark.h"
@@ -149,6 +150,8 @@ constexpr Benchmark kBenchmarks[] = {
      }},
     {"devices", [](const auto&, const BenchOptions& options, const core::Progress& progress)
      { return runDevicesBenchmark(options.quick, progress); }},
+    {"delays", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     { return runDelaysBenchmark(work, options.quick, progress); }},
     {"removal", [](const auto&, const BenchOptions& options, const core::Progress& progress)
      { return session::runRemovalBenchmark(options.quick, progress); }},
     {"registration",

@@ -190,4 +190,32 @@ std::optional<BenchmarkPatient> realPatient(const std::filesystem::path& data,
   return patient;
 }
 
+scene::Case touchCaseOf(const BenchmarkPatient& patient)
+{
+  scene::Case value;
+  value.name = patient.name;
+  value.iso = kBenchmarkIso;
+  value.ct.geometry = patient.ct->geometry();
+  value.ct.volume = patient.ct;
+  scene::LabelPart part;
+  part.labels = core::Lazy<volume::LabelMap>(patient.labelMap);
+  for (const volume::Segment& segment : patient.labelMap->segments)
+  {
+    scene::StructurePart structure;
+    structure.name = segment.name;
+    structure.index = segment.index;
+    structure.voxels = segment.voxels;
+    const std::size_t row = part.structures.size();
+    structure.look.solid = row >= patient.structures.size() || !patient.structures[row].lumen;
+    part.structures.push_back(std::move(structure));
+  }
+  value.labels.push_back(std::move(part));
+  value.dissection = dissection::Dissection(value.ct.geometry);
+  for (std::size_t n = 0; n < patient.mask->brickCount(); ++n)
+    if (const auto& brick = patient.mask->brick(n))
+      value.dissection.mask().setBrick(n, brick);
+  value.dissection.mask().takeDirty();
+  return value;
+}
+
 } // namespace petrous::cli

@@ -8,6 +8,7 @@
 
 #include "petrous/Appearance/Material.h"
 #include "petrous/Core/Progress.h"
+#include "petrous/Scene/Case.h"
 #include "petrous/Volume/CutMask.h"
 #include "petrous/Volume/IntensityVolume.h"
 #include "petrous/Volume/LabelField.h"
@@ -43,5 +44,8 @@ std::shared_ptr<const volume::IntensityVolume> realCt(const std::filesystem::pat
 /// placeholders are put behind the cavity (a nerve, a sinus, a ball).
 std::optional<BenchmarkPatient> realPatient(const std::filesystem::path& data,
                                             const core::Progress& progress);
+
+/// A case to be touched and drilled, in which structures without a lumen are solid.
+scene::Case touchCaseOf(const BenchmarkPatient& patient);
 
 } // namespace petrous::cli

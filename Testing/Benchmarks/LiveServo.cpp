@@ -183,34 +183,6 @@ private:
   bool m_drills = false;
 };
 
-scene::Case caseOf(const BenchmarkPatient& patient)
-{
-  scene::Case value;
-  value.name = patient.name;
-  value.iso = kBenchmarkIso;
-  value.ct.geometry = patient.ct->geometry();
-  value.ct.volume = patient.ct;
-  scene::LabelPart part;
-  part.labels = core::Lazy<volume::LabelMap>(patient.labelMap);
-  for (const volume::Segment& segment : patient.labelMap->segments)
-  {
-    scene::StructurePart structure;
-    structure.name = segment.name;
-    structure.index = segment.index;
-    structure.voxels = segment.voxels;
-    const std::size_t row = part.structures.size();
-    structure.look.solid = row >= patient.structures.size() || !patient.structures[row].lumen;
-    part.structures.push_back(std::move(structure));
-  }
-  value.labels.push_back(std::move(part));
-  value.dissection = dissection::Dissection(value.ct.geometry);
-  for (std::size_t n = 0; n < patient.mask->brickCount(); ++n)
-    if (const auto& brick = patient.mask->brick(n))
-      value.dissection.mask().setBrick(n, brick);
-  value.dissection.mask().takeDirty();
-  return value;
-}
-
 // What the ticks did; written in the thread of removal, read after the session's end.
 struct Seen
 {
@@ -256,7 +228,7 @@ struct LiveRun
 void LiveRun::operator()(std::size_t budget, const core::Progress& progress,
                          std::vector<core::BenchmarkPoint>& report) const
 {
-  scene::Case value = caseOf(patient);
+  scene::Case value = touchCaseOf(patient);
   session::TouchScene scene(value, progress.part(0.0, 0.1));
   session::TouchSession::Setup setup;
   setup.tool.burr.diameter = kDiameter;

@@ -1,3 +1,4 @@
+#include "AnsweringServer.h"
 #include "BenchCommand.h"
 #include "Program.h"
 
@@ -7,6 +8,8 @@ using namespace petrous;
 int main(int argc, char** argv)
 {
   std::vector<std::string> words = cli::wordsOf(argc, argv);
+  if (!words.empty() && words.front() == cli::kAnsweringServer)
+    return cli::serveAnswers(words);
   const bool version = words.size() == 1 && words.front() == "--version";
   if (cli::subcommandIn(words) != "bench" && !version)
     words.insert(words.begin(), "bench");

@@ -44,7 +44,7 @@ TEST_F(CatalogueEditorTest, BeginsWithTheProgramsOwnInTheirUnits)
   EXPECT_DOUBLE_EQ(editor.materials()[0].specificEnergy, 3.0);
   EXPECT_DOUBLE_EQ(editor.materials()[0].hardness, 42.5);
   EXPECT_FALSE(editor.materials()[0].source.empty());
-  ASSERT_EQ(editor.burrs().size(), 2u);
+  ASSERT_EQ(editor.burrs().size(), dissection::BurrCatalogue::builtIn().all().size());
   EXPECT_DOUBLE_EQ(editor.burrs()[0].constant, -10.0);
   EXPECT_DOUBLE_EQ(editor.burrs()[1].constant, 0.1);
   EXPECT_FALSE(editor.changed());
@@ -85,6 +85,8 @@ TEST_F(CatalogueEditorTest, WhatIsAddedHasTheNumbersOfARowAndNotItsSource)
   const std::size_t burr = editor.addBurr(1);
   EXPECT_DOUBLE_EQ(editor.burrs()[burr].constant, editor.burrs()[1].constant);
   EXPECT_EQ(editor.burrs()[burr].source, "");
+  EXPECT_EQ(editor.materials()[row].certainty, "");
+  EXPECT_EQ(editor.burrs()[burr].certainty, "");
   editor.save();
   const CatalogueEditor again(folder);
   EXPECT_EQ(again.materials()[row].source, "");
@@ -184,7 +186,7 @@ TEST_F(CatalogueEditorTest, HasBurrsOfTheUsersOwnBesideTheUsualOnes)
   editor.save();
 
   const auto burrs = dissection::Catalogues::in(folder).burrs;
-  ASSERT_EQ(burrs.all().size(), 3u);
+  ASSERT_EQ(burrs.all().size(), dissection::BurrCatalogue::builtIn().all().size() + 1);
   EXPECT_DOUBLE_EQ(burrs.model("coarse-diamond").wearCoefficient, 0.2);
   EXPECT_EQ(burrs.model("coarse-diamond").diameters, (std::vector<double>{3.0, 5.0}));
   EXPECT_DOUBLE_EQ(burrs.model("diamond").wearCoefficient, 0.1);
@@ -222,6 +224,37 @@ TEST_F(CatalogueEditorTest, AFileWhoseTableHasNotChangedStaysAsItWasWritten)
   editor.setBurr(1, diamond);
   editor.save();
   EXPECT_NE(text("burrs.json"), byHand);
+}
+
+// Tables as they were written before burrs had a grit and numbers a certainty of their own.
+TEST_F(CatalogueEditorTest, ReadsTablesOfAnEarlierVersion)
+{
+  std::ofstream(folder / "burrs.json") << R"({"burrs": [
+    {"name": "cutting", "kind": "cutting", "rake_deg": -12, "diameters_mm": [2], "status": "ours"},
+    {"name": "diamond", "kind": "diamond", "wear_coefficient": 0.15, "diameters_mm": [1],
+     "status": "ours"}]})";
+  std::ofstream(folder / "materials.json") << R"({"materials": [
+    {"name": "cortical-bone", "title": "Bone", "specific_cutting_energy_gpa": 2.5, "friction": 0.5,
+     "vickers_hardness_hv": 40, "status": "ours"}],
+    "bone": {"cellular": "cortical-bone", "cortical": "cortical-bone", "from_hu": 300,
+             "to_hu": 1800}})";
+  CatalogueEditor editor(folder);
+  ASSERT_EQ(editor.burrs().size(), 2u) << "that table has no others";
+  EXPECT_DOUBLE_EQ(editor.burrs()[1].constant, 0.15);
+  EXPECT_DOUBLE_EQ(editor.burrs()[1].grit, 0.0);
+  EXPECT_EQ(editor.burrs()[1].certainty, "");
+  EXPECT_EQ(editor.burrs()[1].source, "ours");
+  EXPECT_EQ(editor.materials()[0].certainty, "");
+  EXPECT_EQ(editor.materials()[0].source, "ours");
+  CatalogueEditor::Burr diamond = editor.burrs()[1];
+  diamond.grit = 91.0;
+  diamond.certainty = "assumption";
+  editor.setBurr(1, diamond);
+  editor.save();
+  const CatalogueEditor again(folder);
+  EXPECT_DOUBLE_EQ(again.burrs()[1].grit, 91.0);
+  EXPECT_EQ(again.burrs()[1].certainty, "assumption");
+  EXPECT_EQ(again.burrs()[0].source, "ours");
 }
 
 TEST_F(CatalogueEditorTest, BeginsWithTheBuiltInTableInPlaceOfABrokenFile)

@@ -34,6 +34,7 @@ enum MaterialColumn
   Energy,
   Friction,
   Hardness,
+  MaterialCertainty,
   MaterialSource,
   MaterialColumns
 };
@@ -43,8 +44,10 @@ enum BurrColumn
   BurrName,
   Kind,
   Rake,
+  Grit,
   Wear,
   Diameters,
+  BurrCertainty,
   BurrSource,
   BurrColumns
 };
@@ -111,6 +114,15 @@ double numberIn(const QTableWidget& table, int row, int column, double present)
   throw core::InvalidParameter("'" + bytes(text) + "' is not a number");
 }
 
+const QString kNone = QString::fromUtf8("–");
+
+// Nothing and a dash are "not stated".
+double gritIn(const QTableWidget& table, int row, double present)
+{
+  const QString text = table.item(row, Grit)->text().trimmed();
+  return text.isEmpty() || text == kNone ? 0.0 : numberIn(table, row, Grit, present);
+}
+
 // Of the numbers. None is no certainty.
 QString sourceText(const std::string& source)
 {
@@ -134,10 +146,10 @@ CatalogueDialog::CatalogueDialog(presenters::CatalogueEditor editor,
   , m_isUsed(std::move(isUsed))
   , m_materials(table("materials", tr("Materials"),
                       {tr("Name"), tr("Shown as"), tr("Cutting energy, GPa"), tr("Friction"),
-                       tr("Hardness, HV"), tr("Source, and how certain")}))
+                       tr("Hardness, HV"), tr("How certain"), tr("Source")}))
   , m_burrs(table("burrs", tr("Burrs"),
-                  {tr("Name"), tr("Kind"), tr("Rake, °"), tr("Wear coefficient"),
-                   tr("Diameters, mm"), tr("Source, and how certain")}))
+                  {tr("Name"), tr("Kind"), tr("Rake, °"), tr("Grit, µm"), tr("Wear coefficient"),
+                   tr("Diameters, mm"), tr("How certain"), tr("Source")}))
   , m_bone(new QLabel)
   , m_lost(new QLabel)
   , m_fault(new QLabel)
@@ -271,6 +283,7 @@ void CatalogueDialog::fillMaterial(int row)
   put(*m_materials, row, Energy, number(one.specificEnergy));
   put(*m_materials, row, Friction, number(one.friction));
   put(*m_materials, row, Hardness, number(one.hardness));
+  put(*m_materials, row, MaterialCertainty, sourceText(one.certainty));
   put(*m_materials, row, MaterialSource, sourceText(one.source));
 }
 
@@ -279,12 +292,13 @@ void CatalogueDialog::fillBurr(int row)
   const auto at = static_cast<std::size_t>(row);
   const auto& one = m_editor.burrs()[at];
   const bool isCutting = one.kind == dissection::Burr::Kind::Cutting;
-  const QString none = QString::fromUtf8("–");
   put(*m_burrs, row, BurrName, words(one.name), !m_editor.isUsualBurr(at));
   put(*m_burrs, row, Kind, isCutting ? tr("Cutting") : tr("Diamond"), false);
-  put(*m_burrs, row, Rake, isCutting ? number(one.constant) : none, isCutting);
-  put(*m_burrs, row, Wear, isCutting ? none : number(one.constant), !isCutting);
+  put(*m_burrs, row, Rake, isCutting ? number(one.constant) : kNone, isCutting);
+  put(*m_burrs, row, Grit, isCutting || one.grit <= 0.0 ? kNone : number(one.grit), !isCutting);
+  put(*m_burrs, row, Wear, isCutting ? kNone : number(one.constant), !isCutting);
   put(*m_burrs, row, Diameters, numberText(presenters::diametersText(one.diameters)));
+  put(*m_burrs, row, BurrCertainty, sourceText(one.certainty));
   put(*m_burrs, row, BurrSource, sourceText(one.source));
 }
 
@@ -330,6 +344,8 @@ void CatalogueDialog::materialEntered(int row, int column)
         one.specificEnergy = numberIn(*m_materials, row, Energy, one.specificEnergy);
         one.friction = numberIn(*m_materials, row, Friction, one.friction);
         one.hardness = numberIn(*m_materials, row, Hardness, one.hardness);
+        one.certainty =
+            textIn(*m_materials, row, MaterialCertainty, one.certainty, sourceText(one.certainty));
         one.source = textIn(*m_materials, row, MaterialSource, one.source, sourceText(one.source));
         m_editor.setMaterial(at, one);
       },
@@ -352,6 +368,10 @@ void CatalogueDialog::burrEntered(int row, int column)
         const std::string diameters = bytes(m_burrs->item(row, Diameters)->text().trimmed());
         if (diameters != bytes(numberText(presenters::diametersText(one.diameters))))
           one.diameters = presenters::diametersFrom(diameters);
+        if (!isCutting)
+          one.grit = gritIn(*m_burrs, row, one.grit);
+        one.certainty =
+            textIn(*m_burrs, row, BurrCertainty, one.certainty, sourceText(one.certainty));
         one.source = textIn(*m_burrs, row, BurrSource, one.source, sourceText(one.source));
         m_editor.setBurr(at, one);
       },

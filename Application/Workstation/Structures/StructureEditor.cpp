@@ -11,6 +11,7 @@
 #include <QGridLayout>
 #include <QKeyEvent>
 #include <QLabel>
+#include <QMenu>
 #include <QPainter>
 #include <QPushButton>
 #include <QSlider>
@@ -22,8 +23,10 @@
 #include "StructuresModel.h"
 #include "Theme.h"
 #include "WindowTexts.h"
+#include "petrous/Appearance/SoftTissues.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Dissection/Catalogues.h"
 #include "petrous/Presenters/AppearanceEditor.h"
 #include "petrous/Presenters/BoneOpacity.h"
@@ -112,8 +115,8 @@ StructureEditor::StructureEditor(presenters::WorkstationModel& model, QWidget* p
   QDoubleSpinBox* warning = addNumber("warn_mm", 0.1);
   QDoubleSpinBox* stiffness = addNumber("stiffness_n_per_mm", 0.0);
   stiffness->setToolTip(stiffness->toolTip() + '\n' +
-                        tr("The presets are rigid: no stiffness of these structures under a burr "
-                           "is known to us, and a value is your own estimate"));
+                        tr("The presets are rigid: no stiffness of these structures was measured "
+                           "under a burr. Below are values derived from published moduli"));
   addLabel(tr("&Warn"), warning, 5, 0);
   grid->addWidget(warning, 5, 1);
   addLabel(tr("Sti&ffness"), stiffness, 5, 2);
@@ -123,6 +126,8 @@ StructureEditor::StructureEditor(presenters::WorkstationModel& model, QWidget* p
                           "lumens come last"));
   addLabel(tr("Priorit&y"), priority, 6, 0);
   grid->addWidget(priority, 6, 1);
+  m_softTissues = addSoftTissues();
+  grid->addWidget(m_softTissues, 6, 2, 1, 2);
   grid->setColumnStretch(1, 1);
   grid->setColumnStretch(3, 1);
   for (Number& one : m_numbers)
@@ -276,6 +281,37 @@ QComboBox* StructureEditor::addMaterials()
   return box;
 }
 
+QPushButton* StructureEditor::addSoftTissues()
+{
+  const StructureProperty& property = propertyOf("stiffness_n_per_mm");
+  QPushButton* result =
+      button(tr("As soft tissue"), "structureSoftTissue",
+             tr("Stiffness of a kind of soft tissue, derived from published moduli: each with its "
+                "range and how certain it is"));
+  auto* menu = new QMenu(result);
+  menu->setToolTipsVisible(true);
+  for (const appearance::SoftTissue& one : appearance::softTissues())
+  {
+    const auto text = [](double value) { return numberText(core::plainText(value)); };
+    QAction* action =
+        menu->addAction(tr("%1: %2 N/mm (%3 to %4), %5")
+                            .arg(phrase(one.title), text(one.stiffness), text(one.lowest),
+                                 text(one.highest), phrase(one.certainty)));
+    action->setData(words(one.name));
+    action->setToolTip(phrase(one.status));
+    connect(action, &QAction::triggered, this,
+            [this, &property, value = one.stiffness]
+            {
+              change([&property, value](const std::string&, StructureAppearance& look)
+                     { setNumber(look, property, value); },
+                     property);
+              refresh();
+            });
+  }
+  result->setMenu(menu);
+  return result;
+}
+
 // The library's own and the program's.
 void StructureEditor::offerMaterials()
 {
@@ -365,6 +401,7 @@ void StructureEditor::refresh()
           one.box->setPrefix(differ(*one.property) ? differs : QString());
           one.box->setToolTip(withIdle(one.tip, *one.property));
         }
+        m_softTissues->setEnabled(!looks(propertyOf("stiffness_n_per_mm")).empty());
         for (const Flag& one : m_flags)
         {
           const auto flag = std::get<StructureProperty::Flag>(one.property->member);

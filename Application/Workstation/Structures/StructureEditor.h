@@ -14,6 +14,7 @@ class QCheckBox;
 class QComboBox;
 class QGridLayout;
 class QLabel;
+class QPushButton;
 
 namespace petrous::appearance
 {
@@ -73,6 +74,7 @@ private:
   QComboBox* addPresets();
   QComboBox* addMaterials();
   void offerMaterials();
+  QPushButton* addSoftTissues();
   void change(const std::function<void(const std::string&, appearance::StructureAppearance&)>& to,
               const Property& property);
   std::vector<const appearance::StructureAppearance*> looks(const Property& property) const;
@@ -89,6 +91,7 @@ private:
   QSlider* m_opacity;
   std::unique_ptr<presenters::EditHistory::Hold> m_opacityHold; ///< while it is dragged
   QComboBox* m_materials;
+  QPushButton* m_softTissues; ///< the stiffness from published moduli
   std::vector<Number> m_numbers;
   std::vector<Flag> m_flags;
   std::vector<Text> m_texts;

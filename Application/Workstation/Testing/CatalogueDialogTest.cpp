@@ -77,7 +77,8 @@ TEST_F(CatalogueDialogs, AMaterialThatIsAddedIsSavedAndOfferedToStructures)
   materials.selectRow(0);
   edit.findChild<QPushButton*>("addMaterial")->click();
   ASSERT_EQ(materials.rowCount(), row + 1);
-  EXPECT_EQ(materials.item(row, 5)->text(), "not stated");
+  for (const int column : {5, 6}) // certainty and source
+    EXPECT_EQ(materials.item(row, column)->text(), "not stated") << column;
   materials.item(row, 0)->setText("sclerotic-bone");
   materials.item(row, 1)->setText("Sclerotic bone");
   materials.item(row, 4)->setText("60");
@@ -121,7 +122,7 @@ TEST_F(CatalogueDialogs, DiametersComeToTheDrillBarAndGoBackWithTheProgramsOwn)
   openWindow("ball");
   auto& edit = dialog();
   auto& burrs = table(edit, "burrs");
-  burrs.item(0, 4)->setText("0.6, 2.3");
+  burrs.item(0, 5)->setText("0.6, 2.3");
   edit.findChild<QPushButton*>("catalogueSave")->click();
   EXPECT_EQ(read().burrs.model(dissection::Burr::Kind::Cutting).diameters,
             (std::vector<double>{0.6, 2.3}));
@@ -140,7 +141,8 @@ TEST_F(CatalogueDialogs, ABurrThatIsAddedIsOfferedAndDrillsUnderItsName)
   saveBall("ball");
   openWindow("ball");
   auto& choice = *window().findChild<QComboBox*>("burrKind");
-  ASSERT_EQ(choice.count(), 2);
+  const int builtIn = choice.count();
+  ASSERT_GT(builtIn, 2);
   {
     auto& edit = dialog();
     auto& burrs = table(edit, "burrs");
@@ -149,19 +151,24 @@ TEST_F(CatalogueDialogs, ABurrThatIsAddedIsOfferedAndDrillsUnderItsName)
     EXPECT_FALSE(remove.isEnabled());
     EXPECT_FALSE(burrs.item(1, 0)->flags() & Qt::ItemIsEditable);
     edit.findChild<QPushButton*>("addBurr")->click();
-    ASSERT_EQ(burrs.rowCount(), 3);
-    EXPECT_EQ(burrs.item(2, 0)->text(), "diamond-2");
+    ASSERT_EQ(burrs.rowCount(), builtIn + 1);
+    EXPECT_EQ(burrs.item(builtIn, 0)->text(), "diamond-2");
     EXPECT_TRUE(remove.isEnabled());
-    burrs.item(2, 0)->setText("Coarse");
+    burrs.item(builtIn, 0)->setText("Coarse");
     EXPECT_TRUE(isShown(edit, "catalogueFault"));
-    EXPECT_EQ(burrs.item(2, 0)->text(), "diamond-2");
-    burrs.item(2, 0)->setText("coarse-diamond");
-    burrs.item(2, 3)->setText("0.2");
-    burrs.item(2, 4)->setText("3, 5");
+    EXPECT_EQ(burrs.item(builtIn, 0)->text(), "diamond-2");
+    burrs.item(builtIn, 0)->setText("coarse-diamond");
+    EXPECT_EQ(burrs.item(builtIn, 3)->text(), QString::fromUtf8("–")) << "of no stated grit";
+    burrs.item(builtIn, 3)->setText("181");
+    burrs.item(builtIn, 4)->setText("0.2");
+    burrs.item(builtIn, 5)->setText("3, 5");
+    burrs.item(builtIn, 6)->setText("measured");
     EXPECT_FALSE(isShown(edit, "catalogueFault"));
     edit.findChild<QPushButton*>("catalogueSave")->click();
   }
   EXPECT_DOUBLE_EQ(read().burrs.model("coarse-diamond").wearCoefficient, 0.2);
+  EXPECT_DOUBLE_EQ(read().burrs.model("coarse-diamond").grit, 181.0);
+  EXPECT_EQ(read().burrs.model("coarse-diamond").certainty, "measured");
   EXPECT_EQ(choice.currentText(), "Cutting") << "stays";
   choice.setCurrentIndex(choice.findText("coarse-diamond"));
   EXPECT_EQ(window().findChild<QDoubleSpinBox*>("burrDiameter")->value(), 3.0) << "of 4 mm before";
@@ -174,17 +181,47 @@ TEST_F(CatalogueDialogs, ABurrThatIsAddedIsOfferedAndDrillsUnderItsName)
   // Taken out while it is selected: the usual one of its kind, and the stroke keeps its name.
   QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
   auto& edit = dialog();
-  table(edit, "burrs").selectRow(2);
+  table(edit, "burrs").selectRow(builtIn);
   EXPECT_FALSE(isShown(edit, "catalogueLost"));
   edit.findChild<QPushButton*>("removeBurr")->click();
   EXPECT_TRUE(isShown(edit, "catalogueLost"));
   EXPECT_TRUE(edit.findChild<QLabel*>("catalogueLost")->text().contains("coarse-diamond"));
   edit.findChild<QPushButton*>("catalogueSave")->click();
-  EXPECT_EQ(choice.count(), 2);
+  EXPECT_EQ(choice.count(), builtIn);
   EXPECT_EQ(choice.currentText(), "Diamond");
   EXPECT_TRUE(window().statusBar()->currentMessage().contains("coarse-diamond"))
       << window().statusBar()->currentMessage().toStdString();
   EXPECT_EQ(window().model().value().dissection.strokes()[0]->info.burr.name, "coarse-diamond");
+}
+
+// Column by column, in the window as in the files.
+TEST_F(CatalogueDialogs, EveryBuiltInRowShowsHowCertainItIsAndItsSource)
+{
+  saveBall("ball");
+  openWindow("ball");
+  auto& edit = dialog();
+  for (const char* name : {"materials", "burrs"})
+  {
+    auto& rows = table(edit, name);
+    const int certainty = rows.columnCount() - 2;
+    EXPECT_EQ(rows.horizontalHeaderItem(certainty)->text(), "How certain");
+    for (int row = 0; row < rows.rowCount(); ++row)
+      for (const int column : {certainty, certainty + 1})
+      {
+        const QString text = rows.item(row, column)->text();
+        EXPECT_FALSE(text.isEmpty() || text == "not stated") << name << row << column;
+      }
+  }
+  const auto& burrs = table(edit, "burrs");
+  EXPECT_EQ(burrs.item(0, 3)->text(), QString::fromUtf8("–"));
+  EXPECT_FALSE(burrs.item(0, 3)->flags() & Qt::ItemIsEditable) << "a cutting burr has no grit";
+  const auto fine = burrs.findItems("diamond-fine", Qt::MatchExactly);
+  ASSERT_EQ(fine.size(), 1);
+  EXPECT_EQ(burrs.item(fine[0]->row(), 3)->text(), "58");
+  burrs.item(fine[0]->row(), 3)->setText("2000");
+  EXPECT_TRUE(isShown(edit, "catalogueFault"));
+  EXPECT_EQ(burrs.item(fine[0]->row(), 3)->text(), "58");
+  edit.reject();
 }
 
 TEST_F(CatalogueDialogs, AMaterialOfTheOpenCaseStaysWithTheBuiltInTables)
@@ -292,7 +329,7 @@ TEST_F(CatalogueDialogs, DiametersKeepTheirDigitsWhereTheyHaveAComma)
   const GermanTexts german;
   ASSERT_TRUE(german.isThere());
   auto& edit = dialog();
-  EXPECT_TRUE(table(edit, "burrs").item(0, 4)->text().startsWith("1,98"));
+  EXPECT_TRUE(table(edit, "burrs").item(0, 5)->text().startsWith("1,98"));
   table(edit, "burrs").item(0, 2)->setText("-12");
   edit.findChild<QPushButton*>("catalogueSave")->click();
   EXPECT_EQ(read().burrs.model(dissection::Burr::Kind::Cutting).diameters,

@@ -183,8 +183,10 @@ TEST_F(Handpiece, AKeyChangesTheKindOfTheBurr)
   openWindow("ball");
   auto& kind = *window().findChild<QComboBox*>("burrKind");
   const int before = kind.currentIndex();
+  const int count = kind.count();
   QTest::keyClick(&view(), Qt::Key_L);
-  EXPECT_EQ(kind.currentIndex(), 1 - before);
-  QTest::keyClick(&view(), Qt::Key_L);
+  EXPECT_EQ(kind.currentIndex(), (before + 1) % count);
+  for (int n = 1; n < count; ++n)
+    QTest::keyClick(&view(), Qt::Key_L);
   EXPECT_EQ(kind.currentIndex(), before);
 }

@@ -29,6 +29,7 @@
 #include "Language.h"
 #include "StructuresModel.h"
 #include "StructuresPanel.h"
+#include "petrous/Appearance/SoftTissues.h"
 #include "petrous/Appearance/StructureProperties.h"
 
 using namespace petrous;
@@ -381,7 +382,19 @@ TEST_F(Structures, ALumenHasNoMarkOfTouchAndSaysWhy)
   list.setCurrentIndex(structureCell("carotid"));
   EXPECT_TRUE(mark->isEnabled() && stiffness->isEnabled());
   EXPECT_FALSE(mark->toolTip().contains("a space without tissue"));
+  auto* softTissue = find<QPushButton>("structureSoftTissue");
+  ASSERT_TRUE(softTissue->isEnabled());
+  for (QAction* one : softTissue->menu()->actions())
+  {
+    EXPECT_FALSE(one->toolTip().isEmpty()) << "its source";
+    if (one->data() == "artery")
+      one->trigger();
+  }
+  const appearance::SoftTissue& artery = *appearance::findSoftTissue("artery");
+  EXPECT_EQ(look("carotid").stiffness, artery.stiffness);
+  EXPECT_EQ(stiffness->value(), artery.stiffness);
   list.setCurrentIndex(structureCell("canal"));
+  EXPECT_FALSE(softTissue->isEnabled());
   EXPECT_FALSE(mark->isEnabled() || stiffness->isEnabled());
   EXPECT_EQ(mark->checkState(), Qt::Unchecked);
   for (const QWidget* widget : {static_cast<QWidget*>(mark), static_cast<QWidget*>(stiffness)})

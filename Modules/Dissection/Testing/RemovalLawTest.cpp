@@ -16,8 +16,11 @@ using namespace petrous;
 using dissection::AbrasiveWear;
 using dissection::Burr;
 using dissection::BurrCatalogue;
+using dissection::BurrModel;
 using dissection::MaterialCatalogue;
 using dissection::OrthogonalCutting;
+using dissection::TissueMaterial;
+using dissection::wearOfGrit;
 
 namespace
 {
@@ -128,6 +131,82 @@ TEST(MaterialCatalogue, EveryPairThatComesWithTheProgramIsInTheDomain)
   {
     ASSERT_TRUE(MaterialCatalogue::builtIn().contains(name)) << name;
   }
+}
+
+// By the words that materials.json and burrs.json explain.
+TEST(BurrCatalogue, EachBurrSaysHowCertainItsNumbersAreAndNoneIsCalledMeasured)
+{
+  const MaterialCatalogue materials = MaterialCatalogue::builtIn();
+  const BurrCatalogue burrs = BurrCatalogue::builtIn();
+  const auto check = [](const auto& one)
+  {
+    EXPECT_TRUE(one.certainty.find("published range") != std::string::npos ||
+                one.certainty.find("derived, within a factor of ") == 0 ||
+                one.certainty == "assumption")
+        << one.name << ": " << one.certainty;
+    EXPECT_FALSE(one.status.empty()) << one.name;
+  };
+  for (const TissueMaterial& material : materials.all())
+    check(material);
+  for (const BurrModel& burr : burrs.all())
+    check(burr);
+}
+
+// Each diamond burr of stated grit has the coefficient that its grit gives, from that of the usual
+// one; the finer the slower, in proportion below the end of the size effect.
+TEST(BurrCatalogue, TheWearOfAGritFollowsFromItsSize)
+{
+  EXPECT_DOUBLE_EQ(wearOfGrit(100.0, 0.1), 0.1);
+  EXPECT_DOUBLE_EQ(wearOfGrit(1000.0, 0.1), 0.1);
+  EXPECT_DOUBLE_EQ(wearOfGrit(50.0, 0.2), 0.1);
+  EXPECT_THROW(wearOfGrit(0.0, 0.1), core::InvalidParameter);
+  EXPECT_THROW(wearOfGrit(50.0, std::nan("")), core::InvalidParameter);
+  const BurrCatalogue burrs = BurrCatalogue::builtIn();
+  const double usual = burrs.model(Burr::Kind::Diamond).wearCoefficient;
+  int grits = 0;
+  for (const BurrModel& burr : burrs.all())
+    if (burr.grit > 0.0)
+    {
+      ++grits;
+      EXPECT_EQ(burr.kind, Burr::Kind::Diamond) << burr.name;
+      EXPECT_NEAR(burr.wearCoefficient, wearOfGrit(burr.grit, usual), 1e-12) << burr.name;
+    }
+  EXPECT_GE(grits, 4);
+  const TissueMaterial bone = MaterialCatalogue::builtIn().material("cortical-bone");
+  EXPECT_NEAR(resistanceOf(bone, burrs.model("diamond-extra-fine")),
+              4.0 * resistanceOf(bone, burrs.model("diamond-coarse")), 1e-6);
+}
+
+// A library's table of materials that went with the usual burrs goes with all that come with the
+// program: none has a rake that a friction of 0 to 2 forbids.
+TEST(BurrCatalogue, ComesWithNoBurrThatRefusesATableOfMaterials)
+{
+  for (const char* friction : {"1e-9", "0.05", "0.5", "2"})
+    EXPECT_EQ(thrown(
+                  [friction] {
+                    checkPairs(MaterialCatalogue(materials("3", friction, "40"), "F"),
+                               BurrCatalogue::builtIn());
+                  }),
+              "")
+        << friction;
+}
+
+TEST(BurrCatalogue, RefusesAGritThatNoBurrHas)
+{
+  const auto load = [](const std::string& grit)
+  {
+    return thrown(
+        [&grit]
+        {
+          BurrCatalogue(R"({"burrs":[{"kind":"cutting","rake_deg":-5,"diameters_mm":[2]},
+            {"kind":"diamond","wear_coefficient":0.1,"diameters_mm":[2],"grit_um":)" +
+                            grit + "}]}",
+                        "B");
+        });
+  };
+  EXPECT_EQ(load("64"), "");
+  EXPECT_EQ(load("-1"), "B: burr 'diamond': 'grit_um' must be 0 to 1000 um");
+  EXPECT_EQ(load("1001"), "B: burr 'diamond': 'grit_um' must be 0 to 1000 um");
 }
 
 // By a word that materials.json explains.

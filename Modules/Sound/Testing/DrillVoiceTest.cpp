@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "HeardSound.h"
 #include "petrous/Core/Error.h"
 
 using namespace petrous;
@@ -15,73 +16,7 @@ using namespace petrous::sound;
 namespace
 {
 
-constexpr double kRate = 48000.0;
-constexpr double kPi = 3.14159265358979323846;
-
-std::vector<float> heard(DrillVoice& voice, const DrillState& state, double seconds)
-{
-  std::vector<float> samples(static_cast<std::size_t>(kRate * seconds));
-  voice.render(state, samples.data(), samples.size());
-  return samples;
-}
-
-double loudness(const std::vector<float>& samples)
-{
-  double sum = 0.0;
-  for (const float sample : samples)
-    sum += static_cast<double>(sample) * static_cast<double>(sample);
-  return std::sqrt(sum / static_cast<double>(samples.size()));
-}
-
-// Power at multiples of 50 Hz.
-std::vector<double> spectrum(const std::vector<float>& samples)
-{
-  constexpr std::size_t kWindow = 960;
-  std::vector<double> cosine(kWindow);
-  std::vector<double> sine(kWindow);
-  for (std::size_t n = 0; n < kWindow; ++n)
-  {
-    cosine[n] = std::cos(2.0 * kPi * static_cast<double>(n) / kWindow);
-    sine[n] = std::sin(2.0 * kPi * static_cast<double>(n) / kWindow);
-  }
-  std::vector<double> power(kWindow / 2, 0.0);
-  for (std::size_t start = 0; start + kWindow <= samples.size(); start += kWindow)
-    for (std::size_t bin = 1; bin < power.size(); ++bin)
-    {
-      double real = 0.0;
-      double imaginary = 0.0;
-      for (std::size_t n = 0; n < kWindow; ++n)
-      {
-        const double value = static_cast<double>(samples[start + n]) * (0.5 - 0.5 * cosine[n]);
-        real += value * cosine[bin * n % kWindow];
-        imaginary += value * sine[bin * n % kWindow];
-      }
-      power[bin] += real * real + imaginary * imaginary;
-    }
-  return power;
-}
-
-double centroid(const std::vector<double>& power) // Hz
-{
-  double sum = 0.0;
-  double weighted = 0.0;
-  for (std::size_t bin = 1; bin < power.size(); ++bin)
-  {
-    sum += power[bin];
-    weighted += 50.0 * static_cast<double>(bin) * power[bin];
-  }
-  return weighted / sum;
-}
-
-DrillState drilling(double load, double wall = DrillVoice::kThick, int flutes = 8)
-{
-  DrillState state;
-  state.running = true;
-  state.load = load;
-  state.wall = wall;
-  state.flutes = flutes;
-  return state;
-}
+constexpr double kRate = kHeardRate;
 
 } // namespace
 
@@ -93,9 +28,7 @@ TEST(DrillVoice, TheThinnerTheWallTheBrighterTheSound)
       double last = 0.0;
       for (const double wall : {5.0, 4.0, 3.0, 2.0, 1.0, 0.5, 0.2, 0.0})
       {
-        DrillVoice voice(kRate);
-        heard(voice, drilling(load, wall, flutes), 0.4);
-        const double now = centroid(spectrum(heard(voice, drilling(load, wall, flutes), 0.2)));
+        const double now = settledCentroid(drilling(load, wall, flutes));
         EXPECT_GT(now, 1.02 * last) << flutes << " flutes, " << load << " N, " << wall << " mm";
         last = now;
       }
@@ -108,7 +41,7 @@ TEST(DrillVoice, TheTeethOfACuttingBurrAreHeardAtSpeedTimesFlutes)
   DrillState state = drilling(DrillVoice::kFullLoad, 0.0);
   state.rpm = 30000.0; // 500 Hz, 470 under load; the teeth at 3760 Hz
   heard(voice, state, 0.6);
-  const std::vector<double> power = spectrum(heard(voice, state, 0.2));
+  const std::vector<double> power = heardSpectrum(heard(voice, state, 0.2));
   const auto near = [&power](double hertz)
   {
     const auto bin = static_cast<std::size_t>(std::lround(hertz / 50.0));
@@ -121,7 +54,7 @@ TEST(DrillVoice, TheTeethOfACuttingBurrAreHeardAtSpeedTimesFlutes)
   state.flutes = 0;
   DrillVoice diamond(kRate);
   heard(diamond, state, 0.6);
-  const std::vector<double> grit = spectrum(heard(diamond, state, 0.2));
+  const std::vector<double> grit = heardSpectrum(heard(diamond, state, 0.2));
   EXPECT_LT(grit[75], 0.2 * teeth);
 }
 

@@ -70,7 +70,12 @@ void checkNumbers(const CatalogueEditor::Material& material)
 void checkNumbers(const CatalogueEditor::Burr& burr)
 {
   if (burr.kind == dissection::Burr::Kind::Diamond)
+  {
+    requireWithin(burr.grit >= 0.0 && burr.grit <= dissection::kMaxGrit,
+                  "within 0 to " + core::plainText(dissection::kMaxGrit) + " micrometres",
+                  burr.grit);
     return requireAtMost(AbrasiveWear::kMaxWearCoefficient, burr.constant);
+  }
   const std::string steepest = core::plainText(rounded(OrthogonalCutting::kMaxRake / kDegree));
   requireWithin(std::abs(kDegree * burr.constant) <= OrthogonalCutting::kMaxRake,
                 "within -" + steepest + " to " + steepest + " degrees", burr.constant);
@@ -83,6 +88,7 @@ Tables withLike(Tables tables, std::vector<Row> Tables::*which, std::size_t like
   std::vector<Row>& rows = tables.*which;
   Row added = rows.at(like);
   added.source.clear(); // of other numbers from now on: nobody has stated it
+  added.certainty.clear();
   const std::string base = added.name;
   for (int n = 2; std::any_of(rows.begin(), rows.end(),
                               [&added](const Row& one) { return one.name == added.name; });
@@ -179,13 +185,13 @@ CatalogueEditor::Tables CatalogueEditor::tablesOf(const dissection::Catalogues& 
   for (const dissection::TissueMaterial& one : catalogues.materials.all())
     tables.materials.push_back({one.name, one.title, rounded(one.specificEnergy / kPascalOfGiga),
                                 one.friction, rounded(one.hardness / kPascalOfVickers),
-                                one.status});
+                                one.certainty, one.status});
   for (const dissection::BurrModel& model : catalogues.burrs.all())
     tables.burrs.push_back({model.name, model.kind,
                             model.kind == dissection::Burr::Kind::Cutting
                                 ? rounded(model.rake / kDegree)
                                 : model.wearCoefficient,
-                            model.diameters, model.status});
+                            model.diameters, model.grit, model.certainty, model.status});
   return tables;
 }
 
@@ -198,6 +204,7 @@ std::string CatalogueEditor::materialsJson(const Tables& tables)
                          {"specific_cutting_energy_gpa", one.specificEnergy},
                          {"friction", one.friction},
                          {"vickers_hardness_hv", one.hardness},
+                         {"certainty", one.certainty},
                          {"status", one.source}});
   const Json bone{{"cellular", tables.bone.cellular},
                   {"cortical", tables.bone.cortical},
@@ -213,12 +220,21 @@ std::string CatalogueEditor::burrsJson(const Tables& tables)
 {
   Json burrs = Json::array();
   for (const Burr& one : tables.burrs)
-    burrs.push_back({{"name", one.name},
-                     {"kind", dissection::nameOf(one.kind)},
-                     {one.kind == dissection::Burr::Kind::Cutting ? "rake_deg" : "wear_coefficient",
-                      one.constant},
-                     {"diameters_mm", one.diameters},
-                     {"status", one.source}});
+  {
+    Json burr{{"name", one.name}, {"kind", dissection::nameOf(one.kind)}};
+    if (one.kind == dissection::Burr::Kind::Cutting)
+      burr["rake_deg"] = one.constant;
+    else
+    {
+      burr["wear_coefficient"] = one.constant;
+      if (one.grit > 0.0)
+        burr["grit_um"] = one.grit;
+    }
+    burr["diameters_mm"] = one.diameters;
+    burr["certainty"] = one.certainty;
+    burr["status"] = one.source;
+    burrs.push_back(std::move(burr));
+  }
   Json root = Json::object();
   root["burrs"] = std::move(burrs);
   return root.dump(2) + "\n";

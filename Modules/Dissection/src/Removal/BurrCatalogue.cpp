@@ -24,6 +24,7 @@ using nlohmann::json;
 
 constexpr double kRadians = 3.14159265358979323846 / 180.0;
 constexpr double kPascalOfMega = 1e6;
+constexpr double kSizeEffectEnd = 100.0; // um
 constexpr std::array kKinds{Burr::Kind::Cutting, Burr::Kind::Diamond};
 
 BurrModel modelFrom(const json& entry)
@@ -45,7 +46,13 @@ BurrModel modelFrom(const json& entry)
   if (*kind == Burr::Kind::Cutting)
     model.rake = kRadians * entry.at("rake_deg").get<double>();
   else
+  {
     model.wearCoefficient = entry.at("wear_coefficient").get<double>();
+    model.grit = entry.value("grit_um", 0.0);
+    if (!(model.grit >= 0.0 && model.grit <= kMaxGrit))
+      throw core::InvalidParameter("burr '" + name + "': 'grit_um' must be 0 to " +
+                                   core::plainText(kMaxGrit) + " um");
+  }
   model.diameters = entry.at("diameters_mm").get<std::vector<double>>();
   if (model.diameters.empty() ||
       !std::all_of(model.diameters.begin(), model.diameters.end(),
@@ -53,11 +60,19 @@ BurrModel modelFrom(const json& entry)
     throw core::InvalidParameter("burr '" + name +
                                  "': 'diameters_mm' must list diameters above 0 to " +
                                  core::plainText(kMaxBurrDiameter) + " mm");
+  model.certainty = entry.value("certainty", std::string());
   model.status = entry.value("status", std::string());
   return model;
 }
 
 } // namespace
+
+double wearOfGrit(double grit, double coarse)
+{
+  if (!(grit > 0.0) || !(coarse > 0.0))
+    throw core::InvalidParameter("grit and wear coefficient must be above 0");
+  return coarse * std::min(grit / kSizeEffectEnd, 1.0);
+}
 
 BurrCatalogue BurrCatalogue::builtIn()
 {

@@ -35,6 +35,7 @@ TissueMaterial materialFrom(const json& entry)
   material.specificEnergy = kPascalOfGiga * positive("specific_cutting_energy_gpa");
   material.friction = positive("friction");
   material.hardness = kPascalOfVickers * positive("vickers_hardness_hv");
+  material.certainty = entry.value("certainty", std::string());
   material.status = entry.value("status", std::string());
   return material;
 }

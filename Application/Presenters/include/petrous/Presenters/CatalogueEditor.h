@@ -22,7 +22,8 @@ public:
     double specificEnergy = 0.0; ///< GPa
     double friction = 0.0;       ///< -
     double hardness = 0.0;       ///< HV
-    std::string source;          ///< of the numbers, and how reliable they are; empty: not stated
+    std::string certainty = {};  ///< how certain the numbers are; empty: not stated
+    std::string source = {};     ///< of the numbers; empty: not stated
   };
 
   struct Burr
@@ -32,7 +33,9 @@ public:
     double constant = 0.0;         ///< rake in degrees of a cutting burr, wear coefficient of a
                                    ///< diamond one
     std::vector<double> diameters; ///< mm, ascending
-    std::string source;
+    double grit = 0.0;             ///< um, mean diameter of a diamond burr's grains; 0: not stated
+    std::string certainty = {};
+    std::string source = {};
   };
 
   /// Reads the catalogues of a library's folder. Throws as dissection::Catalogues::in.
@@ -60,7 +63,8 @@ public:
   // These throw InvalidParameter, without effect. A number out of its range is told by the range in
   // the table's unit: "must lie above 0 GPa, it is -3".
   void setMaterial(std::size_t row, const Material& material);
-  /// With the numbers of a row, under a free name and without a source; returns the new row.
+  /// With the numbers of a row, under a free name, without source and certainty; returns the new
+  /// row.
   std::size_t addMaterial(std::size_t like);
   void removeMaterial(std::size_t row);
   void setBurr(std::size_t row, const Burr& burr); ///< its kind stays

@@ -150,8 +150,10 @@ inline constexpr StructureProperty kStructureProperties[] = {
         .within(0.001, 100.0, "N/mm")
         .offIs("rigid")
         .listedAs("")
-        .command("--stiffness", "N_PER_MM", "How a structure yields: newtons a millimetre deep",
-                 "bone is rigid; only structures and meshes can yield"),
+        .command(
+            "--stiffness", "N_PER_MM|TISSUE",
+            "How a structure yields: newtons a millimetre deep; or as a soft tissue (materials)",
+            "bone is rigid; only structures and meshes can yield"),
     StructureProperty::asPreset("warn_mm", &StructureAppearance::warning)
         .called("warning distance")
         .within(0.0, 50.0, "mm")

@@ -11,16 +11,24 @@ namespace petrous::dissection
 {
 
 constexpr double kMaxBurrDiameter = 10.0; ///< mm
+constexpr double kMaxGrit = 1000.0;       ///< um
+
+/// Wear coefficient of grains of that mean diameter, um, from that of coarse ones: wear does not
+/// depend on the size of the grains above some 100 um, and falls with it below, here in proportion
+/// (Documentation/equations.md, "grit"). Throws InvalidParameter unless both are above 0.
+double wearOfGrit(double grit, double coarse);
 
 /// A burr in all its diameters: its constants in the removal laws.
 struct BurrModel
 {
   std::string name; ///< identifies it; see isCatalogueName
   Burr::Kind kind = Burr::Kind::Cutting;
-  double rake = 0.0;             ///< alpha, rad; cutting burr only
-  double wearCoefficient = 0.0;  ///< k; diamond burr only
+  double rake = 0.0;            ///< alpha, rad; cutting burr only
+  double wearCoefficient = 0.0; ///< k; diamond burr only
+  double grit = 0.0; ///< mean diameter of the grains, um; diamond burr only; 0: not stated
   std::vector<double> diameters; ///< mm, commercially available
-  std::string status;            ///< source and reliability of the numbers
+  std::string certainty;         ///< how certain the numbers are; empty: not stated
+  std::string status;            ///< where they come from
 };
 
 /// The burrs (Resources/burrs.json): any number of each kind, among them the usual one, which has

@@ -19,7 +19,8 @@ struct TissueMaterial
   double specificEnergy = 0.0; ///< W_c, Pa, at surgical drill speeds
   double friction = 0.0;       ///< mu
   double hardness = 0.0;       ///< H, Pa
-  std::string status;          ///< source and reliability of the numbers
+  std::string certainty;       ///< how certain the numbers are; empty: not stated
+  std::string status;          ///< where they come from
 };
 
 /// Unlabelled bone: interpolated between two materials by density, linear in HU.

@@ -184,8 +184,14 @@ QWidget* PseudonymsDialog::openPage()
   m_table->verticalHeader()->hide();
   m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::Interactive);
   m_table->horizontalHeader()->setStretchLastSection(true);
-  m_table->setColumnWidth(0, 90);
-  m_table->setColumnWidth(1, 340);
+  m_table->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+  const auto widthOf = [this](const QString& text)
+  {
+    constexpr int kBeside = 12; // px
+    return m_table->fontMetrics().horizontalAdvance(text) + kBeside;
+  };
+  m_table->setColumnWidth(0, widthOf(QString(12, '0')));
+  m_table->setColumnWidth(1, widthOf(QString(44, '0'))); // of a UID
   m_take = button("pseudonymsImport", tr("&Take in…"),
                   tr("The pseudonyms of another such file come to this one"));
   m_copy = button("pseudonymsExport", tr("&Copy…"),

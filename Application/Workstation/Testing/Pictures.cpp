@@ -16,8 +16,10 @@
 #include <QTreeView>
 #include <QTreeWidget>
 
+#include "SceneDisplay.h"
 #include "SliceView.h"
 #include "Theme.h"
+#include "ThreeDView.h"
 #include "petrous/Library/PseudonymMap.h"
 #include "petrous/Network/NodeList.h"
 
@@ -73,6 +75,9 @@ protected:
     leave();
     window().statusBar()->clearMessage();
     QTest::qWait(1500); // fine rendering starts 300 ms after the last motion
+    EXPECT_TRUE(waitFor([this] { return !window().model().hasCase() || view().display().isFine(); },
+                        60000));
+    QTest::qWait(500); // the speed is told of what rests
     EXPECT_TRUE(window().screen()->grabWindow(window().winId()).save(fileOf(name)));
   }
   /// Of a dialog that the menu's entry opens, once `prepare` has filled it.

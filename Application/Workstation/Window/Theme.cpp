@@ -131,6 +131,7 @@ QCheckBox::indicator:checked:disabled { background: @onOff; }
 QCheckBox:focus { color: @focus; }
 QToolTip { background: @hover; color: @strong; border: 1px solid @frame; padding: 4px; }
 QPushButton { padding: 6px 18px; }
+QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QPushButton#primary, QPushButton#segmentCreate { background: @checked; border: 1px solid @primaryEdge;
                       border-radius: 5px; color: #ffffff; padding: 9px 22px; font-weight: 600; }
 QPushButton#primary:hover, QPushButton#segmentCreate:hover { background: @primaryHover; }

@@ -81,7 +81,7 @@ std::optional<CutLine> lineInSlice(const Clipping::Plane& plane, const SliceGeom
 
 std::vector<Eigen::Vector2d> endsOf(const CutLine& line)
 {
-  constexpr double kInset = 30.0; // px
+  constexpr double kInset = 24.0; // px
   const double length = (line.to - line.from).norm();
   if (!(length > 4.0 * kInset))
     return {};

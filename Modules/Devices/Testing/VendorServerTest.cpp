@@ -1,10 +1,7 @@
 #include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
-#include <memory>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -16,7 +13,7 @@
 #include "DeviceBlock.h"
 #include "ServerOptions.h"
 #include "ServerProcess.h"
-#include "StandInVendor/StandInDevice.h"
+#include "StandInVendor/VendorBench.h"
 #include "petrous/Devices/DeviceServerExchange.h"
 
 using namespace petrous;
@@ -30,94 +27,6 @@ namespace
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const double kHalf = std::sqrt(0.5);
-
-struct Vendor
-{
-  const char* name;
-  const char* program;
-  const char* library;                     // empty: a service
-  const char* service;                     // empty: a library
-  double unit;                             // mm
-  std::atomic<int> StandInDevice::*forces; // set to `off`, forces do not work
-  int off;
-  const char* advice; // then
-};
-
-void PrintTo(const Vendor& vendor, std::ostream* out)
-{
-  *out << vendor.name;
-}
-
-const Vendor kForceDimension = {"ForceDimension",
-                                PETROUS_FORCE_DIMENSION_SERVER,
-                                PETROUS_STANDIN_DHD_LIBRARY,
-                                "",
-                                1000.0,
-                                &StandInDevice::forceOff,
-                                1,
-                                "press the force button"};
-const Vendor kTouch = {
-    "Touch", PETROUS_TOUCH_SERVER, PETROUS_STANDIN_HD_LIBRARY, "", 1.0, &StandInDevice::forceOff,
-    1,       "disabled them"};
-#ifdef PETROUS_INVERSE3_SERVER
-const Vendor kInverse3 = {"Inverse3", PETROUS_INVERSE3_SERVER, "", PETROUS_STANDIN_INVERSE3,
-                          1000.0,     &StandInDevice::powered, 0,  "power supply"};
-#endif
-
-// The stand-in of a vendor's device and what its server is started with.
-class Bench
-{
-public:
-  explicit Bench(const Vendor& vendor)
-    : m_path(::testing::TempDir() + "petrous-standin-" + std::to_string(::getpid()))
-    , m_device(mapStandIn(m_path, true))
-    , m_vendor(vendor)
-  {
-    ::setenv(StandInDevice::kVariable, m_path.c_str(), 1);
-  }
-  ~Bench()
-  {
-    if (m_service)
-      ::pclose(m_service); // ends it
-    ::unsetenv(StandInDevice::kVariable);
-    ::munmap(m_device, sizeof(StandInDevice));
-    ::unlink(m_path.c_str());
-  }
-  Bench(const Bench&) = delete;
-  Bench& operator=(const Bench&) = delete;
-
-  StandInDevice* operator->() const { return m_device; }
-
-  std::vector<std::string> command()
-  {
-    if (*m_vendor.library)
-      return {m_vendor.program, "--sdk", m_vendor.library};
-    if (!m_service)
-      m_service = ::popen(("exec " + std::string(m_vendor.service)).c_str(), "w");
-    EXPECT_TRUE(eventually([this] { return m_device->port != 0; }));
-    return {m_vendor.program, "--url", "ws://127.0.0.1:" + std::to_string(m_device->port.load())};
-  }
-
-  ServedDevice::Options options(const std::string& name)
-  {
-    ServedDevice::Options options = optionsFor(name);
-    options.command = command();
-    return options;
-  }
-
-  bool forceIs(double x, double y, double z) const
-  {
-    return std::abs(m_device->force[0] - x) + std::abs(m_device->force[1] - y) +
-               std::abs(m_device->force[2] - z) <
-           1e-9;
-  }
-
-private:
-  std::string m_path;
-  StandInDevice* m_device;
-  const Vendor& m_vendor;
-  std::FILE* m_service = nullptr;
-};
 
 // Ticks of a servo, each with this wrench, until `condition` holds.
 template <typename Condition>
@@ -150,7 +59,7 @@ class VendorServer : public ::testing::TestWithParam<Vendor>
 
 TEST(ForceDimensionServer, ConvertsAxesAndUnitsOfPoseAndWrench)
 {
-  Bench bench(kForceDimension);
+  VendorBench bench(kForceDimension);
   bench->place(0.01, 0.02, 0.03); // to the user, right, up
   // A quarter turn about the axis to the user: right becomes up.
   const double quarter[9] = {1, 0, 0, 0, 0, -1, 0, 1, 0};
@@ -177,7 +86,7 @@ TEST(ForceDimensionServer, ConvertsAxesAndUnitsOfPoseAndWrench)
 
 TEST(ForceDimensionServer, EnablesForcesAgainThatTheDeviceItselfSwitchedOff)
 {
-  Bench bench(kForceDimension);
+  VendorBench bench(kForceDimension);
   ServedDevice device(bench.options("fd-watchdog"));
   ASSERT_TRUE(becomes(device, DeviceHealth::Good));
   bench->forceOff = 3; // its watchdog
@@ -187,7 +96,7 @@ TEST(ForceDimensionServer, EnablesForcesAgainThatTheDeviceItselfSwitchedOff)
 
 TEST(TouchServer, ReadsTheColumnMajorTransformInMillimetres)
 {
-  Bench bench(kTouch);
+  VendorBench bench(kTouch);
   bench->place(1.0, 2.0, 3.0);
   const double quarter[9] = {0, -1, 0, 1, 0, 0, 0, 0, 1};
   for (int i = 0; i < 9; ++i)
@@ -209,7 +118,7 @@ TEST(TouchServer, ReadsTheColumnMajorTransformInMillimetres)
 
 TEST(ForceDimensionServer, LeavesForcesOffThatTheButtonSwitchedOffDuringCalibration)
 {
-  Bench bench(kForceDimension);
+  VendorBench bench(kForceDimension);
   ServedDevice device(bench.options("fd-button"));
   ASSERT_TRUE(becomes(device, DeviceHealth::Good));
   bench->calibrated = 0;
@@ -227,7 +136,7 @@ TEST(VendorServerName, TellsDevicesOfOneModelApart)
 {
   for (const Vendor& vendor : {kForceDimension, kTouch})
   {
-    Bench bench(vendor);
+    VendorBench bench(vendor);
     bench->serial = 4711;
     const ServedDevice device(bench.options("serial"));
     EXPECT_NE(device.description().name.find(" 4711"), std::string::npos)
@@ -237,7 +146,7 @@ TEST(VendorServerName, TellsDevicesOfOneModelApart)
 
 TEST(TouchServer, LeavesForcesOffThatTheDriverDisabledUntilItIsChosenAgain)
 {
-  Bench bench(kTouch);
+  VendorBench bench(kTouch);
   {
     ServedDevice device(bench.options("touch-disabled"));
     ASSERT_TRUE(becomes(device, DeviceHealth::Good));
@@ -264,7 +173,7 @@ TEST(TouchServer, LeavesForcesOffThatTheDriverDisabledUntilItIsChosenAgain)
 
 TEST(TouchServer, RestsWithHotMotors)
 {
-  Bench bench(kTouch);
+  VendorBench bench(kTouch);
   ServedDevice device(bench.options("touch-hot"));
   ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0},
                         [&](const DeviceReading&) { return bench.forceIs(1.0, 0.0, 0.0); }));
@@ -281,7 +190,7 @@ TEST(Inverse3Server, ConvertsAxesAndUnitsInBothFormatsOfTheService)
 {
   for (const int format : {31, 35})
   {
-    Bench bench(kInverse3);
+    VendorBench bench(kInverse3);
     bench->format = format;
     bench->place(0.01, 0.02, 0.03); // right, forward, up
     bench->rotation[0] = kHalf;     // a quarter turn about up
@@ -304,7 +213,7 @@ TEST(Inverse3Server, ConvertsAxesAndUnitsInBothFormatsOfTheService)
 
 TEST(Inverse3Server, StaysWithItsDeviceWhereThereAreTwo)
 {
-  Bench bench(kInverse3);
+  VendorBench bench(kInverse3);
   bench->place(0.01, 0.02, 0.03);
   ServedDevice device(bench.options("inverse3-two"));
   ASSERT_TRUE(becomes(device, DeviceHealth::Good));
@@ -328,7 +237,7 @@ TEST(Inverse3Server, StaysWithItsDeviceWhereThereAreTwo)
 
 TEST(Inverse3Server, IsNotReadyWhereTheServiceDoesNotSaySo)
 {
-  Bench bench(kInverse3);
+  VendorBench bench(kInverse3);
   bench->untold = 8;
   ServedDevice::Options options = bench.options("inverse3-untold");
   std::string advice;
@@ -373,7 +282,7 @@ TEST(Inverse3Server, NamesTheServiceThatDoesNotAnswer)
 
 TEST(Inverse3Server, WaitsForALateAnswerBeforeItSendsTheNextForce)
 {
-  Bench bench(kInverse3);
+  VendorBench bench(kInverse3);
   bench->stall = 60;
   ServedDevice device(bench.options("inverse3-late"));
   EXPECT_TRUE(eventually([&] { return bench->commands >= 5U; }));
@@ -383,7 +292,7 @@ TEST(Inverse3Server, WaitsForALateAnswerBeforeItSendsTheNextForce)
 
 TEST_P(VendorServer, UnpluggedInContactIsReportedAndTakenUpAnewWithoutForce)
 {
-  Bench bench(GetParam());
+  VendorBench bench(GetParam());
   ServedDevice device(bench.options("unplugged"));
   const auto pushed = [&](const DeviceReading&)
   { return bench->force[0] != 0.0 || bench->force[1] != 0.0; };
@@ -405,7 +314,7 @@ TEST_P(VendorServer, UnpluggedInContactIsReportedAndTakenUpAnewWithoutForce)
 
 TEST_P(VendorServer, SaysHowToCalibrateAndWaitsForIt)
 {
-  Bench bench(GetParam());
+  VendorBench bench(GetParam());
   bench->calibrated = 0;
   ServedDevice::Options options = bench.options("calibration");
   std::string advice;
@@ -423,7 +332,7 @@ TEST_P(VendorServer, SaysHowToCalibrateAndWaitsForIt)
 TEST_P(VendorServer, GivesNoForceWhileForcesAreSwitchedOffAndSaysWhy)
 {
   const Vendor& vendor = GetParam();
-  Bench bench(vendor);
+  VendorBench bench(vendor);
   ServedDevice device(bench.options("emergency"));
   ASSERT_TRUE(becomes(device, DeviceHealth::Good));
   (*bench.operator->()).*vendor.forces = vendor.off;
@@ -440,7 +349,7 @@ TEST_P(VendorServer, GivesNoForceWhileForcesAreSwitchedOffAndSaysWhy)
 
 TEST_P(VendorServer, ReleasesTheMotorsOfADeviceThatLostItsCalibrationInContact)
 {
-  Bench bench(GetParam());
+  VendorBench bench(GetParam());
   ServedDevice device(bench.options("uncalibrated"));
   const auto pushed = [&](const DeviceReading&) { return !bench.forceIs(0.0, 0.0, 0.0); };
   ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0}, pushed));
@@ -463,7 +372,7 @@ TEST_P(VendorServer, ReleasesTheMotorsOfADeviceThatLostItsCalibrationInContact)
 
 TEST_P(VendorServer, GivesNoForceToAPoseThatIsNoNumber)
 {
-  Bench bench(GetParam());
+  VendorBench bench(GetParam());
   ServedDevice device(bench.options("nan"));
   ASSERT_TRUE(pushUntil(device, {0.0, 0.0, 1.0},
                         [&](const DeviceReading&) { return !bench.forceIs(0.0, 0.0, 0.0); }));
@@ -479,7 +388,7 @@ TEST_P(VendorServer, GivesNoForceToAPoseThatIsNoNumber)
 
 TEST_P(VendorServer, ReportsAnSdkThatHangsAndGoesOnWithIt)
 {
-  Bench bench(GetParam());
+  VendorBench bench(GetParam());
   ServedDevice::Options options = bench.options("hangs");
   options.hungAfter = 1000.0;
   ServedDevice device(options);
@@ -495,7 +404,7 @@ TEST_P(VendorServer, ReportsAnSdkThatHangsAndGoesOnWithIt)
 
 TEST_P(VendorServer, EndsWithForcesOffAndTheDeviceClosed)
 {
-  Bench bench(GetParam());
+  VendorBench bench(GetParam());
   {
     ServedDevice device(bench.options("end"));
     ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0},
@@ -509,7 +418,7 @@ TEST_P(VendorServer, EndsWithForcesOffAndTheDeviceClosed)
 // Against a Petrous that sends what it never should.
 TEST_P(VendorServer, LimitsForcesByItselfAndStopsThemOnSilenceAndSigterm)
 {
-  Bench bench(GetParam());
+  VendorBench bench(GetParam());
   DeviceBlock block("test-limits-" + std::to_string(::getpid()));
   ServerProcess process;
   ASSERT_FALSE(process.start(bench.command(), block.path()));
@@ -561,7 +470,7 @@ TEST_P(VendorServer, LimitsForcesByItselfAndStopsThemOnSilenceAndSigterm)
 // Its death is seen although wrenches and heartbeats still come, and although nobody has reaped it.
 TEST_P(VendorServer, TurnsTheMotorsOffAtOnceWhenPetrousIsKilled)
 {
-  Bench bench(GetParam());
+  VendorBench bench(GetParam());
   DeviceBlock block("test-killed-" + std::to_string(::getpid()));
   const std::vector<std::string> command = bench.command();
   const pid_t petrous = ::fork();
@@ -592,7 +501,7 @@ TEST_P(VendorServer, TurnsTheMotorsOffAtOnceWhenPetrousIsKilled)
 
 TEST_P(VendorServer, EndsOnSigtermEvenWhileTheSdkHangs)
 {
-  Bench bench(GetParam());
+  VendorBench bench(GetParam());
   DeviceBlock block("test-hung-end-" + std::to_string(::getpid()));
   ServerProcess process;
   ASSERT_FALSE(process.start(bench.command(), block.path()));

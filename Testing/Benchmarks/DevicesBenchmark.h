@@ -8,8 +8,8 @@ namespace petrous::cli
 
 /// Stability of the coupling over stiffness (0.25 to 10 N/mm) and delay (0 to 8 ms), for handles
 /// such as those of the devices that have a server, and for mass and damper alone; with and without
-/// the passivity guard, and with 0, 1 and 10 % of the ticks missed. A hand presses on a wall, three
-/// times for 4 s (haptics::press).
+/// the passivity guard, and with 0, 1 and 5 % of the ticks missed, the 5 % also
+/// three at once. A hand presses 30 times on a wall (haptics::press).
 ///
 /// One point per device, guard, missed ticks and delay, with the energy that comes out (mJ, worst
 /// cycle) and the force's range at rest (N, peak to peak) at each stiffness; the largest stable

@@ -3211,6 +3211,30 @@ Without it a drag turns the patient.</source>
 Losgelassen, hebt sie sich um einen Millimeter und ruht dort: Das Handstück hat kein Gewicht, und X hält es an seinem Ort.
 Ohne ihn dreht Ziehen den Patienten.</translation>
     </message>
+    <message>
+        <source>Diamond, coarse</source>
+        <translation>Diamant, grob</translation>
+    </message>
+    <message>
+        <source>Diamond, medium</source>
+        <translation>Diamant, mittel</translation>
+    </message>
+    <message>
+        <source>Diamond, fine</source>
+        <translation>Diamant, fein</translation>
+    </message>
+    <message>
+        <source>Diamond, extra fine</source>
+        <translation>Diamant, extrafein</translation>
+    </message>
+    <message>
+        <source>Cutting, rake -6°</source>
+        <translation>Schneidend, Spanwinkel -6°</translation>
+    </message>
+    <message>
+        <source>Cutting, rake -25°</source>
+        <translation>Schneidend, Spanwinkel -25°</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::DrillController</name>

@@ -2,14 +2,20 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <map>
+#include <string>
 
+#include <QAbstractItemView>
 #include <QAction>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QFontMetrics>
 #include <QLabel>
 #include <QLineEdit>
 #include <QSignalBlocker>
 #include <QSpinBox>
+#include <QStyle>
+#include <QStyleOptionComboBox>
 #include <QToolButton>
 
 #include "Bind.h"
@@ -24,6 +30,55 @@ namespace petrous::workstation
 namespace
 {
 constexpr int kNameWidth = 120; // px
+
+/// As wide as the entry that it shows: the longest of the list would push the numbers of a device,
+/// which stand in the same row, out of a narrow window. The list itself is as wide as its entries.
+class BurrBox : public QComboBox
+{
+public:
+  BurrBox()
+  {
+    connect(this, qOverload<int>(&QComboBox::currentIndexChanged), this,
+            [this] { updateGeometry(); });
+  }
+
+  QSize sizeHint() const override
+  {
+    QStyleOptionComboBox option;
+    initStyleOption(&option);
+    const QFontMetrics metrics(font());
+    const QSize text(metrics.horizontalAdvance(currentText()) + metrics.horizontalAdvance('x'),
+                     metrics.height());
+    return {style()->sizeFromContents(QStyle::CT_ComboBox, &option, text, this).width(),
+            QComboBox::sizeHint().height()};
+  }
+
+  QSize minimumSizeHint() const override { return sizeHint(); }
+
+  void showPopup() override
+  {
+    view()->setMinimumWidth(view()->sizeHintForColumn(0) +
+                            style()->pixelMetric(QStyle::PM_ScrollBarExtent, nullptr, view()));
+    QComboBox::showPopup();
+  }
+};
+
+/// Of the burrs that come with the program; other names are shown as they are.
+QString titleOf(const dissection::BurrModel& burr)
+{
+  if (const auto usual = dissection::parseBurrKind(burr.name))
+    return *usual == dissection::Burr::Kind::Diamond ? DrillBar::tr("Diamond")
+                                                     : DrillBar::tr("Cutting");
+  const std::map<std::string, QString> known{
+      {"diamond-coarse", DrillBar::tr("Diamond, coarse")},
+      {"diamond-medium", DrillBar::tr("Diamond, medium")},
+      {"diamond-fine", DrillBar::tr("Diamond, fine")},
+      {"diamond-extra-fine", DrillBar::tr("Diamond, extra fine")},
+      {"cutting-rake-6", DrillBar::tr("Cutting, rake -6°")},
+      {"cutting-rake-25", DrillBar::tr("Cutting, rake -25°")}};
+  const auto found = known.find(burr.name);
+  return found != known.end() ? found->second : words(burr.name);
+}
 } // namespace
 
 DrillBar::DrillBar(QWidget* parent)
@@ -33,7 +88,7 @@ DrillBar::DrillBar(QWidget* parent)
   , m_instrument(new QAction(tr("I&nstrument"), this))
   , m_wheel(new QAction(tr("By wheel"), this))
   , m_diameter(new DiameterBox)
-  , m_kind(new QComboBox)
+  , m_kind(new BurrBox)
   , m_speed(new QSpinBox)
   , m_thrust(numberBox(
         "thrust",
@@ -79,7 +134,6 @@ DrillBar::DrillBar(QWidget* parent)
   m_diameter->setToolTip(
       tr("Diameter of the burr, mm, of those that are sold (A or [ smaller, S or ] larger)"));
   m_kind->setObjectName("burrKind");
-  m_kind->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   offerBurrs();
   offerDiameters();
   m_kind->setToolTip(tr("Kind of the burr: a cutting burr takes some six times as much in "
@@ -169,13 +223,9 @@ void DrillBar::offerBurrs()
   m_kind->clear();
   for (const dissection::BurrModel& one : m_burrs.all())
   {
-    const auto usual = dissection::parseBurrKind(one.name);
-    const QString name = !usual                                      ? words(one.name)
-                         : *usual == dissection::Burr::Kind::Diamond ? tr("Diamond")
-                                                                     : tr("Cutting");
     const QString kind =
         one.kind == dissection::Burr::Kind::Diamond ? tr("Diamond burr") : tr("Cutting burr");
-    m_kind->addItem(name, words(one.name));
+    m_kind->addItem(titleOf(one), words(one.name));
     m_kind->setItemData(m_kind->count() - 1, kind, Qt::ToolTipRole);
   }
 }
@@ -186,6 +236,7 @@ void DrillBar::select(const dissection::Burr& burr)
   const dissection::BurrModel& model =
       own && own->kind == burr.kind ? *own : m_burrs.model(burr.kind);
   m_kind->setCurrentIndex(m_kind->findData(words(model.name)));
+  m_kind->updateGeometry(); // also where its signals are blocked
 }
 
 void DrillBar::offerDiameters()

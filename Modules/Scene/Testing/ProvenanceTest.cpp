@@ -293,7 +293,9 @@ TEST(Provenance, ThatCannotBeIsRefused)
   refused("/ct/provenance/corrected_axes", 7);
   refused("/labels/0/provenance/corrected_axes", "none");
   refused("/ct/provenance/burned_in_text", "maybe");
-  refused("/ct/provenance/interpolated_slices_beyond", -1);
+  for (const json& count : {json(-1), json(1.5), json(4294967296), json(4294967297),
+                            json(std::numeric_limits<int>::max()), json(100001), json("1")})
+    refused("/ct/provenance/interpolated_slices_beyond", count);
   refused("/ct/provenance/lossy_ratio", 0.0);
   refused("/ct/provenance/masked", {"nose"});
   refused("/ct/provenance", json::array());

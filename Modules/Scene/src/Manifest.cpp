@@ -308,10 +308,12 @@ volume::ImageProvenance provenanceIn(const json& j, int slices)
                                      "image's slices, from 1, in order and apart");
       provenance.interpolated.push_back({first - 1, last - 1});
     }
-  provenance.interpolatedBeyond = j.value("interpolated_slices_beyond", 0);
-  if (provenance.interpolatedBeyond < 0)
-    throw core::InvalidParameter("provenance: interpolated slices beyond the image must not be "
-                                 "fewer than none");
+  if (j.contains("interpolated_slices_beyond"))
+    provenance.interpolatedBeyond = integerIn<int>(j.at("interpolated_slices_beyond"));
+  constexpr int kMostSlices = 100000; // of any series; its sum with those of the image stays an int
+  if (provenance.interpolatedBeyond < 0 || provenance.interpolatedBeyond > kMostSlices)
+    throw core::InvalidParameter("provenance: interpolated slices beyond the image must be 0 to " +
+                                 std::to_string(kMostSlices));
   provenance.tilt = j.value("tilt_deg", 0.0);
   provenance.shift = j.value("shift_mm", 0.0);
   provenance.assumedRas = assumedRasIn(j);

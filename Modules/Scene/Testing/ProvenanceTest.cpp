@@ -274,6 +274,23 @@ TEST(Provenance, OfCorrectedAxesIsKeptAndIsOfFormat10)
   EXPECT_EQ(toManifest(back), toManifest(value));
 }
 
+// Programs before format 10 would drop it, and add labels that were drawn on the unrepaired slices
+// without a question, apart by the gap.
+TEST(Provenance, OfSlicesInterpolatedBeyondARegionIsOfFormat10)
+{
+  const auto formatOf = [](const Case& value)
+  { return json::parse(toManifest(value)).at("petrous_case").get<int>(); };
+  Case value = imagesAndLabels();
+  value.ct.provenance.interpolated = {{4, 4}};
+  EXPECT_EQ(formatOf(value), 3) << "within it";
+  value.ct.provenance.interpolatedBeyond = 1;
+  EXPECT_EQ(formatOf(value), 10);
+  value.ct.provenance.interpolatedBeyond = 0;
+  value.mr[0].provenance.interpolatedBeyond = 3;
+  EXPECT_EQ(formatOf(value), 10);
+  EXPECT_EQ(again(value).mr[0].provenance.interpolatedBeyond, 3);
+}
+
 TEST(Provenance, ThatCannotBeIsRefused)
 {
   const json good = json::parse(toManifest(imagesAndLabels()));

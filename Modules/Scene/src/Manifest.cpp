@@ -910,18 +910,23 @@ bool needsFormat9(const Case& value)
 
 // Likewise before format 10, which read the views of branches as cameras, and nothing else as one,
 // and would have dropped a correction of axes, and laid what comes later on the grid that the file
-// states.
+// states; and dropped how many slices were interpolated beyond a region, and laid labels of the
+// unrepaired stack without a question.
 bool needsFormat10(const Case& value)
 {
   const auto& branches = value.view.branches;
   const auto& saved = value.view.saved;
   const auto isCorrected = [](const auto& part) { return !part.provenance.axes.isIdentity(); };
+  const auto isOfRepaired = [](const ImagePart& image)
+  { return image.provenance.interpolatedBeyond > 0; };
   return std::any_of(branches.begin(), branches.end(),
                      [&value](const auto& one)
                      { return isOfABranch(value, one) && !isCameraAlone(one.second); }) ||
          std::any_of(saved.begin(), saved.end(),
                      [](const auto& one) { return one.second.clipping.has_value(); }) ||
-         isCorrected(value.ct) || std::any_of(value.mr.begin(), value.mr.end(), isCorrected) ||
+         isCorrected(value.ct) || isOfRepaired(value.ct) ||
+         std::any_of(value.mr.begin(), value.mr.end(), isCorrected) ||
+         std::any_of(value.mr.begin(), value.mr.end(), isOfRepaired) ||
          std::any_of(value.labels.begin(), value.labels.end(), isCorrected);
 }
 

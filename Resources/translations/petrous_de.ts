@@ -4758,6 +4758,10 @@ Ohne ihn dreht Ziehen den Patienten.</translation>
         <source>Correct the axes of “%1”…</source>
         <translation>Achsen von „%1“ korrigieren…</translation>
     </message>
+    <message>
+        <source>A structure or mesh of the case has this name, too, and would be taken out in its place; take that out first</source>
+        <translation>Eine Struktur oder ein Netz des Falls hat auch diesen Namen und würde statt dessen aus dem Fall genommen; nehmen Sie sie zuerst heraus</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::MeasureController</name>

@@ -9037,8 +9037,8 @@
         <translation>Herkunft: interpolierte Schichten müssen Bereiche der Schichten des Bildes sein, ab 1, geordnet und getrennt</translation>
     </message>
     <message>
-        <source>provenance: interpolated slices beyond the image must not be fewer than none</source>
-        <translation>Herkunft: interpolierte Schichten außerhalb des Bildes dürfen nicht weniger als keine sein</translation>
+        <source>provenance: interpolated slices beyond the image must be 0 to %#1</source>
+        <translation>Herkunft: interpolierte Schichten außerhalb des Bildes müssen 0 bis %#1 sein</translation>
     </message>
     <message>
         <source>provenance: burned-in text must be none, suspected or stated</source>
@@ -10508,16 +10508,16 @@
         <translation>abgeleitet, auf einen Faktor 6 genau</translation>
     </message>
     <message>
-        <source>tension: 68.1 MPa pooled from 17 studies (2022, doi 10.1007/s10237-022-01566-5), 31.5 MPa (Galford 1970) to 151 MPa (Pearcy 2022); 0.36 mm thick at the petrous apex, 0.68 mm temporal; a bare window of 10 mm is assumed</source>
-        <translation>Zug: 68.1 MPa aus 17 Studien zusammen (2022, doi 10.1007/s10237-022-01566-5), 31.5 MPa (Galford 1970) bis 151 MPa (Pearcy 2022); 0.36 mm dick an der Felsenbeinspitze, 0.68 mm temporal; ein freies Fenster von 10 mm ist angenommen</translation>
+        <source>tension: 68.1 MPa pooled from 17 studies (2022, doi 10.1007/s10237-022-01566-5), 31.5 MPa (Galford 1970) to 151 MPa (Pearcy 2022); 0.36 mm thick at the petrous apex, 0.68 mm temporal, 0.5 mm their geometric mean; a bare window of 10 mm is assumed</source>
+        <translation>Zug: 68.1 MPa aus 17 Studien zusammen (2022, doi 10.1007/s10237-022-01566-5), 31.5 MPa (Galford 1970) bis 151 MPa (Pearcy 2022); 0.36 mm dick an der Felsenbeinspitze, 0.68 mm temporal, 0.5 mm deren geometrisches Mittel; ein freies Fenster von 10 mm ist angenommen</translation>
     </message>
     <message>
         <source>Artery</source>
         <translation>Arterie</translation>
     </message>
     <message>
-        <source>common carotid artery in the living, tangent modulus 0.40 ± 0.25 MPa in diastole to 1.50 ± 2.05 MPa in systole (PMC3470810); a wall of 1 mm and a lumen of 5 mm are assumed</source>
-        <translation>A. carotis communis beim Lebenden, Tangentenmodul 0.40 ± 0.25 MPa in der Diastole bis 1.50 ± 2.05 MPa in der Systole (PMC3470810); eine Wand von 1 mm und ein Lumen von 5 mm sind angenommen</translation>
+        <source>common carotid artery in the living, tangent modulus 0.40 ± 0.25 MPa in diastole to 1.50 ± 2.05 MPa in systole (PMC3470810), 0.77 MPa their geometric mean; a wall of 1 mm and a lumen of 5 mm are assumed</source>
+        <translation>A. carotis communis beim Lebenden, Tangentenmodul 0.40 ± 0.25 MPa in der Diastole bis 1.50 ± 2.05 MPa in der Systole (PMC3470810), 0.77 MPa deren geometrisches Mittel; eine Wand von 1 mm und ein Lumen von 5 mm sind angenommen</translation>
     </message>
     <message>
         <source>Brain</source>
@@ -10544,20 +10544,20 @@
         <translation>abgeleitet, auf einen Faktor 7 genau</translation>
     </message>
     <message>
-        <source>shear waves of 1.0 to 4.1 m/s (MR, review PMC9631468); 62.2 ± 10.3 kPa compressed by 5 N (Isogai 2022)</source>
-        <translation>Scherwellen von 1.0 bis 4.1 m/s (MR, Übersicht PMC9631468); 62.2 ± 10.3 kPa, mit 5 N gedrückt (Isogai 2022)</translation>
+        <source>shear waves of 1.0 to 4.1 m/s (MR, review PMC9631468), 20 kPa at the middle of these speeds; 62.2 ± 10.3 kPa compressed by 5 N (Isogai 2022)</source>
+        <translation>Scherwellen von 1.0 bis 4.1 m/s (MR, Übersicht PMC9631468), 20 kPa bei der Mitte dieser Geschwindigkeiten; 62.2 ± 10.3 kPa, mit 5 N gedrückt (Isogai 2022)</translation>
     </message>
     <message>
         <source>Fat</source>
         <translation>Fett</translation>
     </message>
     <message>
-        <source>derived, within a factor of 11</source>
-        <translation>abgeleitet, auf einen Faktor 11 genau</translation>
+        <source>derived, within a factor of 10</source>
+        <translation>abgeleitet, auf einen Faktor 10 genau</translation>
     </message>
     <message>
-        <source>shear modulus 0.53 ± 0.31 kPa (porcine, Sims 2010) to 26.1 ± 19.0 kPa compressed by 1 N (subcutaneous, Isogai 2022)</source>
-        <translation>Schubmodul 0.53 ± 0.31 kPa (Schwein, Sims 2010) bis 26.1 ± 19.0 kPa, mit 1 N gedrückt (subkutan, Isogai 2022)</translation>
+        <source>shear modulus 0.53 ± 0.31 kPa (porcine, Sims 2010) to 26.1 ± 19.0 kPa compressed by 1 N (subcutaneous, Isogai 2022); 6.4 kPa is the geometric mean of 1.59 kPa, three times the shear modulus, and 26.1 kPa</source>
+        <translation>Schubmodul 0.53 ± 0.31 kPa (Schwein, Sims 2010) bis 26.1 ± 19.0 kPa, mit 1 N gedrückt (subkutan, Isogai 2022); 6.4 kPa ist das geometrische Mittel von 1.59 kPa, dem Dreifachen des Schubmoduls, und 26.1 kPa</translation>
     </message>
 </context>
 </TS>

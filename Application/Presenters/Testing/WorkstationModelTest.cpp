@@ -1268,6 +1268,27 @@ TEST_F(WorkstationModelTest, WhatIsRemovedComesBackToItsPlace)
   EXPECT_EQ(model.removedPart(), "");
 }
 
+// As older cases may have it.
+TEST_F(WorkstationModelTest, AStructureWithTheNameOfAnMrComesBackWithoutASecondMr)
+{
+  scene::Case value = block("block");
+  value.labels.push_back(threeStructures(value.ct.geometry, "a", 30));
+  value.labels[0].drawnOn = "";
+  scene::ImagePart mr = value.ct;
+  mr.name = "a2";
+  value.mr = {mr};
+  library::Library library(folder);
+  WorkstationModel model{library};
+  model.adopt(std::move(value));
+  model.prepareNow();
+  model.removePart("a2");
+  EXPECT_EQ(namesIn(model.value()), (std::vector<std::string>{"ct", "a2", "a1", "a3"}));
+  EXPECT_THROW(model.restorePart(), core::InvalidParameter) << "the MR has its name";
+  model.renamePart("a2", "T2");
+  model.restorePart();
+  EXPECT_EQ(namesIn(model.value()), (std::vector<std::string>{"ct", "T2", "a1", "a2", "a3"}));
+}
+
 // The task knows the parts by their order.
 TEST_F(WorkstationModelTest, AStructureRemovedDuringASaveExchangesNothing)
 {

@@ -1583,13 +1583,18 @@ void MainWindow::fillCaseMenu()
   if (m_model.value().mr.empty())
     return;
   menu.addSeparator();
+  const std::vector<std::string> names = scene::partNames(m_model.value());
   for (const scene::ImagePart& mr : m_model.value().mr)
   {
     const QString shown = words(mr.name).replace('&', "&&");
     connect(menu.addAction(tr("Rename the MR “%1”…").arg(shown)), &QAction::triggered, this,
             [this, name = mr.name] { m_keeper->renamePart(name); });
-    connect(menu.addAction(tr("Remove the MR “%1”").arg(shown)), &QAction::triggered, this,
+    QAction* remove = menu.addAction(tr("Remove the MR “%1”").arg(shown));
+    connect(remove, &QAction::triggered, this,
             [this, name = mr.name] { m_keeper->removePart(name); });
+    enable(*remove, std::count(names.begin(), names.end(), mr.name) == 1,
+           tr("A structure or mesh of the case has this name, too, and would be taken out in its "
+              "place; take that out first"));
     connect(menu.addAction(tr("Correct the axes of the MR “%1”…").arg(shown)), &QAction::triggered,
             this, [this, name = mr.name] { correctAxes(name); });
   }

@@ -113,6 +113,24 @@ TEST(SoftTissues, EachSaysWithinWhichFactorItIsKnown)
   EXPECT_EQ(findSoftTissue("cartilage"), nullptr);
 }
 
+// The middle values, from the numbers that their rows name, in MPa, mm, m/s and kg/m^3.
+TEST(SoftTissues, MiddleValuesFollowFromTheSourcesThatAreNamed)
+{
+  const auto expectSolid = [](const char* name, double modulus)
+  {
+    const double stiffness = hertzForce(modulus, 2.0, 0.5) / 0.5;
+    EXPECT_NEAR(findSoftTissue(name)->stiffness, stiffness, 0.05 * stiffness) << name;
+  };
+  expectSolid("nerve", 3.0 * 12.9e-3);
+  expectSolid("brain", 3.0 * 1.54e-3);
+  expectSolid("muscle", 3.0 * 1050.0 * std::pow(0.5 * (1.0 + 4.1), 2) * 1e-6);
+  expectSolid("fat", std::sqrt(3.0 * 0.53e-3 * 26.1e-3));
+  const double artery = 1.0 / plateDeflection(1.0, std::sqrt(0.40 * 1.50), 1.0, 2.5);
+  EXPECT_NEAR(findSoftTissue("artery")->stiffness, artery, 0.05 * artery);
+  const double dura = 1.0 / plateDeflection(1.0, 68.1, std::sqrt(0.36 * 0.68), 5.0);
+  EXPECT_NEAR(findSoftTissue("dura")->stiffness, dura, 0.05 * dura);
+}
+
 // Whoever wants a structure to yield says so.
 TEST(SoftTissues, NoPresetYieldsByItself)
 {

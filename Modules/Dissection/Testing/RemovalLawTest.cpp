@@ -175,6 +175,8 @@ TEST(BurrCatalogue, TheWearOfAGritFollowsFromItsSize)
   const TissueMaterial bone = MaterialCatalogue::builtIn().material("cortical-bone");
   EXPECT_NEAR(resistanceOf(bone, burrs.model("diamond-extra-fine")),
               4.0 * resistanceOf(bone, burrs.model("diamond-coarse")), 1e-6);
+  for (const char* alike : {"diamond-coarse", "diamond-medium"}) // as the guide says
+    EXPECT_EQ(resistanceOf(bone, burrs.model(alike)), resistanceOf(bone, burrs.model("diamond")));
 }
 
 // A library's table of materials that went with the usual burrs goes with all that come with the

@@ -702,6 +702,36 @@ TEST_F(Archives, OfAPlanLeaveOutWhatIsDrawnOnAMissingMr)
   EXPECT_EQ(there.labels[0].structures[0].name, "nerve");
 }
 
+// Of an older case: a structure of the CT has the MR's name, and that the tumour was drawn on the
+// MR is known by its grid alone.
+TEST_F(Archives, OfAPlanLeaveOutAMissingMrItselfAndWhatHasItsGrid)
+{
+  scene::Case value = m_library.open("ear");
+  scene::ImagePart mr = test::smallCase("mr", 20).ct;
+  mr.name = "nerve";
+  value.mr.push_back(mr);
+  scene::LabelPart drawn = test::smallCase("drawn", 20).labels.front();
+  drawn.structures.front().name = "tumour";
+  ASSERT_FALSE(drawn.drawnOn);
+  value.labels.push_back(drawn);
+  m_library.save(value);
+  archiveCase(m_library, "ear", m_file, {true});
+
+  Library other(m_folder.path() / "other");
+  scene::Case same = test::smallCase("same");
+  same.labels.push_back(drawn);
+  other.save(same);
+  const RestoreSummary restored = restoreCase(other, m_file, {"", "same"});
+  ASSERT_EQ(restored.notes.size(), 2U);
+  EXPECT_NE(restored.notes[0].find("MR 'nerve'"), std::string::npos) << restored.notes[0];
+  EXPECT_NE(restored.notes[1].find("'tumour': left out with MR 'nerve'"), std::string::npos)
+      << restored.notes[1];
+  const scene::Case there = other.open("ear");
+  EXPECT_TRUE(there.mr.empty());
+  ASSERT_EQ(there.labels.size(), 1U);
+  EXPECT_EQ(there.labels[0].structures[0].name, "nerve");
+}
+
 TEST_F(Archives, CutShortAnywhereAreRefused)
 {
   archiveCase(m_library, "ear", m_file);

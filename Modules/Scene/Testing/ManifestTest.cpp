@@ -405,11 +405,14 @@ TEST(Manifest, RefusesAnIntegerThatIsTooLarge)
   scene::Case value = fullCase();
   value.view.clipping.crop = core::IndexBox{{0, 1, 2}, {1, 2, 3}};
   value.view.branches["zweiter Zugang ü"] = {core::CameraPose{}, std::nullopt, value.view.clipping};
+  value.ct.provenance.interpolatedBeyond = 1;
   const auto good = nlohmann::json::parse(scene::toManifest(value));
   EXPECT_EQ(scene::fromManifest(good.dump(), "m").ct.geometry.dims(),
             fullCase().ct.geometry.dims());
   for (const auto& [place, wrong] :
        {std::pair("/ct/grid/dims/0", "4294967297"), std::pair("/ct/grid/dims/0", "-4294967295"),
+        std::pair("/ct/provenance/interpolated_slices_beyond", "4294967297"),
+        std::pair("/ct/provenance/interpolated_slices_beyond", "1.9"),
         std::pair("/labels/0/structures/0/index", "65537"),
         std::pair("/labels/0/structures/0/index", "1.5"),
         std::pair("/labels/0/structures/0/voxels", "-1"),
@@ -876,7 +879,8 @@ scene::Case viewedCase()
   view.slices->planes.emplace();
   (*view.slices->planes)[2] = {10.0 / 3.0, Vector3d(0.1, 0.2, 0.30000000000000004)};
   view.slices->overlay = scene::ViewState::Slices::Overlay{"T2", "checker", 1.0 / 3.0};
-  view.light = scene::ViewState::Light{1000.0 / 3.0, 0.1, true, -1.0 / 3.0, true, 2.0 / 3.0, 0.3, true};
+  view.light =
+      scene::ViewState::Light{1000.0 / 3.0, 0.1, true, -1.0 / 3.0, true, 2.0 / 3.0, 0.3, true};
   view.stereo = scene::ViewState::Stereo{"interleaved", 22.2, std::nullopt};
   view.clipping.planes = {{Vector3d(0.1, 0.2, 0.3), Vector3d(0.0, 0.6, 0.8)}};
   view.clipping.crop = core::IndexBox{{1, 2, 3}, {4, 5, 6}};

@@ -3,6 +3,7 @@
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Scene/RemoveMr.h"
 #include "petrous/Scene/StructureOccupancy.h"
 
 using namespace petrous;
@@ -178,4 +179,46 @@ TEST(Placement, AnMrOnWhichSomethingWasDrawnStays)
   scene::removePart(value, "cholesteatoma");
   scene::removePart(value, "T2");
   EXPECT_TRUE(value.mr.empty());
+}
+
+// In an older case, what was drawn on an MR may have its name, and else would lie in the CT where
+// it lay in the MR.
+TEST(Placement, AnMrOnWhichANamesakeWasDrawnStays)
+{
+  const auto expectRefused = [](scene::Case& value)
+  {
+    try
+    {
+      scene::removeMr(value, "T2");
+      FAIL() << "removed";
+    }
+    catch (const core::Error& error)
+    {
+      EXPECT_EQ(error.fault(), core::Fault::Refused);
+    }
+    EXPECT_EQ(value.mr.size(), 1U);
+  };
+  scene::Case stated = drawnOnMr();
+  stated.labels[0].structures[0].name = "T2";
+  expectRefused(stated);
+  scene::Case byGrid = stated;
+  byGrid.labels[0].drawnOn.reset();
+  expectRefused(byGrid);
+  scene::Case withMesh = stated;
+  withMesh.labels.clear();
+  withMesh.meshes.emplace_back();
+  withMesh.meshes[0].name = "T2";
+  withMesh.meshes[0].mesh = std::make_shared<const core::TriangleMesh>(tetrahedron());
+  withMesh.meshes[0].drawnOn = "T2";
+  expectRefused(withMesh);
+
+  // One of the CT hangs on nothing, and stays.
+  withMesh.meshes[0].drawnOn.clear();
+  scene::removeMr(withMesh, "T2");
+  EXPECT_TRUE(withMesh.mr.empty());
+  EXPECT_EQ(withMesh.meshes.size(), 1U);
+  stated.labels[0].drawnOn = "";
+  scene::removeMr(stated, "T2");
+  EXPECT_TRUE(stated.mr.empty());
+  EXPECT_EQ(stated.labels.size(), 1U);
 }

@@ -274,6 +274,23 @@ TEST(Provenance, OfCorrectedAxesIsKeptAndIsOfFormat10)
   EXPECT_EQ(toManifest(back), toManifest(value));
 }
 
+// Programs before format 10 would drop it, and add labels that were drawn on the unrepaired slices
+// without a question, apart by the gap.
+TEST(Provenance, OfSlicesInterpolatedBeyondARegionIsOfFormat10)
+{
+  const auto formatOf = [](const Case& value)
+  { return json::parse(toManifest(value)).at("petrous_case").get<int>(); };
+  Case value = imagesAndLabels();
+  value.ct.provenance.interpolated = {{4, 4}};
+  EXPECT_EQ(formatOf(value), 3) << "within it";
+  value.ct.provenance.interpolatedBeyond = 1;
+  EXPECT_EQ(formatOf(value), 10);
+  value.ct.provenance.interpolatedBeyond = 0;
+  value.mr[0].provenance.interpolatedBeyond = 3;
+  EXPECT_EQ(formatOf(value), 10);
+  EXPECT_EQ(again(value).mr[0].provenance.interpolatedBeyond, 3);
+}
+
 TEST(Provenance, ThatCannotBeIsRefused)
 {
   const json good = json::parse(toManifest(imagesAndLabels()));
@@ -293,7 +310,9 @@ TEST(Provenance, ThatCannotBeIsRefused)
   refused("/ct/provenance/corrected_axes", 7);
   refused("/labels/0/provenance/corrected_axes", "none");
   refused("/ct/provenance/burned_in_text", "maybe");
-  refused("/ct/provenance/interpolated_slices_beyond", -1);
+  for (const json& count : {json(-1), json(1.5), json(4294967296), json(4294967297),
+                            json(std::numeric_limits<int>::max()), json(100001), json("1")})
+    refused("/ct/provenance/interpolated_slices_beyond", count);
   refused("/ct/provenance/lossy_ratio", 0.0);
   refused("/ct/provenance/masked", {"nose"});
   refused("/ct/provenance", json::array());

@@ -183,8 +183,7 @@ void readCtInsteadOf(Case& value, const std::string& image)
 // Data drawn on an MR are mapped to the CT only through that MR.
 void checkNothingHangsOn(const Case& value, const std::string& mr)
 {
-  std::vector<std::string> names = drawnOnMr(value, mr);
-  names.erase(std::remove(names.begin(), names.end(), mr), names.end());
+  const std::vector<std::string> names = drawnOnMr(value, mr);
   if (!names.empty())
     throw core::Error(core::Fault::Refused,
                       "MR '" + mr + "' stays: on it was drawn " + listed(names) +

@@ -308,10 +308,12 @@ volume::ImageProvenance provenanceIn(const json& j, int slices)
                                      "image's slices, from 1, in order and apart");
       provenance.interpolated.push_back({first - 1, last - 1});
     }
-  provenance.interpolatedBeyond = j.value("interpolated_slices_beyond", 0);
-  if (provenance.interpolatedBeyond < 0)
-    throw core::InvalidParameter("provenance: interpolated slices beyond the image must not be "
-                                 "fewer than none");
+  if (j.contains("interpolated_slices_beyond"))
+    provenance.interpolatedBeyond = integerIn<int>(j.at("interpolated_slices_beyond"));
+  constexpr int kMostSlices = 100000; // of any series; its sum with those of the image stays an int
+  if (provenance.interpolatedBeyond < 0 || provenance.interpolatedBeyond > kMostSlices)
+    throw core::InvalidParameter("provenance: interpolated slices beyond the image must be 0 to " +
+                                 std::to_string(kMostSlices));
   provenance.tilt = j.value("tilt_deg", 0.0);
   provenance.shift = j.value("shift_mm", 0.0);
   provenance.assumedRas = assumedRasIn(j);
@@ -908,18 +910,23 @@ bool needsFormat9(const Case& value)
 
 // Likewise before format 10, which read the views of branches as cameras, and nothing else as one,
 // and would have dropped a correction of axes, and laid what comes later on the grid that the file
-// states.
+// states; and dropped how many slices were interpolated beyond a region, and laid labels of the
+// unrepaired stack without a question.
 bool needsFormat10(const Case& value)
 {
   const auto& branches = value.view.branches;
   const auto& saved = value.view.saved;
   const auto isCorrected = [](const auto& part) { return !part.provenance.axes.isIdentity(); };
+  const auto isOfRepaired = [](const ImagePart& image)
+  { return image.provenance.interpolatedBeyond > 0; };
   return std::any_of(branches.begin(), branches.end(),
                      [&value](const auto& one)
                      { return isOfABranch(value, one) && !isCameraAlone(one.second); }) ||
          std::any_of(saved.begin(), saved.end(),
                      [](const auto& one) { return one.second.clipping.has_value(); }) ||
-         isCorrected(value.ct) || std::any_of(value.mr.begin(), value.mr.end(), isCorrected) ||
+         isCorrected(value.ct) || isOfRepaired(value.ct) ||
+         std::any_of(value.mr.begin(), value.mr.end(), isCorrected) ||
+         std::any_of(value.mr.begin(), value.mr.end(), isOfRepaired) ||
          std::any_of(value.labels.begin(), value.labels.end(), isCorrected);
 }
 

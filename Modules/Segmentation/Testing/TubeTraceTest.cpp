@@ -432,25 +432,90 @@ TEST(TubeTrace, WhereNothingIsSeenTheRadiusIsTheUsualOne)
   EXPECT_FALSE(hasUsualRadius(tube, given)) << "it is the user's";
   EXPECT_EQ(usualFor("Chorda tympani"), 0.2);
   EXPECT_FALSE(usualFor("sigmoid sinus"));
-  for (const char* name :
-       {"facial_nerve", "FacialNerve left", "N. facialis", "Nervus facialis", "facial left",
-        "Fazialis", "Fazialis links", "N. fazialis", "Fazialiskanal", "Gesichtsnerv", "CN VII",
-        "cn_7", "N. VII", "fallopian canal", "facial nerve, tympanic segment"})
+  for (const char* name : {"facial_nerve",
+                           "FacialNerve left",
+                           "N. facialis",
+                           "Nervus facialis",
+                           "facial left",
+                           "Fazialis",
+                           "Fazialis links",
+                           "N. fazialis",
+                           "Fazialiskanal",
+                           "Gesichtsnerv",
+                           "CN VII",
+                           "cn_7",
+                           "N. VII",
+                           "fallopian canal",
+                           "facial nerve, tympanic segment",
+                           "facial nerve IAC",
+                           "facial nerve, internal auditory canal",
+                           "facial nerve in the middle ear",
+                           "facial nerve antrum",
+                           "facial_nerve_lumen",
+                           "facial_nerve_ear_canal",
+                           "facial_mastoid",
+                           "facial mastoid segment",
+                           "MastoidFacial",
+                           "Facialis mastoidal",
+                           "Facialisverlauf",
+                           "facial_labyrinthine",
+                           "facial_genu",
+                           "facial_meatal",
+                           "facial cisternal",
+                           "facial parotid",
+                           "facial trunk",
+                           "facial planned",
+                           "facial_preop",
+                           "CN VII mastoid",
+                           "N. VII meatus",
+                           "facial nerve, temporal bone",
+                           "facial nerve to stapedius",
+                           "Fazialis Nervenaustritt"})
   {
     EXPECT_EQ(usualFor(name), 0.6) << name;
     EXPECT_EQ(widestFor(name), 1.3) << name;
     EXPECT_TRUE(lumenFor(name)) << name;
   }
-  EXPECT_EQ(usualFor("Paukensaite"), 0.2);
-  for (const char* name : {"vestibular nerve", "CN VIII", "N. VIII", "H\u00f6rnerv"})
+  for (const char* name : {"Paukensaite", "chorda in the middle ear", "chorda tympani, mastoid"})
+  {
+    EXPECT_EQ(usualFor(name), 0.2) << name;
+    EXPECT_EQ(widestFor(name), 0.5) << name;
+    EXPECT_TRUE(lumenFor(name)) << name;
+  }
+  for (const char* name :
+       {"vestibular nerve", "CN VIII", "N. VIII", "H\u00f6rnerv", "Nervenverlauf", "Nervenende",
+        "cochlear nerve", "nerve IAC", "Nervus stapedius"})
   {
     EXPECT_TRUE(lumenFor(name)) << name;
     EXPECT_FALSE(usualFor(name)) << name;
     EXPECT_EQ(widestFor(name), TubeOptions{}.widest) << name;
   }
-  for (const char* other : {"facial recess", "Facial_Ridge", "facial vein", "Arteria facialis",
-                            "facial bones", "midfacial", "facial skeleton", "facial muscle",
-                            "facial colliculus", "A. facialis", "V. facialis", "innervation"})
+  for (const char* other : {"facial recess",
+                            "Facial_Ridge",
+                            "facial vein",
+                            "Arteria facialis",
+                            "facial bones",
+                            "midfacial",
+                            "facial skeleton",
+                            "facial muscle",
+                            "facial colliculus",
+                            "A. facialis",
+                            "V. facialis",
+                            "innervation",
+                            "facial artery",
+                            "FacialArteryAntrum",
+                            "facial schwannoma",
+                            "facial nerve schwannoma",
+                            "facial nerve tumour",
+                            "Fazialisneurinom",
+                            "Fazialisvene",
+                            "Gesichtsvene",
+                            "facial sinus",
+                            "facial nerve implant",
+                            "facial left bones",
+                            "facial fat",
+                            "mastoid",
+                            "antrum"})
   {
     EXPECT_FALSE(usualFor(other)) << other;
     EXPECT_FALSE(lumenFor(other)) << other;

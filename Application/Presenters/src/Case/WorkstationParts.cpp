@@ -246,18 +246,9 @@ void WorkstationModel::takeOut(const std::string& name, std::uint64_t removal)
   RemovedPart removed;
   removed.name = name;
   removed.id = removal;
-  if (const std::size_t at = indexOf(next.mr, name); at < next.mr.size())
-  {
-    removed.mr = {at, next.mr[at]};
-    forEachLook(next,
-                [&](const std::string& part, const appearance::StructureAppearance& look)
-                {
-                  if (look.sourceImage == name)
-                    removed.readers.push_back({part, look});
-                });
-  }
+  // The one that scene::removePart takes, where parts of an older case have one name.
   std::size_t labelsAt = 0, meshAt = 0;
-  for (std::size_t n = 0; n < next.labels.size(); ++n)
+  for (std::size_t n = 0; n < next.labels.size() && !removed.labels; ++n)
     if (const std::size_t at = indexOf(next.labels[n].structures, name);
         at < next.labels[n].structures.size())
     {
@@ -267,10 +258,21 @@ void WorkstationModel::takeOut(const std::string& name, std::uint64_t removal)
       removed.structure = at;
       removed.wasAlone = next.labels[n].structures.size() == 1;
     }
-  if (const std::size_t at = indexOf(next.meshes, name); at < next.meshes.size())
+  if (const std::size_t at = indexOf(next.meshes, name); at < next.meshes.size() && !removed.labels)
   {
     meshAt = at;
     removed.mesh = {at, next.meshes[at]};
+  }
+  if (const std::size_t at = indexOf(next.mr, name);
+      at < next.mr.size() && !removed.labels && !removed.mesh)
+  {
+    removed.mr = {at, next.mr[at]};
+    forEachLook(next,
+                [&](const std::string& part, const appearance::StructureAppearance& look)
+                {
+                  if (look.sourceImage == name)
+                    removed.readers.push_back({part, look});
+                });
   }
   const std::vector<scene::Measurement> before = next.measurements;
   const bool areLabelsChanged = removed.labels.has_value();

@@ -33,6 +33,7 @@
 #include "petrous/Scene/GoneNames.h"
 #include "petrous/Scene/Manifest.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Scene/RemoveMr.h"
 
 namespace petrous::library
 {
@@ -636,6 +637,28 @@ std::vector<std::uint8_t> thumbnailFrom(const std::string& base64, const fs::pat
 
 constexpr const char* kLeftOut = ": left out, since a plan brings no voxels; add it to the case";
 
+/// One of the `lost` MRs on which a map was drawn; of an older case, which does not state it, or
+/// may have been, by its grid. Empty: none.
+std::string lostMrOf(const scene::Case& value, const scene::LabelPart& part,
+                     const std::set<std::string>& lost, const ObjectStore& store)
+{
+  if (part.drawnOn)
+    return lost.count(*part.drawnOn) > 0 ? *part.drawnOn : std::string();
+  if (lost.empty())
+    return {};
+  try
+  {
+    const volume::LabelMap map = imaging::readLabelFile(store.path(part.object));
+    for (const std::string& mr : scene::mrWithGrid(value, map.voxels->geometry()))
+      if (lost.count(mr) > 0)
+        return mr;
+  }
+  catch (const core::Error&) // told where all of the library's are checked
+  {
+  }
+  return {};
+}
+
 /// Takes from the case of a plan what the library does not have; returns a note for each part.
 std::vector<std::string> leaveOutMissing(scene::Case& value, const ObjectStore& store)
 {
@@ -647,16 +670,18 @@ std::vector<std::string> leaveOutMissing(scene::Case& value, const ObjectStore& 
       lost.insert(mr.name);
       notes.push_back("MR '" + mr.name + "'" + kLeftOut);
     }
-  const auto missing = [&](const std::string& object, const std::optional<std::string>& drawnOn,
-                           const std::string& what)
+  const auto withMr = [&notes](const std::string& what, const std::string& mr)
   {
-    if (!store.contains(object))
-      notes.push_back(what + kLeftOut);
-    else if (drawnOn && lost.count(*drawnOn) > 0)
-      notes.push_back(what + ": left out with MR '" + *drawnOn +
+    if (!mr.empty())
+      notes.push_back(what + ": left out with MR '" + mr +
                       "', on which it was drawn; add both to the case");
-    else
+    return !mr.empty();
+  };
+  const auto missing = [&](const std::string& object, const std::string& what)
+  {
+    if (store.contains(object))
       return false;
+    notes.push_back(what + kLeftOut);
     return true;
   };
   for (auto part = value.labels.begin(); part != value.labels.end();)
@@ -664,15 +689,19 @@ std::vector<std::string> leaveOutMissing(scene::Case& value, const ObjectStore& 
     std::string names;
     for (const auto& structure : part->structures)
       names += (names.empty() ? "'" : ", '") + structure.name + "'";
-    part = missing(part->object, part->drawnOn, "structures " + names) ? value.labels.erase(part)
-                                                                       : part + 1;
+    const std::string what = "structures " + names;
+    part = missing(part->object, what) || withMr(what, lostMrOf(value, *part, lost, store))
+               ? value.labels.erase(part)
+               : part + 1;
   }
   for (auto mesh = value.meshes.begin(); mesh != value.meshes.end();)
-    mesh = missing(mesh->object, mesh->drawnOn, "mesh '" + mesh->name + "'")
-               ? value.meshes.erase(mesh)
-               : mesh + 1;
+  {
+    const std::string what = "mesh '" + mesh->name + "'";
+    const std::string mr = lost.count(mesh->drawnOn) > 0 ? mesh->drawnOn : std::string();
+    mesh = missing(mesh->object, what) || withMr(what, mr) ? value.meshes.erase(mesh) : mesh + 1;
+  }
   for (const std::string& name : lost)
-    scene::removePart(value, name);
+    scene::removeMr(value, name);
   return notes;
 }
 

@@ -24,10 +24,10 @@ struct ManifestError : core::Error
 /// description of the case; 6: attachments, and of the view more than the cameras of branches,
 /// crosshair and grey window; 7: measurements, saved views, planes that were turned, slabs; 8:
 /// bookmarks and stills of videos; 9: an instrument; 10: of the views of branches more than the
-/// camera, and axes of a file that were corrected. Older formats can be opened; a case is written
-/// in the lowest format from 3 that holds it, which older programs open; of how it is looked at,
-/// they drop what they do not know where they save (record 3: exposure, tone curve, edges,
-/// handpiece).
+/// camera, axes of a file that were corrected, and slices that repair interpolated beyond a region.
+/// Older formats can be opened; a case is written in the lowest format from 3 that holds it, which
+/// older programs open; of how it is looked at, they drop what they do not know where they save
+/// (record 3: exposure, tone curve, edges, grain, exit surfaces, handpiece).
 constexpr int kManifestFormat = 10;
 
 /// The case as JSON: everything but the voxels, which are referenced by object name. Equal cases

@@ -171,6 +171,57 @@ protected:
     return count == 0 ? Vector3d(Vector3d::Constant(std::nan(""))) : Vector3d(sum / count);
   }
 
+  /// Two structures of one map: incus as labelsOn, malleus beside it at 5, 4, 4.
+  presenters::PartSource ossicles() const
+  {
+    auto voxels = volume::makeZeroVolume<std::uint16_t>(kFileGrid);
+    voxels->at(4, 4, 4) = 1;
+    voxels->at(5, 4, 4) = 2;
+    volume::Segment incus, malleus;
+    incus.name = "incus";
+    incus.index = 1;
+    malleus.name = "malleus";
+    malleus.index = 2;
+    imaging::writeLabelFile(m_folder / "ossicles.seg.nrrd",
+                            volume::makeLabelMap(voxels, {incus, malleus}));
+    return {"", m_folder / "ossicles.seg.nrrd"};
+  }
+
+  /// A tetrahedron, its right angle at 0, 4, 5.
+  presenters::PartSource meshNamed(const std::string& name) const
+  {
+    core::TriangleMesh mesh;
+    mesh.vertices = {{0, 4, 5}, {1, 4, 5}, {0, 5, 5}, {0, 4, 6}};
+    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    imaging::writeMesh(m_folder / (name + ".obj"), mesh);
+    return {name, m_folder / (name + ".obj")};
+  }
+
+  /// A stroke that removed some of a structure.
+  static void record(scene::Case& value, const std::string& structure)
+  {
+    dissection::Stroke stroke;
+    stroke.info.structures = {{structure, 1.0}};
+    value.dissection.append(std::make_shared<const dissection::Stroke>(stroke));
+  }
+
+  static void expectRefused(scene::Case value, const std::string& part, const std::string& told)
+  {
+    const Vector3d before = placeOf(value.labels.at(0));
+    try
+    {
+      presenters::correctPart(value, presenters::axesPart(value, part),
+                              AxesCorrection::parse("RPS"));
+      ADD_FAILURE() << part << " was corrected";
+    }
+    catch (const core::Error& error)
+    {
+      EXPECT_EQ(error.fault(), core::Fault::Refused) << error.what();
+      EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(placeOf(value.labels.at(0)), before);
+  }
+
   static bool isNoted(const std::vector<std::string>& notes, const std::string& part)
   {
     return std::any_of(notes.begin(), notes.end(),
@@ -595,7 +646,8 @@ TEST_F(CorrectedAxes, OfAnMrOfTheOpenCaseAreCorrectedInIt)
     EXPECT_NEAR(moved->signedVolume(), 1.0 / 6.0, 1e-5);
     EXPECT_TRUE(isNoted(value.mr[0].notes, "axes of the file corrected (LPI)"));
   };
-  const auto followers = presenters::axesFollowers(model.value(), "t2");
+  const auto followers =
+      presenters::axesFollowers(model.value(), {presenters::AxesPart::Kind::Mr, "t2"});
   EXPECT_EQ(followers.parts, (std::vector<std::string>{"tumour", "cyst"}));
   EXPECT_EQ(followers.unregistered, std::vector<std::string>{"t2"});
   model.correctAxes("t2", AxesCorrection::parse("LPI"));
@@ -630,28 +682,15 @@ TEST_F(CorrectedAxes, OfAnMrOfTheOpenCaseAreCorrectedInIt)
 // As of --labels-axes and --mesh-axes.
 TEST_F(CorrectedAxes, OfLabelsAndMeshesOfTheOpenCaseAreCorrectedInIt)
 {
-  auto voxels = volume::makeZeroVolume<std::uint16_t>(kFileGrid);
-  voxels->at(4, 4, 4) = 1; // at -4, 6, 7
-  voxels->at(5, 4, 4) = 2;
-  volume::Segment incus, malleus;
-  incus.name = "incus";
-  incus.index = 1;
-  malleus.name = "malleus";
-  malleus.index = 2;
-  imaging::writeLabelFile(m_folder / "ossicles.seg.nrrd",
-                          volume::makeLabelMap(voxels, {incus, malleus}));
-  core::TriangleMesh mesh;
-  mesh.vertices = {{0, 4, 5}, {1, 4, 5}, {0, 5, 5}, {0, 4, 6}};
-  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-  imaging::writeMesh(m_folder / "stapes.obj", mesh);
   m_sources.axes = {};
-  m_sources.parts.labels = {{"", m_folder / "ossicles.seg.nrrd"}};
-  m_sources.parts.meshes = {{"stapes", m_folder / "stapes.obj"}};
+  m_sources.parts.labels = {ossicles()}; // the incus at -4, 6, 7
+  m_sources.parts.meshes = {meshNamed("stapes")};
   library::Library library(m_folder / "library");
   presenters::WorkstationModel model(library);
   model.adopt(presenters::buildCase("ear", m_sources, {}));
-  EXPECT_EQ(presenters::axesFollowers(model.value(), "incus").parts,
-            std::vector<std::string>{"malleus"});
+  EXPECT_EQ(
+      presenters::axesFollowers(model.value(), presenters::axesPart(model.value(), "incus")).parts,
+      std::vector<std::string>{"malleus"});
   model.removePart("malleus"); // comes back with the map
   model.correctAxes("incus", AxesCorrection::parse("RPS"));
   EXPECT_LT((placeOf(model.value().labels.at(0)) - Vector3d(3, 6, 7)).norm(), 1e-9);
@@ -676,17 +715,91 @@ TEST_F(CorrectedAxes, OfLabelsAndMeshesOfTheOpenCaseAreCorrectedInIt)
 
   // What was removed from it lies where it was drilled.
   scene::Case drilled = model.value();
-  dissection::Stroke stroke;
-  stroke.info.structures = {{"malleus", 1.0}};
-  drilled.dissection.append(std::make_shared<const dissection::Stroke>(stroke));
-  try
-  {
-    presenters::correctPart(drilled, "incus", AxesCorrection::parse("RPS"));
-    FAIL() << "it has strokes";
-  }
-  catch (const core::Error& error)
-  {
-    EXPECT_EQ(error.fault(), core::Fault::Refused) << error.what();
-  }
+  record(drilled, "malleus");
+  expectRefused(drilled, "incus", "'malleus' keeps its axes");
   EXPECT_LT((placeOf(drilled.labels.at(0)) - Vector3d(3, 6, 7)).norm(), 1e-9);
+}
+
+// One structure of a map was edited and its edit undone: it is a part of its own, as such also in
+// the library.
+TEST_F(CorrectedAxes, OfAStructureMoveAllPartsWithItsMap)
+{
+  m_sources.axes = {};
+  m_sources.parts.labels = {ossicles()};
+  scene::Case value = presenters::buildCase("ear", m_sources, {});
+  ASSERT_EQ(value.labels.at(0).structures.size(), 2U);
+  value.labels.push_back(value.labels[0]);
+  value.labels[0].structures.pop_back();
+  value.labels[1].structures.erase(value.labels[1].structures.begin());
+  library::Library library(m_folder / "library");
+  library.save(value);
+  for (scene::Case one : {value, library.open("ear")})
+  {
+    ASSERT_EQ(one.labels.size(), 2U);
+    const presenters::AxesPart incus = presenters::axesPart(one, "incus");
+    EXPECT_EQ(presenters::axesFollowers(one, incus).parts, std::vector<std::string>{"malleus"});
+    scene::Case drilled = one;
+    record(drilled, "malleus");
+    expectRefused(drilled, "incus", "'malleus' keeps its axes");
+    presenters::correctPart(one, incus, AxesCorrection::parse("RPS"));
+    for (const scene::LabelPart& part : one.labels)
+    {
+      EXPECT_LT((placeOf(part) - Vector3d(3, 6, 7)).norm(), 1e-4)
+          << part.structures.at(0).name << ": " << placeOf(part).transpose();
+      EXPECT_EQ(part.provenance.axes.letters(), "RPS") << part.structures[0].name;
+    }
+  }
+  presenters::WorkstationModel model(library);
+  model.open("ear");
+  model.correctAxes("malleus", AxesCorrection::parse("RPS"));
+  for (const bool isCorrected : {true, false, true})
+  {
+    for (const scene::LabelPart& part : model.value().labels)
+      EXPECT_LT((placeOf(part) - Vector3d(isCorrected ? 3 : -4, 6, 7)).norm(), 1e-4)
+          << part.structures.at(0).name << ": " << placeOf(part).transpose();
+    if (isCorrected)
+      model.undo();
+    else
+      model.redo();
+  }
+}
+
+// One that was taken out may be put back to where its strokes removed something.
+TEST_F(CorrectedAxes, OfAStructureAreRefusedIfStrokesRecordOneThatWasTakenOut)
+{
+  m_sources.axes = {};
+  m_sources.parts.labels = {ossicles()};
+  scene::Case value = presenters::buildCase("ear", m_sources, {});
+  record(value, "malleus");
+  presenters::WorkstationModel model(library::Library(m_folder / "library"));
+  model.adopt(std::move(value));
+  model.removePart("malleus");
+  EXPECT_THROW(model.correctAxes("incus", AxesCorrection::parse("RPS")), core::Error);
+  model.restorePart();
+  EXPECT_LT((placeOf(model.value().labels.at(0)) - Vector3d(-4, 6, 7)).norm(), 1e-9);
+}
+
+TEST_F(CorrectedAxes, AreThoseOfThePartThatIsThereAndNotOfANamesakeThatWasTakenOut)
+{
+  m_sources.axes = {};
+  m_sources.parts.labels = {labelsOn(kFileGrid, "incus.nrrd")};
+  const scene::LabelPart drawn = presenters::buildCase("ear", m_sources, {}).labels.at(0);
+  m_sources.parts.labels.clear();
+  m_sources.parts.meshes = {meshNamed("incus")};
+  presenters::WorkstationModel model(library::Library(m_folder / "library"));
+  model.adopt(presenters::buildCase("ear", m_sources, {}));
+  model.removePart("incus");
+  model.putStructure(drawn);
+  model.correctAxes("incus", AxesCorrection::parse("RPS"));
+  EXPECT_LT((placeOf(model.value().labels.at(0)) - Vector3d(3, 6, 7)).norm(), 1e-9);
+  model.undo();
+  EXPECT_LT((placeOf(model.value().labels.at(0)) - Vector3d(-4, 6, 7)).norm(), 1e-9);
+  // Where a name is there twice, as in older cases, it is the structure.
+  scene::Case older = model.value();
+  older.meshes = presenters::buildCase("ear", m_sources, {}).meshes;
+  const presenters::AxesPart part = presenters::axesPart(older, "incus");
+  EXPECT_EQ(part.kind, presenters::AxesPart::Kind::Structure);
+  presenters::correctPart(older, part, AxesCorrection::parse("RPS"));
+  EXPECT_LT((placeOf(older.labels.at(0)) - Vector3d(3, 6, 7)).norm(), 1e-9);
+  EXPECT_EQ(older.meshes.at(0).mesh.get()->vertices.at(1).x(), 1.0F);
 }

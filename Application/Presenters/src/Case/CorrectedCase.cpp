@@ -7,6 +7,7 @@
 
 #include "CorrectAxes.h"
 #include "RecordedParts.h"
+#include "SameLabels.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Placement.h"
@@ -46,14 +47,25 @@ void forget(std::vector<std::string>& notes, const std::string& note)
                                "left, posterior and superior really points, such as RPS");
 }
 
-// The map that holds a structure; nullptr: none.
-scene::LabelPart* mapOf(scene::Case& value, const std::string& structure)
+// The structures of a map may be in several parts: all that lie on the one that holds a structure.
+std::vector<const scene::LabelPart*> mapOf(const scene::Case& value, const std::string& structure)
 {
-  for (scene::LabelPart& part : value.labels)
-    for (const scene::StructurePart& one : part.structures)
-      if (one.name == structure)
-        return &part;
-  return nullptr;
+  const auto& all = value.labels;
+  const auto holder =
+      std::find_if(all.begin(), all.end(),
+                   [&structure](const scene::LabelPart& map)
+                   {
+                     return std::any_of(map.structures.begin(), map.structures.end(),
+                                        [&](const auto& one) { return one.name == structure; });
+                   });
+  std::vector<const scene::LabelPart*> parts;
+  if (holder == all.end())
+    return parts;
+  const std::string on = scene::placementOf(value, *holder).drawnOn;
+  for (const scene::LabelPart& map : all)
+    if (haveSameLabels(map, *holder) && scene::placementOf(value, map).drawnOn == on)
+      parts.push_back(&map);
+  return parts;
 }
 
 void correctMap(scene::LabelPart& part, const core::AxesCorrection& axes,
@@ -114,6 +126,44 @@ void correctMr(scene::Case& value, const std::string& name, const core::AxesCorr
       note(part.notes);
     }
   scene::removeRegistration(value, name);
+}
+
+void correctMeshPart(scene::Case& value, const std::string& name, const core::AxesCorrection& axes)
+{
+  scene::MeshPart& mesh = *scene::findMesh(value, name);
+  const scene::ImagePart* mr = scene::findMr(value, mesh.drawnOn);
+  correctMesh(mesh, axes, (mr ? *mr : value.ct).geometry.center());
+  const std::string note = correctedAxesText(axes);
+  const auto noted = std::find(mesh.notes.begin(), mesh.notes.end(), note);
+  if (noted != mesh.notes.end() && (axes * axes).isIdentity())
+    mesh.notes.erase(noted); // it is as before
+  else
+    mesh.notes.push_back(note);
+}
+
+void correctStructure(scene::Case& value, const std::string& name, const core::AxesCorrection& axes)
+{
+  const std::vector<const scene::LabelPart*> maps = mapOf(value, name);
+  // About the middle of the image on which it was drawn, as the builder of a case does, so that
+  // what lies on parts of its grid keeps its place among the rest.
+  const auto on = scene::placementOf(value, *maps.front()).drawnOn;
+  const scene::ImagePart* mr = scene::findMr(value, on);
+  const Eigen::Vector3d center = (mr ? *mr : value.ct).geometry.center();
+  std::map<std::shared_ptr<const volume::LabelMap>, core::Lazy<volume::LabelMap>> made;
+  for (scene::LabelPart& map : value.labels)
+  {
+    if (std::find(maps.begin(), maps.end(), &map) == maps.end())
+      continue;
+    forget(map.notes, correctedAxesText(map.provenance.axes));
+    forget(map.notes, followedNote(value.ct));
+    if (mr)
+      forget(map.notes, followedNote(*mr));
+    const auto drawn = map.labels.get();
+    correctMap(map, axes, center);
+    map.labels = made.emplace(drawn, map.labels).first->second;
+    if (!map.provenance.axes.isIdentity())
+      map.notes.push_back(correctedAxesText(map.provenance.axes));
+  }
 }
 
 } // namespace
@@ -208,40 +258,43 @@ scene::Case correctedCase(const scene::Case& value, const core::AxesCorrection& 
   return next;
 }
 
-AxesFollowers axesFollowers(const scene::Case& value, const std::string& part)
+AxesPart axesPart(const scene::Case& value, const std::string& name)
 {
-  AxesFollowers followers;
-  if (const scene::ImagePart* mr = scene::findMr(value, part))
-  {
-    followers.parts = scene::drawnOnMr(value, part);
-    for (const scene::ImagePart& one : value.mr)
-      if (one.registered && scene::liesThrough(value, one.name, mr->name))
-        followers.unregistered.push_back(one.name);
-    return followers;
-  }
-  for (const scene::MeshPart& mesh : value.meshes)
-    if (mesh.name == part)
-      return followers;
-  for (const scene::LabelPart& map : value.labels)
-  {
-    const auto& all = map.structures;
-    if (std::none_of(all.begin(), all.end(), [&](const auto& one) { return one.name == part; }))
-      continue;
-    for (const scene::StructurePart& one : all)
-      if (one.name != part)
-        followers.parts.push_back(one.name);
-    return followers;
-  }
-  throw core::InvalidParameter("the case has no MR, structure or mesh '" + part +
+  if (scene::findMr(value, name))
+    return {AxesPart::Kind::Mr, name};
+  if (scene::findStructure(value, name))
+    return {AxesPart::Kind::Structure, name};
+  if (std::any_of(value.meshes.begin(), value.meshes.end(),
+                  [&name](const scene::MeshPart& mesh) { return mesh.name == name; }))
+    return {AxesPart::Kind::Mesh, name};
+  throw core::InvalidParameter("the case has no MR, structure or mesh '" + name +
                                "' whose axes could be corrected");
 }
 
-void correctPart(scene::Case& value, const std::string& part, const core::AxesCorrection& axes)
+AxesFollowers axesFollowers(const scene::Case& value, const AxesPart& part)
+{
+  AxesFollowers followers;
+  if (part.kind == AxesPart::Kind::Mr)
+  {
+    followers.parts = scene::drawnOnMr(value, part.name);
+    for (const scene::ImagePart& one : value.mr)
+      if (one.registered && scene::liesThrough(value, one.name, part.name))
+        followers.unregistered.push_back(one.name);
+  }
+  if (part.kind == AxesPart::Kind::Structure)
+    for (const scene::LabelPart* const map : mapOf(value, part.name))
+      for (const scene::StructurePart& one : map->structures)
+        if (one.name != part.name)
+          followers.parts.push_back(one.name);
+  return followers;
+}
+
+void correctPart(scene::Case& value, const AxesPart& part, const core::AxesCorrection& axes)
 {
   if (axes.isIdentity())
     failIdentity();
   std::vector<std::string> moved = axesFollowers(value, part).parts;
-  moved.push_back(part);
+  moved.push_back(part.name);
   for (const std::string& one : moved)
     if (isRecorded(value, one))
       throw core::Error(core::Fault::Refused,
@@ -249,42 +302,17 @@ void correctPart(scene::Case& value, const std::string& part, const core::AxesCo
                             "' keeps its axes: strokes of this case record what was removed from "
                             "it where it lies");
   scene::Case next = value;
-  if (scene::findMr(next, part))
-    correctMr(next, part, axes);
-  else if (scene::MeshPart* mesh = scene::findMesh(next, part))
+  switch (part.kind)
   {
-    const scene::ImagePart* mr = scene::findMr(next, mesh->drawnOn);
-    correctMesh(*mesh, axes, (mr ? *mr : next.ct).geometry.center());
-    const std::string note = correctedAxesText(axes);
-    const auto noted = std::find(mesh->notes.begin(), mesh->notes.end(), note);
-    if (noted != mesh->notes.end() && (axes * axes).isIdentity())
-      mesh->notes.erase(noted); // it is as before
-    else
-      mesh->notes.push_back(note);
-  }
-  else
-  {
-    const auto drawn = mapOf(next, part)->labels.get();
-    core::Lazy<volume::LabelMap> made;
-    for (scene::LabelPart& map : next.labels)
-    {
-      if (map.labels.peek() != drawn)
-        continue;
-      forget(map.notes, correctedAxesText(map.provenance.axes));
-      // About the middle of the image on which it was drawn, as the builder of a case does, so that
-      // what lies on parts of its grid keeps its place among the rest.
-      const auto on = scene::placementOf(next, map).drawnOn;
-      const scene::ImagePart* mr = scene::findMr(next, on);
-      forget(map.notes, followedNote(next.ct));
-      if (mr)
-        forget(map.notes, followedNote(*mr));
-      correctMap(map, axes, (mr ? *mr : next.ct).geometry.center());
-      if (!made)
-        made = map.labels;
-      map.labels = made;
-      if (!map.provenance.axes.isIdentity())
-        map.notes.push_back(correctedAxesText(map.provenance.axes));
-    }
+  case AxesPart::Kind::Mr:
+    correctMr(next, part.name, axes);
+    break;
+  case AxesPart::Kind::Mesh:
+    correctMeshPart(next, part.name, axes);
+    break;
+  case AxesPart::Kind::Structure:
+    correctStructure(next, part.name, axes);
+    break;
   }
   value = std::move(next);
 }

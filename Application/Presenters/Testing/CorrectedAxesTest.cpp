@@ -22,6 +22,7 @@
 #include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Scene/ApplyRegistration.h"
+#include "petrous/Scene/Placement.h"
 
 using namespace petrous;
 using core::AxesCorrection;
@@ -802,4 +803,45 @@ TEST_F(CorrectedAxes, AreThoseOfThePartThatIsThereAndNotOfANamesakeThatWasTakenO
   presenters::correctPart(older, part, AxesCorrection::parse("RPS"));
   EXPECT_LT((placeOf(older.labels.at(0)) - Vector3d(3, 6, 7)).norm(), 1e-9);
   EXPECT_EQ(older.meshes.at(0).mesh.get()->vertices.at(1).x(), 1.0F);
+}
+
+// Older cases know by the grid alone that a map lies on an MR, whose grid it has no more.
+TEST_F(CorrectedAxes, OfAMapOfAnOlderCaseLeaveItOnItsMr)
+{
+  const core::GridGeometry grid({9, 9, 9}, Vector3d::Constant(1.5), Vector3d(-30, 20, 10));
+  imaging::writeVolume(m_folder / "mr.nrrd", volume::Volume<std::int16_t>(grid, std::int16_t{7}));
+  m_sources.axes = {};
+  m_sources.parts.mr = {{"t2", m_folder / "mr.nrrd"}}; // its centre is -24, 26, 16
+  m_sources.parts.labels = {labelsOn(grid, "tumour.nrrd"), labelsOn(kFileGrid, "malleus.nrrd")};
+  m_sources.parts.labels[0].name = "tumour"; // at -24, 26, 16
+  m_sources.parts.labels[1].name = "malleus";
+  scene::Case older = presenters::buildCase("ear", m_sources, {});
+  for (scene::LabelPart& map : older.labels)
+    map.drawnOn.reset();
+  const core::RigidTransform lies{Eigen::Quaterniond::Identity(), {1.0, 2.0, 3.0}};
+  scene::applyRegistration(older, "t2", lies, {});
+  presenters::WorkstationModel model(library::Library(m_folder / "library"));
+  model.adopt(older);
+  for (const char* const part : {"tumour", "t2"})
+  {
+    model.correctAxes(part, AxesCorrection::parse("SLA"));
+    const scene::LabelPart& moved = model.value().labels.at(0);
+    EXPECT_EQ(moved.drawnOn, "t2") << part;
+    EXPECT_EQ(scene::placementOf(model.value(), moved).drawnOn, "t2") << part;
+    EXPECT_EQ(model.value().labels.at(1).drawnOn, std::nullopt) << part << ": of the CT";
+    model.undo();
+    EXPECT_EQ(model.value().labels.at(0).drawnOn, std::nullopt) << part;
+    EXPECT_EQ(scene::placementOf(model.value(), model.value().labels[0]).drawnOn, "t2") << part;
+  }
+  // Of two MRs of one grid it may lie on either.
+  scene::ImagePart other = older.mr.at(0);
+  other.name = "t1";
+  older.mr.push_back(other);
+  expectRefused(older, "tumour", "on any of the MR images 't2', 't1'");
+  expectRefused(older, "t1", "whether 'tumour' goes with it");
+  expectRefused(older, "t2", "whether 'tumour' goes with it");
+  presenters::correctPart(older, presenters::axesPart(older, "malleus"),
+                          AxesCorrection::parse("RPS"));
+  EXPECT_LT((placeOf(older.labels.at(1)) - Vector3d(3, 6, 7)).norm(), 1e-9);
+  EXPECT_EQ(older.labels[1].drawnOn, std::string());
 }

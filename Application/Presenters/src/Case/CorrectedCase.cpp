@@ -68,6 +68,30 @@ std::vector<const scene::LabelPart*> mapOf(const scene::Case& value, const std::
   return parts;
 }
 
+// An older case does not say on which of several MRs of one grid a map was drawn. As soon as the
+// grid of one is another, it would be taken to be of the others.
+void checkPlaceKnown(const scene::Case& value, const AxesPart& corrected)
+{
+  for (const scene::LabelPart& map : value.labels)
+  {
+    if (map.drawnOn || value.mr.size() < 2 || map.structures.empty())
+      continue;
+    const auto mrs = scene::mrWithGrid(value, map.labels.get()->voxels->geometry());
+    if (mrs.size() < 2)
+      continue;
+    const std::string why = scene::placementOf(value, map).missing;
+    if (corrected.kind == AxesPart::Kind::Mr &&
+        std::find(mrs.begin(), mrs.end(), corrected.name) != mrs.end())
+      throw core::Error(core::Fault::Refused, "'" + corrected.name + "' keeps its axes: whether '" +
+                                                  map.structures.front().name +
+                                                  "' goes with it is not known: " + why);
+    if (corrected.kind == AxesPart::Kind::Structure &&
+        std::any_of(map.structures.begin(), map.structures.end(),
+                    [&](const auto& one) { return one.name == corrected.name; }))
+      throw core::Error(core::Fault::Refused, "'" + corrected.name + "' keeps its axes: " + why);
+  }
+}
+
 void correctMap(scene::LabelPart& part, const core::AxesCorrection& axes,
                 const Eigen::Vector3d& center)
 {
@@ -146,7 +170,7 @@ void correctStructure(scene::Case& value, const std::string& name, const core::A
   const std::vector<const scene::LabelPart*> maps = mapOf(value, name);
   // About the middle of the image on which it was drawn, as the builder of a case does, so that
   // what lies on parts of its grid keeps its place among the rest.
-  const auto on = scene::placementOf(value, *maps.front()).drawnOn;
+  const std::string on = scene::placementOf(value, *maps.front()).drawnOn;
   const scene::ImagePart* mr = scene::findMr(value, on);
   const Eigen::Vector3d center = (mr ? *mr : value.ct).geometry.center();
   std::map<std::shared_ptr<const volume::LabelMap>, core::Lazy<volume::LabelMap>> made;
@@ -160,6 +184,7 @@ void correctStructure(scene::Case& value, const std::string& name, const core::A
       forget(map.notes, followedNote(*mr));
     const auto drawn = map.labels.get();
     correctMap(map, axes, center);
+    map.drawnOn = on; // which an older case knows by the grid alone
     map.labels = made.emplace(drawn, map.labels).first->second;
     if (!map.provenance.axes.isIdentity())
       map.notes.push_back(correctedAxesText(map.provenance.axes));
@@ -301,6 +326,7 @@ void correctPart(scene::Case& value, const AxesPart& part, const core::AxesCorre
                         "'" + one +
                             "' keeps its axes: strokes of this case record what was removed from "
                             "it where it lies");
+  checkPlaceKnown(value, part);
   scene::Case next = value;
   switch (part.kind)
   {

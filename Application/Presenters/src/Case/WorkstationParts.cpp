@@ -508,6 +508,8 @@ void WorkstationModel::placeParts(const PlacedParts& from, const PlacedParts& to
             {
               if (part.labels.peek() != was)
                 return;
+              if (to.labels[n].drawnOn != from.labels[n].drawnOn) // an older case's, by the grid
+                part.drawnOn = to.labels[n].drawnOn;
               part.labels = to.labels[n].labels;
               part.object = to.labels[n].object;
               part.provenance.axes = to.labels[n].provenance.axes;

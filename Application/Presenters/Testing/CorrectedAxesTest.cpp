@@ -845,3 +845,58 @@ TEST_F(CorrectedAxes, OfAMapOfAnOlderCaseLeaveItOnItsMr)
   EXPECT_LT((placeOf(older.labels.at(1)) - Vector3d(3, 6, 7)).norm(), 1e-9);
   EXPECT_EQ(older.labels[1].drawnOn, std::string());
 }
+
+// PLS exchanges left and back, RPS mirrors: first PLS, then RPS, then PLS takes x, y to y, x, then
+// to -y, x, then to x, -y, so that what the file calls left and back is the patient's left and
+// front.
+TEST_F(CorrectedAxes, AreNotedAsOneOfSeveral)
+{
+  m_sources.axes = {};
+  m_sources.parts.labels = {labelsOn(kFileGrid, "incus.nrrd")};
+  m_sources.parts.meshes = {meshNamed("stapes")};
+  scene::Case value = presenters::buildCase("ear", m_sources, {});
+  const auto correct = [](scene::Case& of, const char* part, const char* letters)
+  { presenters::correctPart(of, presenters::axesPart(of, part), AxesCorrection::parse(letters)); };
+  const auto notesOf = [](const scene::Case& of) {
+    return std::vector{of.labels.at(0).notes, of.meshes.at(0).notes};
+  };
+  const auto without = notesOf(value);
+  for (const char* const letters : {"PLS", "RPS", "PLS"})
+  {
+    correct(value, "incus", letters);
+    correct(value, "stapes", letters);
+  }
+  // The mesh's vertex 1, 4, 5 about -0.5, 7.5, 7.5.
+  EXPECT_LT((value.meshes.at(0).mesh.get()->vertices.at(1) - Eigen::Vector3f(1, 11, 5)).norm(),
+            1e-4F);
+  EXPECT_LT((placeOf(value.labels.at(0)) - Vector3d(-4, 9, 7)).norm(), 1e-9);
+  for (const auto& notes : notesOf(value))
+  {
+    EXPECT_TRUE(isNoted(notes, "axes of the file corrected (LAS)"));
+    EXPECT_FALSE(isNoted(notes, "PLS"));
+    EXPECT_FALSE(isNoted(notes, "RPS"));
+  }
+  correct(value, "incus", "LAS");
+  correct(value, "stapes", "LAS");
+  EXPECT_EQ(notesOf(value), without) << "they are as before";
+  // What followed its image is corrected by itself.
+  m_sources.axes = AxesCorrection::parse("RPS");
+  m_sources.parts.meshes[0].drawnOn = "ct";
+  value = presenters::buildCase("ear", m_sources, {});
+  correct(value, "incus", "LPI");
+  correct(value, "stapes", "LPI");
+  for (const auto& notes : notesOf(value))
+  {
+    EXPECT_TRUE(isNoted(notes, "axes of the file corrected (RPI)"));
+    EXPECT_FALSE(isNoted(notes, "follows the correction"));
+  }
+  // And follows the image again.
+  value = presenters::correctedCase(value, AxesCorrection::parse("LAS"), "corrected");
+  for (const auto& notes : notesOf(value))
+    EXPECT_TRUE(isNoted(notes, "axes of the file corrected (RAI)"));
+  correct(value, "incus", "LPI");
+  correct(value, "stapes", "LPI");
+  for (const auto& notes : notesOf(value))
+    EXPECT_TRUE(isNoted(notes, "as its file states it, and follows the correction of its "
+                               "axes (RAS)"));
+}

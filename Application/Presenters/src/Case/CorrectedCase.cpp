@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "CorrectAxes.h"
@@ -39,6 +40,51 @@ void leaveMrsBehind(scene::Case& value)
 void forget(std::vector<std::string>& notes, const std::string& note)
 {
   notes.erase(std::remove(notes.begin(), notes.end(), note), notes.end());
+}
+
+// The correction that a note states as correctedAxesText or followedNote.
+std::optional<core::AxesCorrection> statedBy(const std::string& note)
+{
+  constexpr std::size_t kLetters = 3;
+  const std::size_t at = note.rfind('(');
+  if (at == std::string::npos)
+    return std::nullopt;
+  try
+  {
+    const auto axes = core::AxesCorrection::parse(note.substr(at + 1, kLetters));
+    scene::ImagePart image; // whatever its name was
+    image.provenance.axes = axes;
+    std::string follows = followedNote(image);
+    follows.erase(0, follows.find("' as "));
+    const bool isFollowing =
+        note.size() > follows.size() &&
+        note.compare(note.size() - follows.size(), follows.size(), follows) == 0;
+    return isFollowing || note == correctedAxesText(axes) ? std::optional(axes) : std::nullopt;
+  }
+  catch (const core::InvalidParameter&)
+  {
+    return std::nullopt; // something else in brackets
+  }
+}
+
+// All that the notes of a mesh state, which keeps no provenance.
+core::AxesCorrection statedBy(const std::vector<std::string>& notes)
+{
+  core::AxesCorrection axes;
+  for (const std::string& note : notes)
+    axes = statedBy(note).value_or(core::AxesCorrection()) * axes;
+  return axes;
+}
+
+// In place of what they stated: the axes of what was drawn on an image.
+void noteAxes(std::vector<std::string>& notes, const core::AxesCorrection& axes,
+              const scene::ImagePart& image)
+{
+  notes.erase(std::remove_if(notes.begin(), notes.end(),
+                             [](const std::string& note) { return statedBy(note).has_value(); }),
+              notes.end());
+  if (!axes.isIdentity())
+    notes.push_back(axes == image.provenance.axes ? followedNote(image) : correctedAxesText(axes));
 }
 
 [[noreturn]] void failIdentity()
@@ -92,33 +138,35 @@ void checkPlaceKnown(const scene::Case& value, const AxesPart& corrected)
   }
 }
 
+// `image`: on which it was drawn, as it is by now.
 void correctMap(scene::LabelPart& part, const core::AxesCorrection& axes,
-                const Eigen::Vector3d& center)
+                const scene::ImagePart& image)
 {
   const auto labels = part.labels.get();
   part.labels = std::make_shared<const volume::LabelMap>(
-      volume::onGrid(*labels, axes.applied(labels->voxels->geometry(), center)));
+      volume::onGrid(*labels, axes.applied(labels->voxels->geometry(), image.geometry.center())));
   part.object.clear();
   part.moved = {};
   part.provenance.axes = axes * part.provenance.axes;
+  noteAxes(part.notes, part.provenance.axes, image);
 }
 
 void correctMesh(scene::MeshPart& part, const core::AxesCorrection& axes,
-                 const Eigen::Vector3d& center)
+                 const scene::ImagePart& image)
 {
   core::TriangleMesh mesh = *part.mesh.get();
-  correctAxes(mesh, axes, center);
+  correctAxes(mesh, axes, image.geometry.center());
   part.mesh = std::make_shared<const core::TriangleMesh>(std::move(mesh));
   part.object.clear();
   part.moved = {};
   part.touch = {};
+  noteAxes(part.notes, axes * statedBy(part.notes), image);
 }
 
 void correctMr(scene::Case& value, const std::string& name, const core::AxesCorrection& axes)
 {
   scene::ImagePart& mr = *std::find_if(value.mr.begin(), value.mr.end(),
                                        [&name](const auto& one) { return one.name == name; });
-  const std::string before = followedNote(mr);
   // Before the grid moves, by which a map without a statement is known to be drawn on it.
   std::vector<scene::LabelPart*> maps;
   for (scene::LabelPart& part : value.labels)
@@ -126,29 +174,18 @@ void correctMr(scene::Case& value, const std::string& name, const core::AxesCorr
       maps.push_back(&part);
   correctAxes(mr, axes);
   mr.object.clear();
-  const Eigen::Vector3d center = mr.geometry.center();
-  const auto note = [&](std::vector<std::string>& notes)
-  {
-    forget(notes, before);
-    if (!mr.provenance.axes.isIdentity())
-      notes.push_back(followedNote(mr));
-  };
   std::map<std::shared_ptr<const volume::LabelMap>, core::Lazy<volume::LabelMap>> made;
   for (scene::LabelPart* part : maps)
   {
     // Structures of one map may be in several parts.
     const auto drawn = part->labels.get();
-    correctMap(*part, axes, center);
+    correctMap(*part, axes, mr);
     part->labels = made.emplace(drawn, part->labels).first->second;
     part->drawnOn = name;
-    note(part->notes);
   }
   for (scene::MeshPart& part : value.meshes)
     if (part.drawnOn == name)
-    {
-      correctMesh(part, axes, center);
-      note(part.notes);
-    }
+      correctMesh(part, axes, mr);
   scene::removeRegistration(value, name);
 }
 
@@ -156,13 +193,7 @@ void correctMeshPart(scene::Case& value, const std::string& name, const core::Ax
 {
   scene::MeshPart& mesh = *scene::findMesh(value, name);
   const scene::ImagePart* mr = scene::findMr(value, mesh.drawnOn);
-  correctMesh(mesh, axes, (mr ? *mr : value.ct).geometry.center());
-  const std::string note = correctedAxesText(axes);
-  const auto noted = std::find(mesh.notes.begin(), mesh.notes.end(), note);
-  if (noted != mesh.notes.end() && (axes * axes).isIdentity())
-    mesh.notes.erase(noted); // it is as before
-  else
-    mesh.notes.push_back(note);
+  correctMesh(mesh, axes, mr ? *mr : value.ct);
 }
 
 void correctStructure(scene::Case& value, const std::string& name, const core::AxesCorrection& axes)
@@ -172,22 +203,15 @@ void correctStructure(scene::Case& value, const std::string& name, const core::A
   // what lies on parts of its grid keeps its place among the rest.
   const std::string on = scene::placementOf(value, *maps.front()).drawnOn;
   const scene::ImagePart* mr = scene::findMr(value, on);
-  const Eigen::Vector3d center = (mr ? *mr : value.ct).geometry.center();
   std::map<std::shared_ptr<const volume::LabelMap>, core::Lazy<volume::LabelMap>> made;
   for (scene::LabelPart& map : value.labels)
   {
     if (std::find(maps.begin(), maps.end(), &map) == maps.end())
       continue;
-    forget(map.notes, correctedAxesText(map.provenance.axes));
-    forget(map.notes, followedNote(value.ct));
-    if (mr)
-      forget(map.notes, followedNote(*mr));
     const auto drawn = map.labels.get();
-    correctMap(map, axes, center);
+    correctMap(map, axes, mr ? *mr : value.ct);
     map.drawnOn = on; // which an older case knows by the grid alone
     map.labels = made.emplace(drawn, map.labels).first->second;
-    if (!map.provenance.axes.isIdentity())
-      map.notes.push_back(correctedAxesText(map.provenance.axes));
   }
 }
 
@@ -260,25 +284,16 @@ scene::Case correctedCase(const scene::Case& value, const core::AxesCorrection& 
   next.derived = nullptr;
   correctAxes(next.ct, axes);
   next.ct.object.clear();
-  const Eigen::Vector3d center = next.ct.geometry.center();
-  const auto note = [&](std::vector<std::string>& notes)
-  {
-    forget(notes, followedNote(value.ct));
-    if (!next.ct.provenance.axes.isIdentity())
-      notes.push_back(followedNote(next.ct));
-  };
   for (scene::LabelPart& part : next.labels)
   {
     progress.check("correcting the axes");
-    correctMap(part, axes, center);
+    correctMap(part, axes, next.ct);
     part.drawnOn = std::string();
-    note(part.notes);
   }
   for (scene::MeshPart& part : next.meshes)
   {
     progress.check("correcting the axes");
-    correctMesh(part, axes, center);
-    note(part.notes);
+    correctMesh(part, axes, next.ct);
   }
   return next;
 }

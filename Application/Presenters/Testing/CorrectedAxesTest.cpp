@@ -5,6 +5,7 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -188,11 +189,14 @@ protected:
     return {"", m_folder / "ossicles.seg.nrrd"};
   }
 
-  /// A tetrahedron, its right angle at 0, 4, 5.
-  presenters::PartSource meshNamed(const std::string& name) const
+  /// A tetrahedron, its right angle at `corner`, its other vertices 1 mm along each axis.
+  presenters::PartSource meshNamed(const std::string& name,
+                                   const Eigen::Vector3f& corner = {0, 4, 5}) const
   {
     core::TriangleMesh mesh;
-    mesh.vertices = {{0, 4, 5}, {1, 4, 5}, {0, 5, 5}, {0, 4, 6}};
+    mesh.vertices = {corner};
+    for (int axis = 0; axis < 3; ++axis)
+      mesh.vertices.push_back(corner + Eigen::Vector3f::Unit(axis));
     mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     imaging::writeMesh(m_folder / (name + ".obj"), mesh);
     return {name, m_folder / (name + ".obj")};
@@ -899,4 +903,44 @@ TEST_F(CorrectedAxes, AreNotedAsOneOfSeveral)
   for (const auto& notes : notesOf(value))
     EXPECT_TRUE(isNoted(notes, "as its file states it, and follows the correction of its "
                                "axes (RAS)"));
+}
+
+// Of what is on a grid of its own, or on an MR: the places of
+// OfLabelsTurnThemAboutTheMiddleOfTheir- Image and OfLabelsOnAnMrTurnThemAboutItsMiddle, of which
+// the files were corrected when they came.
+TEST_F(CorrectedAxes, OfPartsOfTheOpenCaseTurnThemAboutTheMiddleOfTheirImage)
+{
+  const core::GridGeometry grid({9, 9, 11}, Vector3d::Constant(1.5), Vector3d(-30, 20, 10));
+  imaging::writeVolume(m_folder / "mr.nrrd", volume::Volume<std::int16_t>(grid, std::int16_t{7}));
+  m_sources.axes = {};
+  m_sources.parts.mr = {{"t2", m_folder / "mr.nrrd"}}; // its centre is -24, 26, 17.5
+  m_sources.parts.labels = {
+      labelsOn(core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d(-6, 3, 3)),
+               "incus.nrrd"), // at -2, 7, 7
+      labelsOn(core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d(-28, 21, 8)), "tumour.nrrd",
+               "t2")}; // at -24, 25, 12
+  m_sources.parts.labels[1].name = "tumour";
+  m_sources.parts.meshes = {meshNamed("cyst", {-28, 22, 11})};
+  m_sources.parts.meshes[0].drawnOn = "t2";
+  const scene::Case value = presenters::buildCase("ear", m_sources, {});
+  for (const auto& [letters, ofCt, ofMr, vertex] :
+       {std::tuple("RPS", Vector3d(1, 7, 7), Vector3d(-24, 25, 12), Vector3d(-21, 22, 11)),
+        std::tuple("LPI", Vector3d(-2, 7, 8), Vector3d(-24, 25, 23), Vector3d(-27, 22, 24)),
+        std::tuple("SLA", Vector3d(-1, 8, 6), Vector3d(-25, 31.5, 17.5),
+                   Vector3d(-28, 32.5, 14.5))})
+  {
+    scene::Case corrected = value;
+    for (const char* const name : {"incus", "tumour", "cyst"})
+      presenters::correctPart(corrected, presenters::axesPart(corrected, name),
+                              AxesCorrection::parse(letters));
+    EXPECT_LT((placeOf(corrected.labels.at(0)) - ofCt).norm(), 1e-9)
+        << letters << ": " << placeOf(corrected.labels[0]).transpose();
+    EXPECT_LT((placeOf(corrected.labels.at(1)) - ofMr).norm(), 1e-9)
+        << letters << ": " << placeOf(corrected.labels[1]).transpose();
+    EXPECT_EQ(corrected.labels[1].drawnOn, "t2");
+    const Vector3d moved = corrected.meshes.at(0).mesh.get()->vertices.at(1).cast<double>();
+    EXPECT_LT((moved - vertex).norm(), 1e-4) << letters << ": " << moved.transpose();
+    EXPECT_TRUE(core::sameGrid(corrected.mr.at(0).geometry, grid)) << "the image stays";
+    EXPECT_TRUE(core::sameGrid(corrected.ct.geometry, kFileGrid));
+  }
 }

@@ -57,14 +57,6 @@ char opposite(char letter)
   return kLetters[(at - std::begin(kLetters)) ^ 1];
 }
 
-QString listed(const std::vector<std::string>& names)
-{
-  QStringList all;
-  for (const std::string& name : names)
-    all += words(name);
-  return all.join(", ");
-}
-
 QString followText(const presenters::AxesFollowers& followers)
 {
   QStringList lines;

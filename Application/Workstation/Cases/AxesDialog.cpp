@@ -292,10 +292,10 @@ void AxesDialog::setAxes(const AxesCorrection& axes)
     m_choices[axis]->setCurrentIndex(m_choices[axis]->findData(QChar(axes.letter(axis))));
   }
   m_apply->setEnabled(!axes.isIdentity());
-  m_kind->setText(axes.isIdentity()    ? tr("As it is. Choose what is wrong.")
-                  : axes.isMirroring() ? tr("The anatomy is mirrored: a left ear becomes a right "
-                                            "one.")
-                                       : tr("The anatomy is turned, and not mirrored."));
+  m_kind->setText(axes.isIdentity()     ? tr("As it is. Choose what is wrong.")
+                  : !axes.isMirroring() ? tr("The anatomy is turned, and not mirrored.")
+                  : m_part ? tr("It is mirrored. The image on which it lies stays as it is.")
+                           : tr("The anatomy is mirrored: a left ear becomes a right one."));
   scene::Case shown = m_image;
   if (!axes.isIdentity() && !m_part)
     shown = presenters::correctedCase(m_image, axes, m_image.name);

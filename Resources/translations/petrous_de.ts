@@ -1165,6 +1165,10 @@
         <source>C&amp;orrect the axes</source>
         <translation>Achsen &amp;korrigieren</translation>
     </message>
+    <message>
+        <source>It is mirrored. The image on which it lies stays as it is.</source>
+        <translation>Es wird gespiegelt. Das Bild, auf dem es liegt, bleibt, wie es ist.</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::BackgroundWork</name>

@@ -1236,6 +1236,14 @@
         <translation>Achsen: LPS lässt sie, wie sie sind; sagen Sie, wohin das wirklich zeigt, was die Datei links, hinten und oben nennt, etwa RPS</translation>
     </message>
     <message>
+        <source>'%1' keeps its axes: whether '%2' goes with it is not known: %~3</source>
+        <translation>„%1“ behält seine Achsen; ob „%2“ mitgeht, ist nicht bekannt: %~3</translation>
+    </message>
+    <message>
+        <source>'%1' keeps its axes: %~2</source>
+        <translation>„%1“ behält seine Achsen: %~2</translation>
+    </message>
+    <message>
         <source>lies in the space of '%1' as its file states it, and follows the correction of its axes (%2)</source>
         <translation>liegt im Raum von „%1“, wie dessen Datei ihn angibt, und folgt der Korrektur seiner Achsen (%2)</translation>
     </message>

@@ -6,6 +6,7 @@
 #include "LookEdits.h"
 #include "Notify.h"
 #include "RecordedParts.h"
+#include "SameLabels.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/CorrectedCase.h"
@@ -382,14 +383,9 @@ void WorkstationModel::bringBack(std::uint64_t removal)
   if (removed.labels)
   {
     scene::LabelPart& part = removed.labels->part;
-    const auto rest = std::find_if(m_case->labels.begin(), m_case->labels.end(),
-                                   [&part](const scene::LabelPart& one)
-                                   {
-                                     if (!one.object.empty() && !part.object.empty())
-                                       return one.object == part.object;
-                                     const auto voxels = part.labels.peek(); // made in memory
-                                     return voxels && one.labels.peek() == voxels;
-                                   });
+    const auto rest =
+        std::find_if(m_case->labels.begin(), m_case->labels.end(),
+                     [&part](const scene::LabelPart& one) { return haveSameLabels(one, part); });
     if (!removed.wasAlone && rest != m_case->labels.end())
     {
       const std::size_t at = std::min(removed.structure, rest->structures.size());
@@ -422,6 +418,7 @@ void WorkstationModel::correctAxes(const std::string& part, const core::AxesCorr
 {
   if (!m_case || drilling())
     return;
+  const AxesPart corrected = axesPart(*m_case, part); // and no namesake that was taken out
   scene::Case next = *m_case;
   for (const RemovedPart& removed : m_removed)
   {
@@ -431,7 +428,7 @@ void WorkstationModel::correctAxes(const std::string& part, const core::AxesCorr
       next.meshes.push_back(removed.mesh->part);
   }
   scene::Case present = next; // shares what is read
-  correctPart(next, part, axes);
+  correctPart(next, corrected, axes);
   PlacedParts before, after;
   for (std::size_t n = 0; n < next.mr.size(); ++n)
     if (next.mr[n].provenance.axes != present.mr[n].provenance.axes)
@@ -513,6 +510,8 @@ void WorkstationModel::placeParts(const PlacedParts& from, const PlacedParts& to
             {
               if (part.labels.peek() != was)
                 return;
+              if (to.labels[n].drawnOn != from.labels[n].drawnOn) // an older case's, by the grid
+                part.drawnOn = to.labels[n].drawnOn;
               part.labels = to.labels[n].labels;
               part.object = to.labels[n].object;
               part.provenance.axes = to.labels[n].provenance.axes;

@@ -15,6 +15,7 @@
 #include "ShapeCase.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/DissectionDistances.h"
 #include "petrous/Presenters/IdentityText.h"
 #include "petrous/Presenters/IntensityDisplay.h"

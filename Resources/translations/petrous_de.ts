@@ -10133,8 +10133,8 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Bei einem Bild, das gespiegelt ist oder anders liegt, als seine Buchstaben sagen: ein neuer Fall daraus mit den richtigen</translation>
     </message>
     <message>
-        <source>By a degree, within the slice that has the keyboard; in the 3D view about the vertical of the picture</source>
-        <translation>Um ein Grad, in der Schicht, der die Tastatur gehört; in der 3D-Ansicht um die Senkrechte des Bildes</translation>
+        <source>By a degree, within the slice that has the keyboard; in the 3D view about the vertical of the picture, as seen from above</source>
+        <translation>Um ein Grad, in der Schicht, der die Tastatur gehört; in der 3D-Ansicht um die Senkrechte des Bildes, von oben gesehen</translation>
     </message>
     <message>
         <source>Turn the cut counterclockwise</source>

@@ -246,6 +246,17 @@ private:
   QPointer<QTimer> m_timer; // its window's, which may end before
 };
 
+// As QMessageBox::about, in rich text.
+void showAbout(QWidget& window)
+{
+  constexpr int kIcon = 64; // pixels
+  QMessageBox box(QMessageBox::NoIcon, MainWindow::tr("About Petrous"), aboutText(),
+                  QMessageBox::Ok, &window);
+  box.setTextFormat(Qt::RichText);
+  box.setIconPixmap(window.windowIcon().pixmap(kIcon));
+  box.exec();
+}
+
 } // namespace
 
 MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
@@ -902,7 +913,6 @@ void MainWindow::connectActions()
           {
             QMessageBox box(QMessageBox::Warning, tr("Instrument from a file"), why,
                             QMessageBox::Close, this);
-            box.setTextFormat(Qt::PlainText);
             const auto* choose = box.addButton(tr("Choose a &file…"), QMessageBox::AcceptRole);
             box.exec();
             if (box.clickedButton() == choose)
@@ -932,7 +942,7 @@ void MainWindow::connectActions()
        statusBar()->showMessage(why.isEmpty() ? tr("The manual is in the browser") : why, kMessage);
      });
   on(m_actions->findCommand, [this] { findCommand(); });
-  on(m_actions->about, [this] { QMessageBox::about(this, tr("About Petrous"), aboutText()); });
+  on(m_actions->about, [this] { showAbout(*this); });
   m_bound.add(
       m_actions->record, [this] { return !m_model.recording().empty(); },
       [this](bool chosen) { record(chosen); });
@@ -1406,7 +1416,6 @@ void MainWindow::editCatalogues()
                                 capitalized(sentence(why)), QMessageBox::Cancel, this);
     box->setObjectName("catalogueRepair");
     box->setAttribute(Qt::WA_DeleteOnClose);
-    box->setTextFormat(Qt::PlainText);
     box->setInformativeText(tr("Begin with the built-in tables in place of what cannot be read? "
                                "The file stays as it is until you save, which replaces or removes "
                                "it."));
@@ -1490,7 +1499,6 @@ void MainWindow::notice(const QString& text)
   auto* box = new QMessageBox(QMessageBox::Information, tr("Note on the case"), text,
                               QMessageBox::Ok, this);
   box->setAttribute(Qt::WA_DeleteOnClose);
-  box->setTextFormat(Qt::PlainText);
   box->open();
 }
 

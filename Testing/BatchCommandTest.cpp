@@ -464,7 +464,7 @@ TEST_F(BatchCommand, SaysOfMeshesWhatTheirFilesDoNot)
   EXPECT_NE(rows[1]["error"].get<std::string>().find("--mesh-axes LPS"), std::string::npos);
   EXPECT_NE(rows[4]["error"].get<std::string>().find("'mesh_unit' is "), std::string::npos);
   // The CT's centre in x, about which it is mirrored.
-  const auto& ct = json("info told")["ct"];
+  const nlohmann::json ct = json("info told")["ct"];
   const double center = ct["origin_mm"][0].get<double>() + 0.5 *
                                                                (ct["dims"][0].get<double>() - 1.0) *
                                                                ct["spacing_mm"][0].get<double>();

@@ -69,9 +69,9 @@ void watchInterrupt()
 } // namespace
 
 const char* const kExitCodes =
-    "Exit codes: 0 done; 1 internal error or fault of this machine, or done but the answer could "
-    "not be written to stdout; 2 wrong usage; 3 bad input; 4 refused so that nothing is lost; 130 "
-    "interrupted (Ctrl+C)";
+    "Exit codes: 0 done; 1 a fault of the program or the machine, or done but the answer could not "
+    "be written to stdout; 2 wrong usage; 3 bad input; 4 refused to prevent data loss, or as this "
+    "machine lacks the room; 130 interrupted by Ctrl+C";
 
 void Context::addOptions(CLI::App& app)
 {

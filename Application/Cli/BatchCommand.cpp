@@ -425,10 +425,7 @@ public:
   bool isJson() const { return m_asJson; }
 
 private:
-  static void print(const json& line)
-  {
-    std::cerr << line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n" << std::flush;
-  }
+  static void print(const json& line) { std::cerr << jsonLine(line) + "\n" << std::flush; }
 
   const Context& m_context;
   bool m_asJson;

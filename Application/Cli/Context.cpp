@@ -251,10 +251,15 @@ std::string terminalText(const std::string& text)
   return scene::withVisibleControls(text, "\n\t");
 }
 
+std::string jsonLine(const nlohmann::json& object, int indent)
+{
+  return object.dump(indent, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
 std::string jsonText(nlohmann::json object)
 {
   object["schema_version"] = kSchemaVersion;
-  return object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return jsonLine(object, 1) + "\n";
 }
 
 void Context::warn(const std::string& line) const

@@ -500,11 +500,13 @@ public:
     const auto finish = [&](const std::string& status, const std::string& error)
     {
       result.status = status;
-      result.error = sources.in(error, result.ownUids);
+      const auto told = [&](const std::string& text)
+      { return withColumns(sources.in(text, result.ownUids)); };
+      result.error = told(error);
       for (StepResult& step : result.steps)
         step.text = sources.in(step.text, result.ownUids);
       for (std::string& note : result.notes)
-        note = sources.in(note, result.ownUids);
+        note = told(note);
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
       result.seconds = seconds.count();
     };

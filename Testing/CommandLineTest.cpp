@@ -837,7 +837,7 @@ TEST_F(CommandLine, ATerminalObeysNothingThatIsPrinted)
   // JSON escapes controls below a blank alone by itself.
   const std::string cell = "/nowhere/\xc2\x9b"
                            "31m\u202e\x7f";
-  std::ofstream(m_folder / "table.csv") << "name,folder\nrow," << cell << "\n";
+  std::ofstream(m_folder / "table.csv") << "name,folder\n" << cell << "," << cell << "\n";
   for (const std::string& arguments :
        {std::string("library list"), "info '" + name + "'", "new other --ct '" + cell + "'",
         "batch --progress " + quoted(m_folder / "table.csv")})

@@ -263,7 +263,8 @@ TEST_F(AppearanceCommand, SaysHowAStructureYieldsUnderTheHand)
   const auto& tissues = tables["soft_tissues"];
   ASSERT_EQ(tissues[0]["name"], "nerve");
   EXPECT_EQ(part("incus")["stiffness_n_per_mm"], tissues[0]["stiffness_n_per_mm"]);
-  expectRefused("appearance ear --stiffness incus=cartilage", 2, "--stiffness");
+  expectRefused("appearance ear --stiffness incus=cartilage", 2,
+                "'cartilage' is neither a number nor a soft tissue; there are nerve, ");
   json("appearance ear --stiffness cochlea=rigid --set incus=ossicle");
   EXPECT_TRUE(part("cochlea")["stiffness_n_per_mm"].is_null());
   EXPECT_TRUE(part("incus")["stiffness_n_per_mm"].is_null()) << "the preset is rigid";
@@ -448,7 +449,7 @@ TEST_F(AppearanceCommand, RefusalsNameWhatIsWrongAndLeaveTheCase)
   expectRefused("appearance ear --opacity cochlea=1.5", 2, "0 to 1");
   expectRefused("appearance ear --stiffness cochlea=0", 2, "rigid");
   expectRefused("appearance ear --stiffness cochlea=1000", 2, "0.001 to 100");
-  expectRefused("appearance ear --stiffness cochlea=jelly", 2, "not a number");
+  expectRefused("appearance ear --stiffness cochlea=jelly", 2, "neither a number");
   expectRefused("appearance ear --stiffness ct=1", 3, "bone is rigid");
   expectRefused("appearance ear --warn cochlea=51", 2, "0 to 50 mm");
   expectRefused("appearance ear --warn cochlea=near", 2, "not a number");

@@ -466,6 +466,15 @@ void setStiffness(const Context& context, scene::Case& value, const StructurePro
                   const Part& part, const std::string& text)
 {
   const appearance::SoftTissue* tissue = appearance::findSoftTissue(text);
+  if (!tissue && text != property.off && text.find_first_of("0123456789") == text.npos)
+  {
+    std::vector<std::string> names;
+    for (const appearance::SoftTissue& one : appearance::softTissues())
+      names.push_back(one.name);
+    throw UsageError(property.option.name + (": '" + text) +
+                     "' is neither a number nor a soft tissue; there are " +
+                     CLI::detail::join(names, ", "));
+  }
   setNumber(context, value, property, part, tissue ? core::plainText(tissue->stiffness) : text);
   if (tissue)
     context.warn("'" + part.name + "' yields with " + core::plainText(tissue->stiffness) +

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "EditGroups.h"
 #include "LookEdits.h"
 #include "Notify.h"
 #include "RecordedParts.h"
@@ -479,7 +480,7 @@ void WorkstationModel::correctAxes(const std::string& part, const core::AxesCorr
               {},
               [this, before, after] { placeParts(after, before); },
               [this, before, after] { placeParts(before, after); },
-              true});
+              true, after.mr.empty() ? "" : kMrAxes});
 }
 
 // Parts are found by their data: their names and places in the case may be others.

@@ -46,9 +46,13 @@ AxesFollowers axesFollowers(const scene::Case& value, const std::string& part);
 ///            more, nor are those that are registered through it
 /// structure  with all of its label map, about the centre of that one's grid
 /// mesh       about the centre of the image on which it was drawn
-/// Voxels are not copied. Throws InvalidParameter for the identity and if there is no such part,
+/// What was measured along a structure or to one that moves does not follow it any more
+/// (scene::forgetStructure). Voxels are not copied. Throws InvalidParameter for the identity and if there is no such part,
 /// Error (Refused) if strokes record what was removed from one that would move; what reading them
 /// throws. Strong exception guarantee.
 void correctPart(scene::Case& value, const std::string& part, const core::AxesCorrection& axes);
+
+/// The structures and meshes of `before` that correctPart moved in `after`.
+std::vector<std::string> movedNames(const scene::Case& before, const scene::Case& after);
 
 } // namespace petrous::presenters

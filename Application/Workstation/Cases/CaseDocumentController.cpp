@@ -1706,8 +1706,10 @@ void CaseDocumentController::restorePart()
 
 void CaseDocumentController::renamePart(const std::string& name)
 {
-  if (!m_model.hasCase() || writing())
+  if (!m_model.hasCase())
     return;
+  if (writing())
+    return emit statusMessage(tr("One at a time: something is being read already"));
   const QScopedValueRollback<bool> asking(m_asking, true);
   const std::string to =
       bytes(askName(m_window, tr("Rename"), tr("New name of “%1”:").arg(words(name)), words(name),
@@ -1724,8 +1726,10 @@ void CaseDocumentController::renamePart(const std::string& name)
 
 void CaseDocumentController::correctAxes(const std::string& part)
 {
-  if (!m_model.hasCase() || writing())
+  if (!m_model.hasCase())
     return;
+  if (writing())
+    return emit statusMessage(tr("One at a time: something is being read already"));
   core::AxesCorrection axes;
   const std::uint64_t shown = m_model.shownAs();
   try

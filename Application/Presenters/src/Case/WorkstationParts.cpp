@@ -579,6 +579,7 @@ void WorkstationModel::placeParts(const PlacedParts& from, const PlacedParts& to
             });
   if (found == 0)
     throw core::InvalidParameter("the axes stay: what was corrected was replaced since");
+  forgetTissue(); // an MR may be felt, too
   scene::layAs(*m_case, to.places);
   m_partsMoved = true;
   if (to.labels.empty() && to.meshes.empty())

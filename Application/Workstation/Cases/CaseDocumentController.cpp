@@ -727,7 +727,8 @@ bool CaseDocumentController::askRegion(Item& item)
   if (!item.region && !item.source.isTooLarge)
     return true;
   RegionDialog dialog(item.source.path, item.source.selector, !item.source.repair.empty(),
-                      item.assumeRas, item.unit, &m_window);
+                      item.assumeRas, item.unit, &m_window,
+                      item.axes.value_or(core::AxesCorrection()));
   dialog.setWindowTitle(tr("Region of the %1").arg(lineOf(item.source)));
   if (dialog.exec() != QDialog::Accepted)
     return false;

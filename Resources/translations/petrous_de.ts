@@ -6099,6 +6099,10 @@ Verletzt: %1, %2</translation>
         <source>Drag an edge of the box, or the box.  Outside it: move the crosshair.  Wheel: scroll.</source>
         <translation>Ziehen Sie eine Kante des Quaders oder den Quader.  Außerhalb: Fadenkreuz bewegen.  Rad: blättern.</translation>
     </message>
+    <message>
+        <source>Only what lies in the box is read: drag its edges, or give it in mm (the file&apos;s LPS). The letters at the slices are the patient&apos;s, by the corrected axes.</source>
+        <translation>Gelesen wird nur, was im Quader liegt: Ziehen Sie seine Kanten, oder geben Sie ihn in mm an (LPS der Datei). Die Buchstaben an den Schichten sind die des Patienten, nach den korrigierten Achsen.</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::RegistrationController</name>
@@ -7678,6 +7682,18 @@ Verletzt: %1, %2</translation>
     <message>
         <source>as the file states</source>
         <translation>wie die Datei sagt</translation>
+    </message>
+    <message>
+        <source>as its image</source>
+        <translation>wie sein Bild</translation>
+    </message>
+    <message>
+        <source>It follows a correction of the image on which it was drawn</source>
+        <translation>Es folgt einer Korrektur des Bildes, auf dem es gezeichnet wurde</translation>
+    </message>
+    <message>
+        <source>It lies where it belongs, whatever is wrong with its image</source>
+        <translation>Es liegt, wo es hingehört, was auch an seinem Bild falsch ist</translation>
     </message>
 </context>
 <context>

@@ -1788,6 +1788,14 @@
         <translation>„%1“ kann nicht zurück: Das MR „%2“, auf dem gezeichnet wurde, ist nicht mehr im Fall</translation>
     </message>
     <message>
+        <source>the axes of '%1' were corrected since: undo that first</source>
+        <translation>die Achsen von „%1“ wurden seither korrigiert: Nehmen Sie erst das zurück</translation>
+    </message>
+    <message>
+        <source>the axes of an MR were corrected while it was registered: the MR lies as before; register it again</source>
+        <translation>die Achsen eines MR wurden korrigiert, während es registriert wurde: Das MR liegt wie zuvor; registrieren Sie es noch einmal</translation>
+    </message>
+    <message>
         <source>'%1' keeps its axes: what goes with it could not be read</source>
         <translation>„%1“ behält seine Achsen: Was mitgeht, war nicht zu lesen</translation>
     </message>
@@ -2340,6 +2348,10 @@
         <translation>entlang der Mittellinie von „%1“, das entfernt wurde</translation>
     </message>
     <message>
+        <source>along the centre line of '%1', which was removed or moved since</source>
+        <translation>entlang der Mittellinie von „%1“, seither entfernt oder verschoben</translation>
+    </message>
+    <message>
         <source>along the centre line of '%1'</source>
         <translation>entlang der Mittellinie von „%1“</translation>
     </message>
@@ -2358,6 +2370,10 @@
     <message>
         <source>to '%1', which was removed</source>
         <translation>zu „%1“, das entfernt wurde</translation>
+    </message>
+    <message>
+        <source>to '%1', which was removed or moved since</source>
+        <translation>zu „%1“, seither entfernt oder verschoben</translation>
     </message>
     <message>
         <source>to '%1'</source>

@@ -19,6 +19,7 @@
 #include "petrous/Library/Library.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CorrectedCase.h"
+#include "petrous/Presenters/Measuring.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Presenters/WorkstationModel.h"
@@ -682,6 +683,78 @@ TEST_F(CorrectedAxes, OfAnMrOfTheOpenCaseAreCorrectedInIt)
   EXPECT_THROW(model.correctAxes("t2", {}), core::InvalidParameter);
   EXPECT_THROW(model.correctAxes("ct", AxesCorrection::parse("RPS")), core::InvalidParameter);
   expectStated();
+}
+
+// What was measured along a structure or to it lies where that was; what was taken out comes back
+// without it. Of marks and of other structures nothing changes.
+TEST_F(CorrectedAxes, AreNotFollowedByWhatWasMeasured)
+{
+  auto voxels = volume::makeZeroVolume<std::uint16_t>(kFileGrid);
+  voxels->at(4, 4, 4) = 1;
+  voxels->at(5, 4, 4) = 2;
+  volume::Segment nerve, malleus;
+  nerve.name = "nerve";
+  nerve.index = 1;
+  malleus.name = "malleus";
+  malleus.index = 2;
+  imaging::writeLabelFile(m_folder / "map.seg.nrrd",
+                          volume::makeLabelMap(voxels, {nerve, malleus}));
+  core::TriangleMesh mesh;
+  mesh.vertices = {{0, 4, 5}, {1, 4, 5}, {0, 5, 5}, {0, 4, 6}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  imaging::writeMesh(m_folder / "stapes.obj", mesh);
+  m_sources.axes = {};
+  m_sources.parts.labels = {{"", m_folder / "map.seg.nrrd"}};
+  m_sources.parts.meshes = {{"stapes", m_folder / "stapes.obj"}};
+  library::Library library(m_folder / "library");
+  presenters::WorkstationModel model(library);
+  model.adopt(presenters::buildCase("ear", m_sources, {}));
+  std::vector<scene::Measurement> made(3);
+  for (std::size_t n = 0; n < made.size(); ++n)
+  {
+    made[n].kind = scene::Measurement::Kind::Length;
+    made[n].name = "length " + std::to_string(n);
+    made[n].points = {{-4, 6, 7}, {-3, 6, 7}};
+    made[n].structure = std::vector<std::string>{"nerve", "malleus", "stapes"}[n];
+  }
+  model.setMeasurements(made);
+  const auto gone = [&model]
+  {
+    std::string flags;
+    for (const scene::Measurement& one : model.value().measurements)
+      flags += one.structureGone ? '1' : '0';
+    return flags;
+  };
+  const AxesCorrection mirrored = AxesCorrection::parse("RPS");
+  scene::Case corrected = model.value();
+  presenters::correctPart(corrected, "nerve", mirrored);
+  EXPECT_TRUE(corrected.measurements[0].structureGone);
+  EXPECT_TRUE(corrected.measurements[1].structureGone) << "of the same map";
+  EXPECT_FALSE(corrected.measurements[2].structureGone);
+  EXPECT_NE(presenters::quantitiesOf(corrected, corrected.measurements[0])[0].remark.find("moved"),
+            std::string::npos);
+
+  model.correctAxes("nerve", mirrored);
+  EXPECT_EQ(gone(), "110");
+  model.undo();
+  EXPECT_EQ(gone(), "000");
+  model.redo();
+  EXPECT_EQ(gone(), "110");
+  model.correctAxes("stapes", mirrored);
+  EXPECT_EQ(gone(), "111");
+  model.undo();
+  model.undo();
+  EXPECT_EQ(gone(), "000");
+  model.removePart("malleus");
+  EXPECT_EQ(gone(), "010");
+  model.correctAxes("nerve", mirrored);
+  model.restorePart();
+  EXPECT_EQ(gone(), "110") << "it comes back mirrored";
+  model.undo();
+  model.undo();
+  EXPECT_EQ(gone(), "010");
+  model.restorePart();
+  EXPECT_EQ(gone(), "000");
 }
 
 // As of --labels-axes and --mesh-axes.

@@ -722,7 +722,8 @@ bool CaseDocumentController::askRegion(Item& item)
   if (!item.region && !item.source.isTooLarge)
     return true;
   RegionDialog dialog(item.source.path, item.source.selector, !item.source.repair.empty(),
-                      item.assumeRas, item.unit, &m_window);
+                      item.assumeRas, item.unit, &m_window,
+                      item.axes.value_or(core::AxesCorrection()));
   dialog.setWindowTitle(tr("Region of the %1").arg(lineOf(item.source)));
   if (dialog.exec() != QDialog::Accepted)
     return false;
@@ -1691,8 +1692,10 @@ void CaseDocumentController::restorePart()
 
 void CaseDocumentController::renamePart(const std::string& name)
 {
-  if (!m_model.hasCase() || writing())
+  if (!m_model.hasCase())
     return;
+  if (writing())
+    return emit statusMessage(tr("One at a time: something is being read already"));
   const QScopedValueRollback<bool> asking(m_asking, true);
   const std::string to =
       bytes(askName(m_window, tr("Rename"), tr("New name of “%1”:").arg(words(name)), words(name),
@@ -1709,8 +1712,10 @@ void CaseDocumentController::renamePart(const std::string& name)
 
 void CaseDocumentController::correctAxes(const std::string& part)
 {
-  if (!m_model.hasCase() || writing())
+  if (!m_model.hasCase())
     return;
+  if (writing())
+    return emit statusMessage(tr("One at a time: something is being read already"));
   core::AxesCorrection axes;
   const std::uint64_t shown = m_model.shownAs();
   try

@@ -1611,6 +1611,8 @@ void MainWindow::fillCaseMenu()
 // Of a part.
 void MainWindow::correctAxes(const std::string& part)
 {
+  if (m_registration->running() && m_model.hasCase() && scene::findMr(m_model.value(), part))
+    return statusBar()->showMessage(disturbsText(), kMessage);
   m_drill->releaseTool(); // ends an open stroke
   m_keeper->correctAxes(part);
 }

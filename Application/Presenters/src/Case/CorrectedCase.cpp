@@ -298,6 +298,19 @@ scene::Case correctedCase(const scene::Case& value, const core::AxesCorrection& 
   return next;
 }
 
+std::vector<std::string> movedNames(const scene::Case& before, const scene::Case& after)
+{
+  std::vector<std::string> names;
+  for (std::size_t n = 0; n < before.labels.size(); ++n)
+    if (before.labels[n].labels.peek() != after.labels[n].labels.peek())
+      for (const scene::StructurePart& one : before.labels[n].structures)
+        names.push_back(one.name);
+  for (std::size_t n = 0; n < before.meshes.size(); ++n)
+    if (before.meshes[n].mesh.peek() != after.meshes[n].mesh.peek())
+      names.push_back(before.meshes[n].name);
+  return names;
+}
+
 AxesPart axesPart(const scene::Case& value, const std::string& name)
 {
   if (scene::findMr(value, name))
@@ -355,6 +368,8 @@ void correctPart(scene::Case& value, const AxesPart& part, const core::AxesCorre
     correctStructure(next, part.name, axes);
     break;
   }
+  for (const std::string& name : movedNames(value, next))
+    scene::forgetStructure(next.measurements, name);
   value = std::move(next);
 }
 

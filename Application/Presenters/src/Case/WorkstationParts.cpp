@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "EditGroups.h"
 #include "LookEdits.h"
 #include "Notify.h"
 #include "RecordedParts.h"
@@ -473,12 +474,57 @@ void WorkstationModel::correctAxes(const std::string& part, const core::AxesCorr
                                                   "' keeps its axes: what goes with it could not "
                                                   "be read");
   }
-  placeParts(before, after);
+  // What was measured by them lies where they were; what follows what was taken out as well.
+  const std::size_t structures = m_case->labels.size(), meshes = m_case->meshes.size();
+  for (scene::Case* one : {&present, &next})
+  {
+    one->labels.resize(std::min(structures, one->labels.size()));
+    one->meshes.resize(std::min(meshes, one->meshes.size()));
+  }
+  const std::vector<std::string> moved = movedNames(present, next);
+  std::map<std::uint64_t, std::vector<std::string>> ofRemoved;
+  for (const RemovedPart& removed : m_removed)
+  {
+    const auto isMoved = [](const auto& data, const auto& parts, auto kind)
+    {
+      return std::any_of(parts.begin(), parts.end(),
+                         [&](const auto& one) { return (one.*kind).peek() == data.peek(); });
+    };
+    if ((removed.labels &&
+         isMoved(removed.labels->part.labels, before.labels, &scene::LabelPart::labels)) ||
+        (removed.mesh && isMoved(removed.mesh->part.mesh, before.meshes, &scene::MeshPart::mesh)))
+      ofRemoved[removed.id] = removed.measured;
+  }
+  const auto measured =
+      std::make_shared<std::vector<std::pair<std::string, std::vector<std::string>>>>();
+  const auto place = [this, before, after, moved, ofRemoved, measured]
+  {
+    placeParts(before, after);
+    for (RemovedPart& removed : m_removed)
+      if (ofRemoved.count(removed.id) > 0)
+        removed.measured.clear();
+    measured->clear();
+    auto measurements = m_case->measurements;
+    for (const std::string& name : moved)
+      measured->emplace_back(name, scene::forgetStructure(measurements, name));
+    setMeasurements(std::move(measurements));
+  };
+  place();
   recordEdit({"axes of " + shownName(part),
               {},
-              [this, before, after] { placeParts(after, before); },
-              [this, before, after] { placeParts(before, after); },
-              true});
+              [this, before, after, ofRemoved, measured]
+              {
+                placeParts(after, before);
+                for (RemovedPart& removed : m_removed)
+                  if (const auto was = ofRemoved.find(removed.id); was != ofRemoved.end())
+                    removed.measured = was->second;
+                auto measurements = m_case->measurements;
+                for (const auto& [name, which] : *measured)
+                  scene::recallStructure(measurements, name, which);
+                setMeasurements(std::move(measurements));
+              },
+              place,
+              true, after.mr.empty() ? "" : kMrAxes});
 }
 
 // Parts are found by their data: their names and places in the case may be others.
@@ -534,6 +580,7 @@ void WorkstationModel::placeParts(const PlacedParts& from, const PlacedParts& to
             });
   if (found == 0)
     throw core::InvalidParameter("the axes stay: what was corrected was replaced since");
+  forgetTissue(); // an MR may be felt, too
   scene::layAs(*m_case, to.places);
   m_partsMoved = true;
   if (to.labels.empty() && to.meshes.empty())

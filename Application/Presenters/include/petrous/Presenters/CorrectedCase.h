@@ -62,12 +62,15 @@ AxesFollowers axesFollowers(const scene::Case& value, const AxesPart& part);
 /// MR         about the centre of its grid, with what was drawn on it; it is not registered any
 ///            more, nor are those that are registered through it
 /// structure  with all that lie on its label map, also in other parts, about the centre of the
-/// image
-///            on which it was drawn
+///            image on which it was drawn
 /// mesh       about the centre of the image on which it was drawn
-/// `part` of axesPart. Voxels are not copied. Throws InvalidParameter for the identity, Error
-/// (Refused) if strokes record what was removed from one that would move; what reading them throws.
-/// Strong exception guarantee.
+/// What was measured along a structure or to one that moves does not follow it any more
+/// (scene::forgetStructure). `part` of axesPart. Voxels are not copied. Throws InvalidParameter for
+/// the identity, Error (Refused) if strokes record what was removed from one that would move; what
+/// reading them throws. Strong exception guarantee.
 void correctPart(scene::Case& value, const AxesPart& part, const core::AxesCorrection& axes);
+
+/// The structures and meshes of `before` that correctPart moved in `after`.
+std::vector<std::string> movedNames(const scene::Case& before, const scene::Case& after);
 
 } // namespace petrous::presenters

@@ -104,8 +104,8 @@ std::string operationCsv(const OperationReview& review)
        "max_force_n", "max_thrust_n", "strokes", "removed_mm3"}};
   for (const SessionReview::Structure& one : review.structures)
   {
-    rows.front().push_back("nearest_mm " + one.name);
-    rows.front().push_back("removed_mm3 " + one.name);
+    for (const char* quantity : {"nearest_mm", "removed_mm3"})
+      rows.front().push_back(quantity + (' ' + one.name));
   }
   const auto add = [&](std::vector<std::string> row, const SessionReview& part)
   {

@@ -271,10 +271,10 @@ ReplayPanel::ReplayPanel(QAction& play, QWidget* parent)
             if (m_refreshing || !item || !m_review)
               return;
             showMetrics();
-            if (const int row = m_parts->indexOfTopLevelItem(const_cast<QTreeWidgetItem*>(item));
-                row > 0)
+            if (const int at = m_parts->indexOfTopLevelItem(const_cast<QTreeWidgetItem*>(item));
+                at > 0)
               emit seekAsked(static_cast<int>(
-                  std::lround(1000.0 * m_review->parts[static_cast<std::size_t>(row - 1)].begin)));
+                  std::lround(1000.0 * m_review->parts[static_cast<std::size_t>(at - 1)].begin)));
           });
   connect(m_place, &QSlider::valueChanged, this,
           [this](int at)

@@ -282,6 +282,28 @@ TEST_F(AppearanceCommand, SaysThatALumenIsNotFeltWhateverItsFlags)
   EXPECT_TRUE(run("appearance ear --flags cochlea=shown,drillable").err.empty());
 }
 
+TEST_F(AppearanceCommand, SaysWhichFlagsAListDropsAndChangesThoseWithASign)
+{
+  json("appearance ear --flags cochlea=shown,touchable,drillable");
+  const auto outcome = run("appearance ear --flags cochlea=touchable");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("'cochlea' is no longer shown, drillable"), std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(part("cochlea")["flags"], "touchable");
+  json("appearance ear --flags cochlea=+drillable");
+  EXPECT_EQ(part("cochlea")["flags"], "touchable,drillable");
+  const auto answer = json("appearance ear --flags cochlea=shown --flags ct=-shown");
+  EXPECT_EQ(answer["flags_dropped"], nlohmann::json({{"cochlea", {"touchable", "drillable"}}}))
+      << answer["flags_dropped"];
+  EXPECT_EQ(part("ct")["flags"], "touchable,drillable");
+  EXPECT_EQ(json("appearance ear --flags cochlea=-shown,+touchable")["flags_dropped"],
+            nlohmann::json::object())
+      << "as asked for";
+  EXPECT_EQ(part("cochlea")["flags"], "touchable");
+  EXPECT_EQ(json("appearance ear --flags cochlea=none")["flags_dropped"], nlohmann::json::object());
+  expectRefused("appearance ear --flags cochlea=+shown,touchable", 3, "sign");
+}
+
 TEST_F(AppearanceCommand, SaysHowNearABurrMayCome)
 {
   EXPECT_EQ(part("cochlea")["warn_mm"], 1.0) << "as its preset";

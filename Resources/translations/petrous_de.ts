@@ -6598,6 +6598,10 @@ Verletzt: %1, %2</translation>
         <source>Pause recording</source>
         <translation>Aufzeichnung anhalten</translation>
     </message>
+    <message>
+        <source>%1 and %2 more</source>
+        <translation>%1 und %2 weitere</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ReplayPanel</name>
@@ -6784,6 +6788,30 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Times the drill was switched on</source>
         <translation>Wie oft der Bohrer eingeschaltet wurde</translation>
+    </message>
+    <message>
+        <source>Recordings of the operation</source>
+        <translation>Aufzeichnungen der Operation</translation>
+    </message>
+    <message>
+        <source>Drilling</source>
+        <translation>Bohrzeit</translation>
+    </message>
+    <message>
+        <source>Path</source>
+        <translation>Weg</translation>
+    </message>
+    <message>
+        <source>An operation has a recording for each burr. The tables below are those of the line that is chosen, which the time goes to</source>
+        <translation>Eine Operation hat für jeden Bohrer eine Aufzeichnung. Die Tabellen darunter gehören zur gewählten Zeile, zu deren Beginn die Zeit geht</translation>
+    </message>
+    <message>
+        <source>Together</source>
+        <translation>Zusammen</translation>
+    </message>
+    <message>
+        <source>All recordings of the operation, without the pauses between them</source>
+        <translation>Alle Aufzeichnungen der Operation, ohne die Pausen dazwischen</translation>
     </message>
 </context>
 <context>

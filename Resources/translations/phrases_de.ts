@@ -2012,6 +2012,10 @@
         <translation>%1: %#2 Punkte, keine Stelle bis 10 mm von der Spitze weiter als %#3 mm von einem entfernt und überhaupt keine weiter als %#4 mm; Knochen, der dünner als das Doppelte ist, kann ungefühlt zwischen ihnen hindurchgehen</translation>
     </message>
     <message>
+        <source>there is no recording to be read</source>
+        <translation>es ist keine Aufzeichnung zu lesen</translation>
+    </message>
+    <message>
         <source>%#1 stroke</source>
         <translation>%#1 Bohrzug</translation>
     </message>
@@ -2082,6 +2086,10 @@
     <message>
         <source>measuring the structures</source>
         <translation>die Strukturen werden gemessen</translation>
+    </message>
+    <message>
+        <source>recording</source>
+        <translation>Aufzeichnung</translation>
     </message>
     <message>
         <source>nerve</source>
@@ -3485,6 +3493,10 @@
     <message>
         <source>flag '%~1' is unknown; use %2 or none</source>
         <translation>Kennzeichen „%~1“ ist unbekannt; nehmen Sie %2 oder none</translation>
+    </message>
+    <message>
+        <source>flags '%1': give all of them a sign (+touchable,-drillable), or none</source>
+        <translation>Merkmale „%1“: alle mit Vorzeichen angeben (+touchable,-drillable) oder keines</translation>
     </message>
     <message>
         <source>colour: red, green and blue must lie in 0 to 1</source>
@@ -8767,10 +8779,6 @@
     <message>
         <source>not signed off</source>
         <translation>nicht freigegeben</translation>
-    </message>
-    <message>
-        <source>recording</source>
-        <translation>Aufzeichnung</translation>
     </message>
     <message>
         <source>screenshot</source>

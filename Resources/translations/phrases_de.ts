@@ -1788,14 +1788,6 @@
         <translation>„%1“ kann nicht zurück: Das MR „%2“, auf dem gezeichnet wurde, ist nicht mehr im Fall</translation>
     </message>
     <message>
-        <source>the axes of '%1' were corrected since: undo that first</source>
-        <translation>die Achsen von „%1“ wurden seither korrigiert: Nehmen Sie erst das zurück</translation>
-    </message>
-    <message>
-        <source>the axes of an MR were corrected while it was registered: the MR lies as before; register it again</source>
-        <translation>die Achsen eines MR wurden korrigiert, während es registriert wurde: Das MR liegt wie zuvor; registrieren Sie es noch einmal</translation>
-    </message>
-    <message>
         <source>'%1' keeps its axes: what goes with it could not be read</source>
         <translation>„%1“ behält seine Achsen: Was mitgeht, war nicht zu lesen</translation>
     </message>
@@ -2352,16 +2344,16 @@
         <translation>%~1, Unsicherheit unbekannt</translation>
     </message>
     <message>
-        <source>along the centre line of '%1', which was removed</source>
-        <translation>entlang der Mittellinie von „%1“, das entfernt wurde</translation>
+        <source>along the centre line of '%1'</source>
+        <translation>entlang der Mittellinie von „%1“</translation>
     </message>
     <message>
         <source>along the centre line of '%1', which was removed or moved since</source>
         <translation>entlang der Mittellinie von „%1“, seither entfernt oder verschoben</translation>
     </message>
     <message>
-        <source>along the centre line of '%1'</source>
-        <translation>entlang der Mittellinie von „%1“</translation>
+        <source>along the centre line of '%1', which was removed</source>
+        <translation>entlang der Mittellinie von „%1“, das entfernt wurde</translation>
     </message>
     <message>
         <source>its edges cross, so it has no area</source>
@@ -2376,16 +2368,16 @@
         <translation>die Punkte fallen zusammen</translation>
     </message>
     <message>
-        <source>to '%1', which was removed</source>
-        <translation>zu „%1“, das entfernt wurde</translation>
+        <source>to '%1'</source>
+        <translation>zu „%1“</translation>
     </message>
     <message>
         <source>to '%1', which was removed or moved since</source>
         <translation>zu „%1“, seither entfernt oder verschoben</translation>
     </message>
     <message>
-        <source>to '%1'</source>
-        <translation>zu „%1“</translation>
+        <source>to '%1', which was removed</source>
+        <translation>zu „%1“, das entfernt wurde</translation>
     </message>
     <message>
         <source>shortest thickness</source>
@@ -2768,6 +2760,10 @@
         <translation>die Mitte dessen, was beide Bilder zeigen</translation>
     </message>
     <message>
+        <source>the axes of an MR were corrected while it was registered: the MR lies as before; register it again</source>
+        <translation>die Achsen eines MR wurden korrigiert, während es registriert wurde: Das MR liegt wie zuvor; registrieren Sie es noch einmal</translation>
+    </message>
+    <message>
         <source>move of %1</source>
         <translation>Bewegung von %1</translation>
     </message>
@@ -2826,6 +2822,10 @@
     <message>
         <source>making the surface</source>
         <translation>die Oberfläche wird berechnet</translation>
+    </message>
+    <message>
+        <source>the axes of '%1' were corrected since: undo that first</source>
+        <translation>die Achsen von „%1“ wurden seither korrigiert: Nehmen Sie erst das zurück</translation>
     </message>
     <message>
         <source>threshold</source>

@@ -329,6 +329,8 @@ void printCase(const Context& context, const scene::Case& value, const CaseFacts
     context.print("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
                   measure + drilledText(mesh.name) + placeText(value, place) +
                   errorText(mesh.name) + (refusal.empty() ? "" : ", not touchable: " + refusal));
+    for (const std::string& note : mesh.notes) // which alone say what its file did not
+      context.print("    " + note);
   }
   context.print("  " + std::to_string(value.applied()) +
                 (value.applied() == 1 ? " stroke done, " : " strokes done, ") +

@@ -61,7 +61,7 @@ QString listed(const std::vector<std::string>& names)
 {
   QStringList all;
   for (const std::string& name : names)
-    all += words(name);
+    all += shownName(name);
   return all.join(", ");
 }
 

@@ -1302,6 +1302,21 @@ TEST_F(CommandLine, AxesThatAreWrongAreCorrected)
   expectRefused("correct-axes plain --axes RPS --as both --part incus", 2, "--part");
   expectRefused("correct-axes plain --axes RPS --part nothing", 3, "nothing");
 
+  // By the name that lists show.
+  json("add plain --labels sigmoid_sinus=" + quoted(m_folder / "incus.nrrd"));
+  json("correct-axes plain --axes LPI --part \"sigmoid sinus\"");
+  json("appearance plain --color \"sigmoid sinus=#112233\"");
+  const auto sinus = json("info plain")["labels"][1];
+  EXPECT_EQ(sinus["name"], "sigmoid_sinus");
+  EXPECT_EQ(sinus["provenance"]["corrected_axes"], "LPI");
+  EXPECT_NEAR(sinus["color"][2].get<double>(), 0x33 / 255.0, 1e-6);
+  ASSERT_EQ(run("export plain --what structure --part \"Sigmoid sinus\" --out " +
+                quoted(m_folder / "sinus.stl"))
+                .code,
+            0);
+  json("remove plain --part \"sigmoid sinus\"");
+  EXPECT_EQ(json("info plain")["labels"].size(), 1U);
+
   // A mesh has no more of it than its notes.
   std::ofstream(m_folder / "stapes.obj") << "v 21 32 43\nv 22 32 43\nv 21 33 43\nv 21 32 44\n"
                                             "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";

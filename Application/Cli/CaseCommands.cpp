@@ -5,6 +5,7 @@
 #include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "PartNamed.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
@@ -625,6 +626,7 @@ void addCorrectAxes(CLI::App& app, Context& context)
         if (!options->part.empty())
         {
           scene::Case value = library.open(options->name);
+          options->part = partNamed(value, options->part);
           const presenters::AxesFollowers followers =
               presenters::axesFollowers(value, options->part);
           presenters::correctPart(value, options->part, axes);
@@ -680,7 +682,7 @@ void addRemove(CLI::App& app, Context& context)
                          {
                            library::Library library = context.openLibrary();
                            scene::Case value = library.open(options->name);
-                           scene::removePart(value, options->part);
+                           scene::removePart(value, partNamed(value, options->part));
                            library.save(value);
                            const CaseFacts facts = factsOf(value);
                            printCase(context, value, facts);

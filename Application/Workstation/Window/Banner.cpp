@@ -164,7 +164,7 @@ void Banner::addButton(const QString& name, const QString& text, const std::func
             if (self && hadFocus && isHidden())
               emit dismissed();
           });
-  m_layout->addWidget(button);
+  m_layout->addWidget(button, 0, Qt::AlignTop); // seen before a long text is scrolled
 }
 
 void Banner::setButtonVisible(const QString& name, bool visible)

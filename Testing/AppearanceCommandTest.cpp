@@ -263,7 +263,8 @@ TEST_F(AppearanceCommand, SaysHowAStructureYieldsUnderTheHand)
   const auto& tissues = tables["soft_tissues"];
   ASSERT_EQ(tissues[0]["name"], "nerve");
   EXPECT_EQ(part("incus")["stiffness_n_per_mm"], tissues[0]["stiffness_n_per_mm"]);
-  expectRefused("appearance ear --stiffness incus=cartilage", 2, "--stiffness");
+  expectRefused("appearance ear --stiffness incus=cartilage", 2,
+                "'cartilage' is neither a number nor a soft tissue; there are nerve, ");
   json("appearance ear --stiffness cochlea=rigid --set incus=ossicle");
   EXPECT_TRUE(part("cochlea")["stiffness_n_per_mm"].is_null());
   EXPECT_TRUE(part("incus")["stiffness_n_per_mm"].is_null()) << "the preset is rigid";
@@ -279,6 +280,28 @@ TEST_F(AppearanceCommand, SaysThatALumenIsNotFeltWhateverItsFlags)
       << outcome.err;
   EXPECT_EQ(part("cochlea")["flags"], "shown,touchable") << "as it will be with a preset of tissue";
   EXPECT_TRUE(run("appearance ear --flags cochlea=shown,drillable").err.empty());
+}
+
+TEST_F(AppearanceCommand, SaysWhichFlagsAListDropsAndChangesThoseWithASign)
+{
+  json("appearance ear --flags cochlea=shown,touchable,drillable");
+  const auto outcome = run("appearance ear --flags cochlea=touchable");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("'cochlea' is no longer shown, drillable"), std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(part("cochlea")["flags"], "touchable");
+  json("appearance ear --flags cochlea=+drillable");
+  EXPECT_EQ(part("cochlea")["flags"], "touchable,drillable");
+  const auto answer = json("appearance ear --flags cochlea=shown --flags ct=-shown");
+  EXPECT_EQ(answer["flags_dropped"], nlohmann::json({{"cochlea", {"touchable", "drillable"}}}))
+      << answer["flags_dropped"];
+  EXPECT_EQ(part("ct")["flags"], "touchable,drillable");
+  EXPECT_EQ(json("appearance ear --flags cochlea=-shown,+touchable")["flags_dropped"],
+            nlohmann::json::object())
+      << "as asked for";
+  EXPECT_EQ(part("cochlea")["flags"], "touchable");
+  EXPECT_EQ(json("appearance ear --flags cochlea=none")["flags_dropped"], nlohmann::json::object());
+  expectRefused("appearance ear --flags cochlea=+shown,touchable", 3, "sign");
 }
 
 TEST_F(AppearanceCommand, SaysHowNearABurrMayCome)
@@ -448,7 +471,7 @@ TEST_F(AppearanceCommand, RefusalsNameWhatIsWrongAndLeaveTheCase)
   expectRefused("appearance ear --opacity cochlea=1.5", 2, "0 to 1");
   expectRefused("appearance ear --stiffness cochlea=0", 2, "rigid");
   expectRefused("appearance ear --stiffness cochlea=1000", 2, "0.001 to 100");
-  expectRefused("appearance ear --stiffness cochlea=jelly", 2, "not a number");
+  expectRefused("appearance ear --stiffness cochlea=jelly", 2, "neither a number");
   expectRefused("appearance ear --stiffness ct=1", 3, "bone is rigid");
   expectRefused("appearance ear --warn cochlea=51", 2, "0 to 50 mm");
   expectRefused("appearance ear --warn cochlea=near", 2, "not a number");

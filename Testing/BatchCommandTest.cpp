@@ -461,10 +461,11 @@ TEST_F(BatchCommand, SaysOfMeshesWhatTheirFilesDoNot)
   const std::vector<std::string> expected{"done", "failed", "done", "done", "failed"};
   for (std::size_t row = 0; row < rows.size(); ++row)
     EXPECT_EQ(rows[row]["status"], expected[row]) << rows[row];
-  EXPECT_NE(rows[1]["error"].get<std::string>().find("--mesh-axes LPS"), std::string::npos);
+  EXPECT_NE(rows[1]["error"].get<std::string>().find("'mesh_axes' LPS"), std::string::npos)
+      << rows[1]["error"];
   EXPECT_NE(rows[4]["error"].get<std::string>().find("'mesh_unit' is "), std::string::npos);
   // The CT's centre in x, about which it is mirrored.
-  const auto& ct = json("info told")["ct"];
+  const nlohmann::json ct = json("info told")["ct"];
   const double center = ct["origin_mm"][0].get<double>() + 0.5 *
                                                                (ct["dims"][0].get<double>() - 1.0) *
                                                                ct["spacing_mm"][0].get<double>();
@@ -508,6 +509,12 @@ TEST_F(BatchCommand, NamesTheColumnOfAxesThatAreNone)
               std::string::npos)
         << column << ": " << rows[0]["error"];
   }
+  // What the commands say of their options.
+  makeSample(m_folder / "tilted", "--dims 32,32,30 --spacing 2.0 --tilt 12");
+  write("name,folder\na,tilted/ct\n");
+  const std::string error = parsed(run(batch("--json")))["rows"][0]["error"];
+  EXPECT_NE(error.find("With 'repair' it is"), std::string::npos) << error;
+  EXPECT_EQ(error.find("--"), std::string::npos) << error;
 }
 
 TEST_F(BatchCommand, TwoCannotWorkOnOneTable)

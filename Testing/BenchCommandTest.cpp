@@ -118,6 +118,11 @@ TEST_F(BenchCommand, MeasuresAPartOfTheRenderer)
   const auto outcome = run("bench renderer --part nothing --out " + quoted(out));
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("'nothing'"), std::string::npos) << outcome.err;
+  // Of all benchmarks it would be those without any part, each of them whole.
+  const auto none = m_folder / "none";
+  expectRefused("bench all --quick --part shapes --part captur --out " + quoted(none), 2,
+                "no benchmark has a part 'captur'");
+  EXPECT_FALSE(std::filesystem::exists(none));
 }
 
 // The law and the removed balls are the truth; whole-voxel deletion follows neither thrust nor law.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <csignal>
@@ -5,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -832,7 +834,49 @@ TEST_F(CommandLine, ATerminalObeysNothingThatIsPrinted)
     EXPECT_EQ(all.find('\x1b'), std::string::npos) << arguments << ": " << all;
     EXPECT_EQ(all.find("\xc2\x9b"), std::string::npos) << arguments << ": " << all;
   }
-  EXPECT_NE(run("library list").out.find("ear\ufffdA\ufffd[2J"), std::string::npos);
+  // JSON escapes controls below a blank alone by itself.
+  const std::string cell = "/nowhere/\xc2\x9b"
+                           "31m\u202e\x7f";
+  std::ofstream(m_folder / "table.csv") << "name,folder\n" << cell << "," << cell << "\n";
+  for (const std::string& arguments :
+       {std::string("library list"), "info '" + name + "'", "new other --ct '" + cell + "'",
+        "batch --progress " + quoted(m_folder / "table.csv")})
+  {
+    const auto outcome = run(arguments + " --json");
+    EXPECT_FALSE(outcome.out.empty()) << arguments;
+    for (const char* const hidden : {"\xc2\x9b", "\u202e", "\x7f", "\x1b"})
+      EXPECT_EQ((outcome.out + outcome.err).find(hidden), std::string::npos)
+          << arguments << ": " << outcome.out << outcome.err;
+  }
+  // What is read is the same.
+  const auto answer = nlohmann::json::parse(run("new other --ct '" + cell + "' --json").out);
+  EXPECT_NE(answer["error"]["text"].get<std::string>().find("\xc2\x9b"
+                                                            "31m\u202e\x7f"),
+            std::string::npos);
+}
+
+TEST_F(CommandLine, HelpAndGuideSayTheSameOfExitCodes)
+{
+  std::string help = run("--help").out; // as one line
+  std::replace(help.begin(), help.end(), '\n', ' ');
+  std::istringstream guide(
+      textOf(std::filesystem::path(PETROUS_SOURCE) / "Documentation/user-guide.md"));
+  std::string line;
+  while (std::getline(guide, line) && line != "| exit code | meaning |")
+    ;
+  std::getline(guide, line);
+  std::set<int> codes;
+  while (std::getline(guide, line) && line.rfind("| ", 0) == 0)
+  {
+    const std::size_t bar = line.find(" | ");
+    ASSERT_NE(bar, line.npos) << line;
+    const std::string code = line.substr(2, bar - 2);
+    codes.insert(std::stoi(code));
+    std::string meaning = line.substr(bar + 3, line.rfind(" |") - bar - 3);
+    meaning.resize(std::min(meaning.find_first_of(":;"), meaning.size())); // what the table adds
+    EXPECT_NE(help.find(" " + code + " " + meaning), help.npos) << meaning << "\n" << help;
+  }
+  EXPECT_EQ(codes, (std::set<int>{0, 1, 2, 3, 4, 130}));
 }
 
 TEST_F(CommandLine, PipesAndDevicesAreRefusedAtOnce)

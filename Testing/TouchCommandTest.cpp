@@ -458,6 +458,52 @@ TEST_F(TouchCommand, RefusesMaterialsThatNoLawHoldsFor)
                 "material 'odd' with the cutting burr");
 }
 
+// Two presses one after the other, each a recording of its own.
+TEST_F(TouchCommand, ReviewsTheRecordingsOfAnOperationTogether)
+{
+  nlohmann::json made[2];
+  std::string files;
+  for (int n = 0; n < 2; ++n)
+  {
+    const auto file = m_folder / (n == 0 ? "operation.ticks" : "operation (2).ticks");
+    made[n] = json("drill plane --mode 3dof --path " + quoted(press(1.13, true)) + " --record " +
+                   quoted(file) + (n == 0 ? "" : " --diameter 6"));
+    ASSERT_GT(made[n]["removed_mm3"], 0.0);
+    files += " " + quoted(file);
+  }
+  const auto table = m_folder / "operation.csv";
+  const auto answer = json("review plane" + files + " --out " + quoted(table) + " --course " +
+                           quoted(m_folder / "course.csv"));
+  const auto& total = answer["total"];
+  ASSERT_EQ(answer["parts"].size(), 2U);
+  for (std::size_t n = 0; n < 2; ++n)
+  {
+    const auto& part = answer["parts"][n];
+    EXPECT_NEAR(part["removed_mm3"], made[n]["removed_mm3"], 1e-6);
+    EXPECT_EQ(part["strokes"], made[n]["strokes"]);
+    EXPECT_NEAR(part["max_force_n"], made[n]["max_force_n"], 1e-9);
+  }
+  EXPECT_NEAR(total["removed_mm3"],
+              made[0]["removed_mm3"].get<double>() + made[1]["removed_mm3"].get<double>(), 1e-6);
+  EXPECT_NEAR(total["duration_s"],
+              answer["parts"][0]["duration_s"].get<double>() +
+                  answer["parts"][1]["duration_s"].get<double>(),
+              1e-9);
+  EXPECT_EQ(answer["parts"][1]["begin_s"], answer["parts"][0]["duration_s"]);
+  std::ifstream in(table);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);)
+    lines.push_back(line);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[2].rfind("2,operation (2).ticks,cutting,6.00,", 0), 0U) << lines[2];
+  EXPECT_EQ(lines[3].rfind("total,", 0), 0U) << lines[3];
+  EXPECT_EQ(json("info plane")["dissection"]["strokes"],
+            made[0]["strokes"].get<int>() + made[1]["strokes"].get<int>())
+      << "nothing is drilled";
+  expectRefused("review plane", 3, "the library has no recording of case 'plane'");
+  expectRefused("review plane " + quoted(m_folder / "missing.ticks"), 3, "missing.ticks");
+}
+
 TEST_F(TouchCommand, PlaysARecordingAgainToTheLastBit)
 {
   for (const std::string mode : {"6dof", "3dof"})

@@ -76,6 +76,25 @@ TEST_F(ViewCommand, GuessesNoEarThatNothingTells)
   const auto lateral = run("view block --view lateral");
   EXPECT_EQ(lateral.code, 0) << lateral.err;
   EXPECT_NE(lateral.err.find("does not tell which ear it is"), std::string::npos) << lateral.err;
+  // Also where no view is asked for: the case has none yet.
+  const auto expectDoubt = [this](const std::string& command, bool isDoubtful)
+  {
+    const auto answer = run(command);
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    // The middle of 8 voxels of 1 mm from 0 on is at x = 3.5 mm: left.
+    EXPECT_EQ(answer.err.find("the lateral view is from the patient's left") != std::string::npos,
+              isDoubtful)
+        << command << '\n'
+        << answer.err;
+  };
+  const std::string render = "render block --size 40x30 --out " + quoted(m_folder / "block.png");
+  json("view block --clear camera");
+  expectDoubt("view block --save-as first", true);
+  expectDoubt(render, true);
+  expectDoubt(render + " --view superior", false);
+  json("view block --view superior");
+  expectDoubt(render, false);
+  expectDoubt("view block --save-as second", false);
   EXPECT_EQ(run(slice + " --side right").code, 0);
   json("describe block --side right");
   EXPECT_EQ(run("view block --view right --handpiece transmastoid").code, 0);

@@ -82,8 +82,9 @@ std::string describe(const StructureAppearance& look, const volume::IntensitySca
   return text;
 }
 
-// Prints each part of a case with its appearance and flags, or as JSON.
-void listAppearance(const Context& context, const scene::Case& value)
+// Prints each part of a case with its appearance and flags, or as JSON. dropped: flags that were
+// cleared because a list of flags did not name them, by part.
+void listAppearance(const Context& context, const scene::Case& value, nlohmann::json dropped)
 {
   const bool isMr = value.ct.modality == scene::Modality::Mr;
   const auto entry = [&context, isMr](const std::string& name, const std::string& kind,
@@ -126,7 +127,8 @@ void listAppearance(const Context& context, const scene::Case& value)
                      {"hounsfield", display.hounsfield},
                      {"bone", std::move(bone)},
                      {"soft_tissue", std::move(softTissue)},
-                     {"parts", std::move(parts)}});
+                     {"parts", std::move(parts)},
+                     {"flags_dropped", std::move(dropped)}});
 }
 
 // As above, for the catalogue of presets and those of the library.
@@ -446,11 +448,39 @@ void warnIfNotFelt(const Context& context, const Part& part)
                  (look.solid ? ": its flag 'touchable' is off" : ": it is a lumen"));
 }
 
-void setPartFlags(const Context& context, scene::Case& value, const std::string& assignment)
+// Says which flags a list without signs dropped, and adds them to `dropped`, an object by part.
+void printDropped(const Context& context, const Part& part, const std::string& flags,
+                  const StructureAppearance& before, nlohmann::json& dropped)
+{
+  if (flags == "none")
+    return;
+  const StructureAppearance& now = *part.looks.front();
+  std::string names, kept;
+  nlohmann::json list = nlohmann::json::array();
+  for (const StructureProperty& property : appearance::kStructureProperties)
+    if (property.storage == StructureProperty::Storage::InFlags)
+      if (const auto flag = std::get<StructureProperty::Flag>(property.member);
+          before.*flag && !(now.*flag))
+      {
+        names += (names.empty() ? "" : ", ") + std::string(property.key);
+        kept += std::string(kept.empty() ? "" : ",") + "+" + property.key;
+        list.push_back(property.key);
+      }
+  if (names.empty())
+    return;
+  context.print("'" + part.name + "' is no longer " + names + ": --flags " + part.name + "=" +
+                flags + " sets exactly these flags (--flags " + part.name + "=" + kept +
+                " sets it again)");
+  dropped[part.name] = std::move(list);
+}
+
+void setPartFlags(const Context& context, scene::Case& value, const std::string& assignment,
+                  nlohmann::json& dropped)
 {
   const auto [part, flags] = split(value, assignment, "--flags PART=shown,touchable,drillable");
+  const StructureAppearance before = *part.looks.front();
   for (StructureAppearance* look : part.looks)
-    appearance::setFlags(*look, flags);
+    appearance::changeFlags(*look, flags);
   if (part.softTissue && (value.softTissue.touchable || value.softTissue.drillable))
   {
     appearance::makeUntouchable(value.softTissue);
@@ -458,16 +488,28 @@ void setPartFlags(const Context& context, scene::Case& value, const std::string&
   }
   if (part.looks.front()->touchable)
     warnIfNotFelt(context, part);
-  if (!part.bone || (value.boneLook.touchable && value.boneLook.drillable))
-    return;
-  value.boneLook.touchable = value.boneLook.drillable = true;
-  context.warn("bone stays touchable and drillable; of its flags only 'shown' can be changed");
+  if (part.bone && !(value.boneLook.touchable && value.boneLook.drillable))
+  {
+    value.boneLook.touchable = value.boneLook.drillable = true;
+    context.warn("bone stays touchable and drillable; of its flags only 'shown' can be changed");
+  }
+  if (flags.find_first_of("+-") == std::string::npos)
+    printDropped(context, part, flags, before, dropped);
 }
 
 void setStiffness(const Context& context, scene::Case& value, const StructureProperty& property,
                   const Part& part, const std::string& text)
 {
   const appearance::SoftTissue* tissue = appearance::findSoftTissue(text);
+  if (!tissue && text != property.off && text.find_first_of("0123456789") == text.npos)
+  {
+    std::vector<std::string> names;
+    for (const appearance::SoftTissue& one : appearance::softTissues())
+      names.push_back(one.name);
+    throw UsageError(property.option.name + (": '" + text) +
+                     "' is neither a number nor a soft tissue; there are " +
+                     CLI::detail::join(names, ", "));
+  }
   setNumber(context, value, property, part, tissue ? core::plainText(tissue->stiffness) : text);
   if (tissue)
     context.warn("'" + part.name + "' yields with " + core::plainText(tissue->stiffness) +
@@ -540,8 +582,9 @@ void run(const Context& context, const Options& options)
   // A preset first, then deviations from it.
   for (const std::string& assignment : options.set)
     setPreset(library, value, assignment, options.values.at("--source"));
+  nlohmann::json dropped = nlohmann::json::object();
   for (const std::string& assignment : options.flags)
-    setPartFlags(context, value, assignment);
+    setPartFlags(context, value, assignment, dropped);
   // Soft tissue gets a function with another image: one that is given replaces it.
   for (const StructureProperty& property : appearance::kStructureProperties)
     if (property.member == StructureProperty::Member(&StructureAppearance::sourceImage))
@@ -570,7 +613,7 @@ void run(const Context& context, const Options& options)
     savePreset(library, value, assignment);
   for (const std::string& assignment : options.savedFunctions)
     saveFunction(value, assignment);
-  listAppearance(context, value);
+  listAppearance(context, value, std::move(dropped));
 }
 
 } // namespace
@@ -590,7 +633,9 @@ void addAppearanceCommand(CLI::App& app, Context& context)
                    "Surface of bone, in the CT's unit (300 HU); auto: from the histogram")
       ->type_name("NUMBER|auto");
   perPart("--set", options->set, "Apply a preset (--presets)", "PART=PRESET");
-  perPart("--flags", options->flags, "Set exactly these flags; 'none' clears all",
+  perPart("--flags", options->flags,
+          "Set exactly these flags; 'none' clears all; with signs (PART=+touchable,-drillable) the "
+          "others stay",
           "PART=shown,touchable,drillable");
   for (const StructureProperty& property : appearance::kStructureProperties)
     if (property.option.name)

@@ -127,9 +127,11 @@ void addArchiveCommands(CLI::App& app, Context& context)
                     "Only say what of the case would be in the file, and what may identify the "
                     "patient; nothing is written");
   command
-      ->add_option("--level", out->level,
-                   "Compression of images, 1 (fast) to 12 (small); default: as fast as makes each "
-                   "no larger than gzip -6 does, between 1 and 7 (the smallest if none does)")
+      ->add_option(
+          "--level", out->level,
+          "Compression of images, 1 (fast) to 12 (small); default: as fast as makes each, "
+          "by samples of it, no larger than gzip -6 does, between 1 and 7 (the smallest if "
+          "none does)")
       ->check(CLI::Range(1, 12));
 
   auto in = std::make_shared<RestoreCommandOptions>();

@@ -425,10 +425,7 @@ public:
   bool isJson() const { return m_asJson; }
 
 private:
-  static void print(const json& line)
-  {
-    std::cerr << line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n" << std::flush;
-  }
+  static void print(const json& line) { std::cerr << jsonLine(line) + "\n" << std::flush; }
 
   const Context& m_context;
   bool m_asJson;
@@ -503,11 +500,13 @@ public:
     const auto finish = [&](const std::string& status, const std::string& error)
     {
       result.status = status;
-      result.error = sources.in(error, result.ownUids);
+      const auto told = [&](const std::string& text)
+      { return withColumns(sources.in(text, result.ownUids)); };
+      result.error = told(error);
       for (StepResult& step : result.steps)
         step.text = sources.in(step.text, result.ownUids);
       for (std::string& note : result.notes)
-        note = sources.in(note, result.ownUids);
+        note = told(note);
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
       result.seconds = seconds.count();
     };

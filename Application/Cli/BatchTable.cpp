@@ -448,6 +448,27 @@ std::string batchColumns()
   return text + "  " + kSend + ": a DICOM node, see 'petrous nodes'\n";
 }
 
+std::string withColumns(const std::string& text)
+{
+  const std::vector<std::string> columns = columnNames();
+  std::string result;
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const std::size_t from = std::min(text.find("--", at), text.size());
+    result += text.substr(at, from - at);
+    const std::size_t end =
+        std::min(text.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", from), text.size());
+    const std::string option = text.substr(from, end - from);
+    std::string column = option.substr(std::min<std::size_t>(2, option.size()));
+    std::replace(column.begin(), column.end(), '-', '_');
+    const bool isWord = from == 0 || text[from - 1] == ' ' || text[from - 1] == '(';
+    const bool isColumn = std::find(columns.begin(), columns.end(), column) != columns.end();
+    result += isWord && isColumn ? "'" + column + "'" : option;
+    at = end;
+  }
+  return result;
+}
+
 BatchTable readBatchTable(const fs::path& file)
 {
   const std::string whole = core::readFile(file, kLargestTable);

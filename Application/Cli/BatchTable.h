@@ -56,6 +56,10 @@ struct BatchTable
 /// What a table may have, with a word on each, for help texts.
 std::string batchColumns();
 
+/// `text` with the columns in place of the options of commands that say the same: 'mesh_axes' for
+/// --mesh-axes.
+std::string withColumns(const std::string& text);
+
 /// Throws InvalidParameter "FILE, line N: ..." for what makes the table as a whole unclear: unknown
 /// or repeated columns, an open quote, more cells than columns, text that is not UTF-8. What is
 /// wrong with the values of one row is that row's `problem`.

@@ -626,10 +626,10 @@ void addCorrectAxes(CLI::App& app, Context& context)
         if (!options->part.empty())
         {
           scene::Case value = library.open(options->name);
-          options->part = partNamed(value, options->part);
-          const presenters::AxesFollowers followers =
-              presenters::axesFollowers(value, options->part);
-          presenters::correctPart(value, options->part, axes);
+          const presenters::AxesPart part =
+              presenters::axesPart(value, partNamed(value, options->part));
+          const presenters::AxesFollowers followers = presenters::axesFollowers(value, part);
+          presenters::correctPart(value, part, axes);
           library.save(value);
           if (!followers.parts.empty())
             context.warn("goes along: " + scene::listed(followers.parts));

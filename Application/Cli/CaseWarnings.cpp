@@ -4,7 +4,6 @@
 #include "petrous/Presenters/CaseStamp.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/SceneAssembly.h"
-#include "petrous/Presenters/SlicePlanes.h"
 
 namespace petrous::cli
 {
@@ -34,19 +33,22 @@ void warnOfEar(const Context& context, const scene::Case& value, scene::Side ear
 
 void warnOfView(const Context& context, const scene::Case& value, const std::string& view)
 {
-  if (view == "lateral" && !presenters::earOf(value))
-  {
-    const core::CameraPose camera =
-        presenters::standardCamera(value, rendering::StandardView::Lateral);
-    context.warn(std::string("the case does not tell which ear it is: the lateral view is from the "
-                             "patient's ") +
-                 (camera.position.x() > camera.focalPoint.x() ? "left" : "right") +
-                 "; state the side with 'petrous describe CASE --side left' or right");
-  }
+  if (view == "lateral")
+    if (const auto guessed = presenters::guessedEar(value))
+      context.warn(std::string("the case does not tell which ear it is: the lateral view is from "
+                               "the patient's ") +
+                   (guessed == scene::Side::Left ? "left" : "right") +
+                   "; state the side with 'petrous describe CASE --side left' or right");
   warnOfEar(context, value,
             view == "surgical-left"    ? scene::Side::Left
             : view == "surgical-right" ? scene::Side::Right
                                        : scene::Side::Unknown);
+}
+
+void warnOfCurrentView(const Context& context, const scene::Case& value)
+{
+  if (!value.camera)
+    warnOfView(context, value, "lateral");
 }
 
 namespace

@@ -32,8 +32,11 @@ void warnOfMrs(const Context& context, const scene::Case& value);
 /// Warns of an ear that the case does not have by its side or by the place of its images;
 /// Unknown: none is meant.
 void warnOfEar(const Context& context, const scene::Case& value, scene::Side ear);
-/// The same of a standard view by its name; of the lateral one if the ear is not known (earOf).
+/// The same of a standard view by its name; of the lateral one if the ear is not known
+/// (guessedEar).
 void warnOfView(const Context& context, const scene::Case& value, const std::string& view);
+/// The same of the view that presenters::currentCamera takes.
+void warnOfCurrentView(const Context& context, const scene::Case& value);
 
 /// The same parts: an array of "structure" and "text".
 nlohmann::json missingPlacesJson(const scene::Case& value);

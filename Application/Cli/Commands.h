@@ -29,6 +29,7 @@ void addHistoryCommands(CLI::App& app, Context& context); ///< undo, redo, histo
 void addExportCommand(CLI::App& app, Context& context);
 void addRegisterCommand(CLI::App& app, Context& context);
 void addReportCommand(CLI::App& app, Context& context);
+void addReviewCommand(CLI::App& app, Context& context);
 void addSegmentCommand(CLI::App& app, Context& context);
 void addDeviceTestCommand(CLI::App& app, Context& context);
 void addDoctorCommand(CLI::App& app, Context& context);

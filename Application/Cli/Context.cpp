@@ -69,9 +69,9 @@ void watchInterrupt()
 } // namespace
 
 const char* const kExitCodes =
-    "Exit codes: 0 done; 1 internal error or fault of this machine, or done but the answer could "
-    "not be written to stdout; 2 wrong usage; 3 bad input; 4 refused so that nothing is lost; 130 "
-    "interrupted (Ctrl+C)";
+    "Exit codes: 0 done; 1 a fault of the program or the machine, or done but the answer could not "
+    "be written to stdout; 2 wrong usage; 3 bad input; 4 refused to prevent data loss, or as this "
+    "machine lacks the room; 130 interrupted by Ctrl+C";
 
 void Context::addOptions(CLI::App& app)
 {
@@ -251,10 +251,15 @@ std::string terminalText(const std::string& text)
   return scene::withVisibleControls(text, "\n\t");
 }
 
+std::string jsonLine(const nlohmann::json& object, int indent)
+{
+  return object.dump(indent, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
 std::string jsonText(nlohmann::json object)
 {
   object["schema_version"] = kSchemaVersion;
-  return object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return jsonLine(object, 1) + "\n";
 }
 
 void Context::warn(const std::string& line) const

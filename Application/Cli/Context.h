@@ -107,7 +107,11 @@ private:
 /// ends and tabs, and of those that reorder others. Names come from files of other programs.
 std::string terminalText(const std::string& text);
 
-/// `object` as printed by --json, with its schema version.
+/// `object` in ASCII, the rest as \u escapes: no terminal obeys what a name has in it. In one line
+/// if `indent` is -1.
+std::string jsonLine(const nlohmann::json& object, int indent = -1);
+
+/// `object` as printed by --json, with its schema version, as jsonLine.
 std::string jsonText(nlohmann::json object);
 
 /// Maximum size of an input file of options, points or poses, bytes.

@@ -217,6 +217,7 @@ void play(const Context& context, const Options& options)
     }
   }
   const library::SavedState opened = value;
+  warnOfCurrentView(context, value); // which each stroke keeps
   tool.camera = presenters::currentCamera(value);
   tool.recording = options.record;
   session::TouchScene touch(value, progress, 0, true);
@@ -291,6 +292,7 @@ void replay(const Context& context, const Options& options)
   const core::Progress progress = context.progress();
   const auto leftOut = openCase(context, library, options, value, progress);
   const library::SavedState opened = value;
+  warnOfCurrentView(context, value);
   const auto camera = presenters::currentCamera(value);
   session::TouchScene touch(value, progress, reader.setup().scene.firstState, true);
   const auto journal = journalOf(library, value, touch);

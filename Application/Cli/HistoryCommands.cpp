@@ -188,6 +188,8 @@ void drawDifference(const Context& context, const scene::Case& value, const Bran
   presenters::showDifference(contents, comparison);
   rendering::ScenePicture picture;
   picture.setContents(contents);
+  if (!options.given("--camera"))
+    warnOfView(context, value, "lateral");
   picture.setCamera(options.given("--camera")
                         ? readCamera(options.camera)
                         : presenters::standardCamera(value, rendering::StandardView::Lateral));

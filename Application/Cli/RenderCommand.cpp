@@ -616,7 +616,10 @@ void render(const Context& context, RenderOptions options)
   shot.camera = chooseCamera(options, value);
   takeSoftTissue(options, library, value);
   value.view.clipping = clippingOf(options, value); // what is drawn is what the picture says
-  warnOfView(context, value, options.view);
+  if (!options.view.empty())
+    warnOfView(context, value, options.view);
+  else if (options.camera.empty() && options.along.empty()) // a flight has cameras of its own
+    warnOfCurrentView(context, value);
   nlohmann::json stereo = nullptr;
   shot.eyes = {shot.camera};
   if (shot.stereo != StereoMode::None)

@@ -345,7 +345,10 @@ void run(const Context& context, const ViewCommandOptions& options)
       instrument = value.view.instrument; // which is stored
   }
   change(value, options, burr, instrument);
-  warnOfView(context, value, options.view);
+  if (options.view.empty() && !options.saveAs.empty())
+    warnOfCurrentView(context, value);
+  else
+    warnOfView(context, value, options.view);
   nlohmann::json now = viewJson(value);
   const bool isChanged = now != before;
   if (isChanged)

@@ -60,6 +60,7 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addMeasureCommand(app, context);
   cli::addProbeCommand(app, context);
   cli::addDrillCommand(app, context);
+  cli::addReviewCommand(app, context);
   cli::addMaterialsCommand(app, context);
   cli::addHistoryCommands(app, context);
   cli::addExportCommand(app, context);

@@ -52,7 +52,6 @@ std::filesystem::path libraryFolder(const QCommandLineParser& parser)
       std::cerr << "petrous-workstation: " << error.what() << '\n';
       QMessageBox box(QMessageBox::Warning, MainWindow::tr("Library"),
                       petrous::workstation::toString(error));
-      box.setTextFormat(Qt::PlainText);
       box.exec();
       return {};
     }
@@ -67,7 +66,6 @@ std::filesystem::path libraryFolder(const QCommandLineParser& parser)
       using petrous::workstation::MainWindow;
       QMessageBox box(QMessageBox::Warning, MainWindow::tr("Library"),
                       petrous::workstation::toString(error));
-      box.setTextFormat(Qt::PlainText);
       box.setInformativeText(
           MainWindow::tr("Another library has other cases. The usual folder is %1.")
               .arg(QFile::decodeName(petrous::library::usualFolder().c_str())));

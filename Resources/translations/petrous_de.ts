@@ -1165,6 +1165,10 @@
         <source>C&amp;orrect the axes</source>
         <translation>Achsen &amp;korrigieren</translation>
     </message>
+    <message>
+        <source>It is mirrored. The image on which it lies stays as it is.</source>
+        <translation>Es wird gespiegelt. Das Bild, auf dem es liegt, bleibt, wie es ist.</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::BackgroundWork</name>
@@ -6103,6 +6107,10 @@ Verletzt: %1, %2</translation>
         <source>Drag an edge of the box, or the box.  Outside it: move the crosshair.  Wheel: scroll.</source>
         <translation>Ziehen Sie eine Kante des Quaders oder den Quader.  Außerhalb: Fadenkreuz bewegen.  Rad: blättern.</translation>
     </message>
+    <message>
+        <source>Only what lies in the box is read: drag its edges, or give it in mm (the file&apos;s LPS). The letters at the slices are the patient&apos;s, by the corrected axes.</source>
+        <translation>Gelesen wird nur, was im Quader liegt: Ziehen Sie seine Kanten, oder geben Sie ihn in mm an (LPS der Datei). Die Buchstaben an den Schichten sind die des Patienten, nach den korrigierten Achsen.</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::RegistrationController</name>
@@ -6598,6 +6606,10 @@ Verletzt: %1, %2</translation>
         <source>Pause recording</source>
         <translation>Aufzeichnung anhalten</translation>
     </message>
+    <message>
+        <source>%1 and %2 more</source>
+        <translation>%1 und %2 weitere</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ReplayPanel</name>
@@ -6784,6 +6796,30 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Times the drill was switched on</source>
         <translation>Wie oft der Bohrer eingeschaltet wurde</translation>
+    </message>
+    <message>
+        <source>Recordings of the operation</source>
+        <translation>Aufzeichnungen der Operation</translation>
+    </message>
+    <message>
+        <source>Drilling</source>
+        <translation>Bohrzeit</translation>
+    </message>
+    <message>
+        <source>Path</source>
+        <translation>Weg</translation>
+    </message>
+    <message>
+        <source>An operation has a recording for each burr. The tables below are those of the line that is chosen, which the time goes to</source>
+        <translation>Eine Operation hat für jeden Bohrer eine Aufzeichnung. Die Tabellen darunter gehören zur gewählten Zeile, zu deren Beginn die Zeit geht</translation>
+    </message>
+    <message>
+        <source>Together</source>
+        <translation>Zusammen</translation>
+    </message>
+    <message>
+        <source>All recordings of the operation, without the pauses between them</source>
+        <translation>Alle Aufzeichnungen der Operation, ohne die Pausen dazwischen</translation>
     </message>
 </context>
 <context>
@@ -7682,6 +7718,18 @@ Verletzt: %1, %2</translation>
     <message>
         <source>as the file states</source>
         <translation>wie die Datei sagt</translation>
+    </message>
+    <message>
+        <source>as its image</source>
+        <translation>wie sein Bild</translation>
+    </message>
+    <message>
+        <source>It follows a correction of the image on which it was drawn</source>
+        <translation>Es folgt einer Korrektur des Bildes, auf dem es gezeichnet wurde</translation>
+    </message>
+    <message>
+        <source>It lies where it belongs, whatever is wrong with its image</source>
+        <translation>Es liegt, wo es hingehört, was auch an seinem Bild falsch ist</translation>
     </message>
 </context>
 <context>
@@ -10137,8 +10185,8 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Bei einem Bild, das gespiegelt ist oder anders liegt, als seine Buchstaben sagen: ein neuer Fall daraus mit den richtigen</translation>
     </message>
     <message>
-        <source>By a degree, within the slice that has the keyboard; in the 3D view about the vertical of the picture</source>
-        <translation>Um ein Grad, in der Schicht, der die Tastatur gehört; in der 3D-Ansicht um die Senkrechte des Bildes</translation>
+        <source>By a degree, within the slice that has the keyboard; in the 3D view about the vertical of the picture, as seen from above</source>
+        <translation>Um ein Grad, in der Schicht, der die Tastatur gehört; in der 3D-Ansicht um die Senkrechte des Bildes, von oben gesehen</translation>
     </message>
     <message>
         <source>Turn the cut counterclockwise</source>

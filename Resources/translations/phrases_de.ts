@@ -1236,6 +1236,14 @@
         <translation>Achsen: LPS lässt sie, wie sie sind; sagen Sie, wohin das wirklich zeigt, was die Datei links, hinten und oben nennt, etwa RPS</translation>
     </message>
     <message>
+        <source>'%1' keeps its axes: whether '%2' goes with it is not known: %~3</source>
+        <translation>„%1“ behält seine Achsen; ob „%2“ mitgeht, ist nicht bekannt: %~3</translation>
+    </message>
+    <message>
+        <source>'%1' keeps its axes: %~2</source>
+        <translation>„%1“ behält seine Achsen: %~2</translation>
+    </message>
+    <message>
         <source>lies in the space of '%1' as its file states it, and follows the correction of its axes (%2)</source>
         <translation>liegt im Raum von „%1“, wie dessen Datei ihn angibt, und folgt der Korrektur seiner Achsen (%2)</translation>
     </message>
@@ -1250,6 +1258,10 @@
     <message>
         <source>'%1' keeps its axes: strokes of this case record what was removed from it where it lies</source>
         <translation>„%1“ behält seine Achsen: Striche dieses Falls halten fest, was dort, wo es liegt, davon abgetragen wurde</translation>
+    </message>
+    <message>
+        <source>mr axes</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>%1: the %~2 would lie in %3, which is never changed; give it another place</source>
@@ -1996,6 +2008,10 @@
         <translation>%1: %#2 Punkte, keine Stelle bis 10 mm von der Spitze weiter als %#3 mm von einem entfernt und überhaupt keine weiter als %#4 mm; Knochen, der dünner als das Doppelte ist, kann ungefühlt zwischen ihnen hindurchgehen</translation>
     </message>
     <message>
+        <source>there is no recording to be read</source>
+        <translation>es ist keine Aufzeichnung zu lesen</translation>
+    </message>
+    <message>
         <source>%#1 stroke</source>
         <translation>%#1 Bohrzug</translation>
     </message>
@@ -2066,6 +2082,10 @@
     <message>
         <source>measuring the structures</source>
         <translation>die Strukturen werden gemessen</translation>
+    </message>
+    <message>
+        <source>recording</source>
+        <translation>Aufzeichnung</translation>
     </message>
     <message>
         <source>nerve</source>
@@ -2328,12 +2348,16 @@
         <translation>%~1, Unsicherheit unbekannt</translation>
     </message>
     <message>
-        <source>along the centre line of '%1', which was removed</source>
-        <translation>entlang der Mittellinie von „%1“, das entfernt wurde</translation>
-    </message>
-    <message>
         <source>along the centre line of '%1'</source>
         <translation>entlang der Mittellinie von „%1“</translation>
+    </message>
+    <message>
+        <source>along the centre line of '%1', which was removed or moved since</source>
+        <translation>entlang der Mittellinie von „%1“, seither entfernt oder verschoben</translation>
+    </message>
+    <message>
+        <source>along the centre line of '%1', which was removed</source>
+        <translation>entlang der Mittellinie von „%1“, das entfernt wurde</translation>
     </message>
     <message>
         <source>its edges cross, so it has no area</source>
@@ -2348,12 +2372,16 @@
         <translation>die Punkte fallen zusammen</translation>
     </message>
     <message>
-        <source>to '%1', which was removed</source>
-        <translation>zu „%1“, das entfernt wurde</translation>
-    </message>
-    <message>
         <source>to '%1'</source>
         <translation>zu „%1“</translation>
+    </message>
+    <message>
+        <source>to '%1', which was removed or moved since</source>
+        <translation>zu „%1“, seither entfernt oder verschoben</translation>
+    </message>
+    <message>
+        <source>to '%1', which was removed</source>
+        <translation>zu „%1“, das entfernt wurde</translation>
     </message>
     <message>
         <source>shortest thickness</source>
@@ -2736,6 +2764,10 @@
         <translation>die Mitte dessen, was beide Bilder zeigen</translation>
     </message>
     <message>
+        <source>the axes of an MR were corrected while it was registered: the MR lies as before; register it again</source>
+        <translation>die Achsen eines MR wurden korrigiert, während es registriert wurde: Das MR liegt wie zuvor; registrieren Sie es noch einmal</translation>
+    </message>
+    <message>
         <source>move of %1</source>
         <translation>Bewegung von %1</translation>
     </message>
@@ -2794,6 +2826,10 @@
     <message>
         <source>making the surface</source>
         <translation>die Oberfläche wird berechnet</translation>
+    </message>
+    <message>
+        <source>the axes of '%1' were corrected since: undo that first</source>
+        <translation>die Achsen von „%1“ wurden seither korrigiert: Nehmen Sie erst das zurück</translation>
     </message>
     <message>
         <source>threshold</source>
@@ -3461,6 +3497,10 @@
     <message>
         <source>flag '%~1' is unknown; use %2 or none</source>
         <translation>Kennzeichen „%~1“ ist unbekannt; nehmen Sie %2 oder none</translation>
+    </message>
+    <message>
+        <source>flags '%1': give all of them a sign (+touchable,-drillable), or none</source>
+        <translation>Merkmale „%1“: alle mit Vorzeichen angeben (+touchable,-drillable) oder keines</translation>
     </message>
     <message>
         <source>colour: red, green and blue must lie in 0 to 1</source>
@@ -8743,10 +8783,6 @@
     <message>
         <source>not signed off</source>
         <translation>nicht freigegeben</translation>
-    </message>
-    <message>
-        <source>recording</source>
-        <translation>Aufzeichnung</translation>
     </message>
     <message>
         <source>screenshot</source>

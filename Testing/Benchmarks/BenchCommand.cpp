@@ -66,7 +66,7 @@ std::string joined(const std::vector<std::string>& names)
   return all;
 }
 
-// Those asked for; of all benchmarks, those of this one.
+// Those asked for; of all benchmarks, those of this one: bench refuses those of none.
 std::set<std::string> partsOf(const BenchOptions& options, const std::vector<std::string>& known)
 {
   std::set<std::string> parts;
@@ -273,6 +273,15 @@ void bench(const Context& context, const BenchOptions& options)
   const std::vector<std::string> names = benchmarkNames();
   if (std::find(names.begin(), names.end(), name) == names.end())
     throw UsageError("bench: '" + name + "' is unknown; there are: " + joined(names));
+  if (name == kAll)
+    for (const std::string& part : options.parts)
+    {
+      const auto isOf = [&part](const std::vector<std::string>& known)
+      { return std::find(known.begin(), known.end(), part) != known.end(); };
+      if (!isOf(registration::benchmarkParts()) && !isOf(rendererParts()))
+        throw UsageError("bench all: no benchmark has a part '" + part + "'; there are: " +
+                         joined(registration::benchmarkParts()) + ", " + joined(rendererParts()));
+    }
   std::error_code error;
   std::filesystem::create_directories(out, error);
   if (error)

@@ -94,6 +94,55 @@ TEST_F(CatalogueEditorTest, WhatIsAddedHasTheNumbersOfARowAndNotItsSource)
   EXPECT_FALSE(again.materials()[0].source.empty());
 }
 
+TEST_F(CatalogueEditorTest, ANumberThatIsTypedOverHasNotTheSourceOfTheOneBefore)
+{
+  CatalogueEditor editor(folder);
+  const CatalogueEditor::Material bone = editor.materials()[0];
+  ASSERT_FALSE(bone.source.empty());
+  ASSERT_FALSE(bone.certainty.empty());
+  CatalogueEditor::Material named = bone;
+  named.title = "Hard bone"; // no number
+  editor.setMaterial(0, named);
+  EXPECT_EQ(editor.materials()[0].source, bone.source);
+  EXPECT_EQ(editor.materials()[0].certainty, bone.certainty);
+  for (double CatalogueEditor::Material::*number :
+       {&CatalogueEditor::Material::specificEnergy, &CatalogueEditor::Material::friction,
+        &CatalogueEditor::Material::hardness})
+  {
+    CatalogueEditor::Material other = bone;
+    other.*number *= 1.01;
+    CatalogueEditor again(folder);
+    again.setMaterial(0, other);
+    EXPECT_EQ(again.materials()[0].source, "");
+    EXPECT_EQ(again.materials()[0].certainty, "");
+  }
+  CatalogueEditor::Material measured = bone;
+  measured.hardness = 45.0;
+  measured.source = "our own indenter"; // with the number: of it
+  editor.setMaterial(0, measured);
+  EXPECT_EQ(editor.materials()[0].source, "our own indenter");
+  EXPECT_EQ(editor.materials()[0].certainty, "");
+
+  const CatalogueEditor::Burr diamond = editor.burrs()[1];
+  ASSERT_FALSE(diamond.source.empty());
+  ASSERT_FALSE(diamond.certainty.empty());
+  CatalogueEditor::Burr sized = diamond;
+  sized.diameters = {0.6, 2.3};
+  editor.setBurr(1, sized);
+  EXPECT_EQ(editor.burrs()[1].source, diamond.source) << "that is of its wear";
+  EXPECT_EQ(editor.burrs()[1].certainty, diamond.certainty);
+  for (double CatalogueEditor::Burr::*number :
+       {&CatalogueEditor::Burr::constant, &CatalogueEditor::Burr::grit})
+  {
+    CatalogueEditor::Burr other = diamond;
+    other.*number += 0.01;
+    CatalogueEditor again(folder);
+    again.setBurr(1, other);
+    EXPECT_EQ(again.burrs()[1].source, "");
+    EXPECT_EQ(again.burrs()[1].certainty, "");
+  }
+}
+
 TEST_F(CatalogueEditorTest, RefusesWhatTheLawsDoNotAllowAndStaysAsItWas)
 {
   CatalogueEditor editor(folder);

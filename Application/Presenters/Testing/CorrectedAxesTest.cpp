@@ -5,6 +5,7 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -18,10 +19,12 @@
 #include "petrous/Library/Library.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CorrectedCase.h"
+#include "petrous/Presenters/Measuring.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Scene/ApplyRegistration.h"
+#include "petrous/Scene/Placement.h"
 
 using namespace petrous;
 using core::AxesCorrection;
@@ -169,6 +172,60 @@ protected:
             ++count;
           }
     return count == 0 ? Vector3d(Vector3d::Constant(std::nan(""))) : Vector3d(sum / count);
+  }
+
+  /// Two structures of one map: incus as labelsOn, malleus beside it at 5, 4, 4.
+  presenters::PartSource ossicles() const
+  {
+    auto voxels = volume::makeZeroVolume<std::uint16_t>(kFileGrid);
+    voxels->at(4, 4, 4) = 1;
+    voxels->at(5, 4, 4) = 2;
+    volume::Segment incus, malleus;
+    incus.name = "incus";
+    incus.index = 1;
+    malleus.name = "malleus";
+    malleus.index = 2;
+    imaging::writeLabelFile(m_folder / "ossicles.seg.nrrd",
+                            volume::makeLabelMap(voxels, {incus, malleus}));
+    return {"", m_folder / "ossicles.seg.nrrd"};
+  }
+
+  /// A tetrahedron, its right angle at `corner`, its other vertices 1 mm along each axis.
+  presenters::PartSource meshNamed(const std::string& name,
+                                   const Eigen::Vector3f& corner = {0, 4, 5}) const
+  {
+    core::TriangleMesh mesh;
+    mesh.vertices = {corner};
+    for (int axis = 0; axis < 3; ++axis)
+      mesh.vertices.push_back(corner + Eigen::Vector3f::Unit(axis));
+    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    imaging::writeMesh(m_folder / (name + ".obj"), mesh);
+    return {name, m_folder / (name + ".obj")};
+  }
+
+  /// A stroke that removed some of a structure.
+  static void record(scene::Case& value, const std::string& structure)
+  {
+    dissection::Stroke stroke;
+    stroke.info.structures = {{structure, 1.0}};
+    value.dissection.append(std::make_shared<const dissection::Stroke>(stroke));
+  }
+
+  static void expectRefused(scene::Case value, const std::string& part, const std::string& told)
+  {
+    const Vector3d before = placeOf(value.labels.at(0));
+    try
+    {
+      presenters::correctPart(value, presenters::axesPart(value, part),
+                              AxesCorrection::parse("RPS"));
+      ADD_FAILURE() << part << " was corrected";
+    }
+    catch (const core::Error& error)
+    {
+      EXPECT_EQ(error.fault(), core::Fault::Refused) << error.what();
+      EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(placeOf(value.labels.at(0)), before);
   }
 
   static bool isNoted(const std::vector<std::string>& notes, const std::string& part)
@@ -595,7 +652,8 @@ TEST_F(CorrectedAxes, OfAnMrOfTheOpenCaseAreCorrectedInIt)
     EXPECT_NEAR(moved->signedVolume(), 1.0 / 6.0, 1e-5);
     EXPECT_TRUE(isNoted(value.mr[0].notes, "axes of the file corrected (LPI)"));
   };
-  const auto followers = presenters::axesFollowers(model.value(), "t2");
+  const auto followers =
+      presenters::axesFollowers(model.value(), {presenters::AxesPart::Kind::Mr, "t2"});
   EXPECT_EQ(followers.parts, (std::vector<std::string>{"tumour", "cyst"}));
   EXPECT_EQ(followers.unregistered, std::vector<std::string>{"t2"});
   model.correctAxes("t2", AxesCorrection::parse("LPI"));
@@ -627,31 +685,90 @@ TEST_F(CorrectedAxes, OfAnMrOfTheOpenCaseAreCorrectedInIt)
   expectStated();
 }
 
-// As of --labels-axes and --mesh-axes.
-TEST_F(CorrectedAxes, OfLabelsAndMeshesOfTheOpenCaseAreCorrectedInIt)
+// What was measured along a structure or to it lies where that was; what was taken out comes back
+// without it. Of marks and of other structures nothing changes.
+TEST_F(CorrectedAxes, AreNotFollowedByWhatWasMeasured)
 {
   auto voxels = volume::makeZeroVolume<std::uint16_t>(kFileGrid);
-  voxels->at(4, 4, 4) = 1; // at -4, 6, 7
+  voxels->at(4, 4, 4) = 1;
   voxels->at(5, 4, 4) = 2;
-  volume::Segment incus, malleus;
-  incus.name = "incus";
-  incus.index = 1;
+  volume::Segment nerve, malleus;
+  nerve.name = "nerve";
+  nerve.index = 1;
   malleus.name = "malleus";
   malleus.index = 2;
-  imaging::writeLabelFile(m_folder / "ossicles.seg.nrrd",
-                          volume::makeLabelMap(voxels, {incus, malleus}));
+  imaging::writeLabelFile(m_folder / "map.seg.nrrd",
+                          volume::makeLabelMap(voxels, {nerve, malleus}));
   core::TriangleMesh mesh;
   mesh.vertices = {{0, 4, 5}, {1, 4, 5}, {0, 5, 5}, {0, 4, 6}};
   mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
   imaging::writeMesh(m_folder / "stapes.obj", mesh);
   m_sources.axes = {};
-  m_sources.parts.labels = {{"", m_folder / "ossicles.seg.nrrd"}};
+  m_sources.parts.labels = {{"", m_folder / "map.seg.nrrd"}};
   m_sources.parts.meshes = {{"stapes", m_folder / "stapes.obj"}};
   library::Library library(m_folder / "library");
   presenters::WorkstationModel model(library);
   model.adopt(presenters::buildCase("ear", m_sources, {}));
-  EXPECT_EQ(presenters::axesFollowers(model.value(), "incus").parts,
-            std::vector<std::string>{"malleus"});
+  std::vector<scene::Measurement> made(3);
+  for (std::size_t n = 0; n < made.size(); ++n)
+  {
+    made[n].kind = scene::Measurement::Kind::Length;
+    made[n].name = "length " + std::to_string(n);
+    made[n].points = {{-4, 6, 7}, {-3, 6, 7}};
+    made[n].structure = std::vector<std::string>{"nerve", "malleus", "stapes"}[n];
+  }
+  model.setMeasurements(made);
+  const auto gone = [&model]
+  {
+    std::string flags;
+    for (const scene::Measurement& one : model.value().measurements)
+      flags += one.structureGone ? '1' : '0';
+    return flags;
+  };
+  const AxesCorrection mirrored = AxesCorrection::parse("RPS");
+  scene::Case corrected = model.value();
+  presenters::correctPart(corrected, "nerve", mirrored);
+  EXPECT_TRUE(corrected.measurements[0].structureGone);
+  EXPECT_TRUE(corrected.measurements[1].structureGone) << "of the same map";
+  EXPECT_FALSE(corrected.measurements[2].structureGone);
+  EXPECT_NE(presenters::quantitiesOf(corrected, corrected.measurements[0])[0].remark.find("moved"),
+            std::string::npos);
+
+  model.correctAxes("nerve", mirrored);
+  EXPECT_EQ(gone(), "110");
+  model.undo();
+  EXPECT_EQ(gone(), "000");
+  model.redo();
+  EXPECT_EQ(gone(), "110");
+  model.correctAxes("stapes", mirrored);
+  EXPECT_EQ(gone(), "111");
+  model.undo();
+  model.undo();
+  EXPECT_EQ(gone(), "000");
+  model.removePart("malleus");
+  EXPECT_EQ(gone(), "010");
+  model.correctAxes("nerve", mirrored);
+  model.restorePart();
+  EXPECT_EQ(gone(), "110") << "it comes back mirrored";
+  model.undo();
+  model.undo();
+  EXPECT_EQ(gone(), "010");
+  model.restorePart();
+  EXPECT_EQ(gone(), "000");
+}
+
+// As of --labels-axes and --mesh-axes.
+TEST_F(CorrectedAxes, OfLabelsAndMeshesOfTheOpenCaseAreCorrectedInIt)
+{
+  m_sources.axes = {};
+  m_sources.parts.labels = {ossicles()}; // the incus at -4, 6, 7
+  m_sources.parts.meshes = {meshNamed("stapes")};
+  library::Library library(m_folder / "library");
+  presenters::WorkstationModel model(library);
+  model.adopt(presenters::buildCase("ear", m_sources, {}));
+  EXPECT_EQ(
+      presenters::axesFollowers(model.value(), presenters::axesPart(model.value(), "incus")).parts,
+      std::vector<std::string>{"malleus"});
   model.removePart("malleus"); // comes back with the map
   model.correctAxes("incus", AxesCorrection::parse("RPS"));
   EXPECT_LT((placeOf(model.value().labels.at(0)) - Vector3d(3, 6, 7)).norm(), 1e-9);
@@ -676,17 +793,227 @@ TEST_F(CorrectedAxes, OfLabelsAndMeshesOfTheOpenCaseAreCorrectedInIt)
 
   // What was removed from it lies where it was drilled.
   scene::Case drilled = model.value();
-  dissection::Stroke stroke;
-  stroke.info.structures = {{"malleus", 1.0}};
-  drilled.dissection.append(std::make_shared<const dissection::Stroke>(stroke));
-  try
-  {
-    presenters::correctPart(drilled, "incus", AxesCorrection::parse("RPS"));
-    FAIL() << "it has strokes";
-  }
-  catch (const core::Error& error)
-  {
-    EXPECT_EQ(error.fault(), core::Fault::Refused) << error.what();
-  }
+  record(drilled, "malleus");
+  expectRefused(drilled, "incus", "'malleus' keeps its axes");
   EXPECT_LT((placeOf(drilled.labels.at(0)) - Vector3d(3, 6, 7)).norm(), 1e-9);
+}
+
+// One structure of a map was edited and its edit undone: it is a part of its own, as such also in
+// the library.
+TEST_F(CorrectedAxes, OfAStructureMoveAllPartsWithItsMap)
+{
+  m_sources.axes = {};
+  m_sources.parts.labels = {ossicles()};
+  scene::Case value = presenters::buildCase("ear", m_sources, {});
+  ASSERT_EQ(value.labels.at(0).structures.size(), 2U);
+  value.labels.push_back(value.labels[0]);
+  value.labels[0].structures.pop_back();
+  value.labels[1].structures.erase(value.labels[1].structures.begin());
+  library::Library library(m_folder / "library");
+  library.save(value);
+  for (scene::Case one : {value, library.open("ear")})
+  {
+    ASSERT_EQ(one.labels.size(), 2U);
+    const presenters::AxesPart incus = presenters::axesPart(one, "incus");
+    EXPECT_EQ(presenters::axesFollowers(one, incus).parts, std::vector<std::string>{"malleus"});
+    scene::Case drilled = one;
+    record(drilled, "malleus");
+    expectRefused(drilled, "incus", "'malleus' keeps its axes");
+    presenters::correctPart(one, incus, AxesCorrection::parse("RPS"));
+    for (const scene::LabelPart& part : one.labels)
+    {
+      EXPECT_LT((placeOf(part) - Vector3d(3, 6, 7)).norm(), 1e-4)
+          << part.structures.at(0).name << ": " << placeOf(part).transpose();
+      EXPECT_EQ(part.provenance.axes.letters(), "RPS") << part.structures[0].name;
+    }
+  }
+  presenters::WorkstationModel model(library);
+  model.open("ear");
+  model.correctAxes("malleus", AxesCorrection::parse("RPS"));
+  for (const bool isCorrected : {true, false, true})
+  {
+    for (const scene::LabelPart& part : model.value().labels)
+      EXPECT_LT((placeOf(part) - Vector3d(isCorrected ? 3 : -4, 6, 7)).norm(), 1e-4)
+          << part.structures.at(0).name << ": " << placeOf(part).transpose();
+    if (isCorrected)
+      model.undo();
+    else
+      model.redo();
+  }
+}
+
+// One that was taken out may be put back to where its strokes removed something.
+TEST_F(CorrectedAxes, OfAStructureAreRefusedIfStrokesRecordOneThatWasTakenOut)
+{
+  m_sources.axes = {};
+  m_sources.parts.labels = {ossicles()};
+  scene::Case value = presenters::buildCase("ear", m_sources, {});
+  record(value, "malleus");
+  presenters::WorkstationModel model(library::Library(m_folder / "library"));
+  model.adopt(std::move(value));
+  model.removePart("malleus");
+  EXPECT_THROW(model.correctAxes("incus", AxesCorrection::parse("RPS")), core::Error);
+  model.restorePart();
+  EXPECT_LT((placeOf(model.value().labels.at(0)) - Vector3d(-4, 6, 7)).norm(), 1e-9);
+}
+
+TEST_F(CorrectedAxes, AreThoseOfThePartThatIsThereAndNotOfANamesakeThatWasTakenOut)
+{
+  m_sources.axes = {};
+  m_sources.parts.labels = {labelsOn(kFileGrid, "incus.nrrd")};
+  const scene::LabelPart drawn = presenters::buildCase("ear", m_sources, {}).labels.at(0);
+  m_sources.parts.labels.clear();
+  m_sources.parts.meshes = {meshNamed("incus")};
+  presenters::WorkstationModel model(library::Library(m_folder / "library"));
+  model.adopt(presenters::buildCase("ear", m_sources, {}));
+  model.removePart("incus");
+  model.putStructure(drawn);
+  model.correctAxes("incus", AxesCorrection::parse("RPS"));
+  EXPECT_LT((placeOf(model.value().labels.at(0)) - Vector3d(3, 6, 7)).norm(), 1e-9);
+  model.undo();
+  EXPECT_LT((placeOf(model.value().labels.at(0)) - Vector3d(-4, 6, 7)).norm(), 1e-9);
+  // Where a name is there twice, as in older cases, it is the structure.
+  scene::Case older = model.value();
+  older.meshes = presenters::buildCase("ear", m_sources, {}).meshes;
+  const presenters::AxesPart part = presenters::axesPart(older, "incus");
+  EXPECT_EQ(part.kind, presenters::AxesPart::Kind::Structure);
+  presenters::correctPart(older, part, AxesCorrection::parse("RPS"));
+  EXPECT_LT((placeOf(older.labels.at(0)) - Vector3d(3, 6, 7)).norm(), 1e-9);
+  EXPECT_EQ(older.meshes.at(0).mesh.get()->vertices.at(1).x(), 1.0F);
+}
+
+// Older cases know by the grid alone that a map lies on an MR, whose grid it has no more.
+TEST_F(CorrectedAxes, OfAMapOfAnOlderCaseLeaveItOnItsMr)
+{
+  const core::GridGeometry grid({9, 9, 9}, Vector3d::Constant(1.5), Vector3d(-30, 20, 10));
+  imaging::writeVolume(m_folder / "mr.nrrd", volume::Volume<std::int16_t>(grid, std::int16_t{7}));
+  m_sources.axes = {};
+  m_sources.parts.mr = {{"t2", m_folder / "mr.nrrd"}}; // its centre is -24, 26, 16
+  m_sources.parts.labels = {labelsOn(grid, "tumour.nrrd"), labelsOn(kFileGrid, "malleus.nrrd")};
+  m_sources.parts.labels[0].name = "tumour"; // at -24, 26, 16
+  m_sources.parts.labels[1].name = "malleus";
+  scene::Case older = presenters::buildCase("ear", m_sources, {});
+  for (scene::LabelPart& map : older.labels)
+    map.drawnOn.reset();
+  const core::RigidTransform lies{Eigen::Quaterniond::Identity(), {1.0, 2.0, 3.0}};
+  scene::applyRegistration(older, "t2", lies, {});
+  presenters::WorkstationModel model(library::Library(m_folder / "library"));
+  model.adopt(older);
+  for (const char* const part : {"tumour", "t2"})
+  {
+    model.correctAxes(part, AxesCorrection::parse("SLA"));
+    const scene::LabelPart& moved = model.value().labels.at(0);
+    EXPECT_EQ(moved.drawnOn, "t2") << part;
+    EXPECT_EQ(scene::placementOf(model.value(), moved).drawnOn, "t2") << part;
+    EXPECT_EQ(model.value().labels.at(1).drawnOn, std::nullopt) << part << ": of the CT";
+    model.undo();
+    EXPECT_EQ(model.value().labels.at(0).drawnOn, std::nullopt) << part;
+    EXPECT_EQ(scene::placementOf(model.value(), model.value().labels[0]).drawnOn, "t2") << part;
+  }
+  // Of two MRs of one grid it may lie on either.
+  scene::ImagePart other = older.mr.at(0);
+  other.name = "t1";
+  older.mr.push_back(other);
+  expectRefused(older, "tumour", "on any of the MR images 't2', 't1'");
+  expectRefused(older, "t1", "whether 'tumour' goes with it");
+  expectRefused(older, "t2", "whether 'tumour' goes with it");
+  presenters::correctPart(older, presenters::axesPart(older, "malleus"),
+                          AxesCorrection::parse("RPS"));
+  EXPECT_LT((placeOf(older.labels.at(1)) - Vector3d(3, 6, 7)).norm(), 1e-9);
+  EXPECT_EQ(older.labels[1].drawnOn, std::string());
+}
+
+// PLS exchanges left and back, RPS mirrors: first PLS, then RPS, then PLS takes x, y to y, x, then
+// to -y, x, then to x, -y, so that what the file calls left and back is the patient's left and
+// front.
+TEST_F(CorrectedAxes, AreNotedAsOneOfSeveral)
+{
+  m_sources.axes = {};
+  m_sources.parts.labels = {labelsOn(kFileGrid, "incus.nrrd")};
+  m_sources.parts.meshes = {meshNamed("stapes")};
+  scene::Case value = presenters::buildCase("ear", m_sources, {});
+  const auto correct = [](scene::Case& of, const char* part, const char* letters)
+  { presenters::correctPart(of, presenters::axesPart(of, part), AxesCorrection::parse(letters)); };
+  const auto notesOf = [](const scene::Case& of) {
+    return std::vector{of.labels.at(0).notes, of.meshes.at(0).notes};
+  };
+  const auto without = notesOf(value);
+  for (const char* const letters : {"PLS", "RPS", "PLS"})
+  {
+    correct(value, "incus", letters);
+    correct(value, "stapes", letters);
+  }
+  // The mesh's vertex 1, 4, 5 about -0.5, 7.5, 7.5.
+  EXPECT_LT((value.meshes.at(0).mesh.get()->vertices.at(1) - Eigen::Vector3f(1, 11, 5)).norm(),
+            1e-4F);
+  EXPECT_LT((placeOf(value.labels.at(0)) - Vector3d(-4, 9, 7)).norm(), 1e-9);
+  for (const auto& notes : notesOf(value))
+  {
+    EXPECT_TRUE(isNoted(notes, "axes of the file corrected (LAS)"));
+    EXPECT_FALSE(isNoted(notes, "PLS"));
+    EXPECT_FALSE(isNoted(notes, "RPS"));
+  }
+  correct(value, "incus", "LAS");
+  correct(value, "stapes", "LAS");
+  EXPECT_EQ(notesOf(value), without) << "they are as before";
+  // What followed its image is corrected by itself.
+  m_sources.axes = AxesCorrection::parse("RPS");
+  m_sources.parts.meshes[0].drawnOn = "ct";
+  value = presenters::buildCase("ear", m_sources, {});
+  correct(value, "incus", "LPI");
+  correct(value, "stapes", "LPI");
+  for (const auto& notes : notesOf(value))
+  {
+    EXPECT_TRUE(isNoted(notes, "axes of the file corrected (RPI)"));
+    EXPECT_FALSE(isNoted(notes, "follows the correction"));
+  }
+  // And follows the image again.
+  value = presenters::correctedCase(value, AxesCorrection::parse("LAS"), "corrected");
+  for (const auto& notes : notesOf(value))
+    EXPECT_TRUE(isNoted(notes, "axes of the file corrected (RAI)"));
+  correct(value, "incus", "LPI");
+  correct(value, "stapes", "LPI");
+  for (const auto& notes : notesOf(value))
+    EXPECT_TRUE(isNoted(notes, "as its file states it, and follows the correction of its "
+                               "axes (RAS)"));
+}
+
+// Of what is on a grid of its own, or on an MR: the places of
+// OfLabelsTurnThemAboutTheMiddleOfTheir- Image and OfLabelsOnAnMrTurnThemAboutItsMiddle, of which
+// the files were corrected when they came.
+TEST_F(CorrectedAxes, OfPartsOfTheOpenCaseTurnThemAboutTheMiddleOfTheirImage)
+{
+  const core::GridGeometry grid({9, 9, 11}, Vector3d::Constant(1.5), Vector3d(-30, 20, 10));
+  imaging::writeVolume(m_folder / "mr.nrrd", volume::Volume<std::int16_t>(grid, std::int16_t{7}));
+  m_sources.axes = {};
+  m_sources.parts.mr = {{"t2", m_folder / "mr.nrrd"}}; // its centre is -24, 26, 17.5
+  m_sources.parts.labels = {
+      labelsOn(core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d(-6, 3, 3)),
+               "incus.nrrd"), // at -2, 7, 7
+      labelsOn(core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d(-28, 21, 8)), "tumour.nrrd",
+               "t2")}; // at -24, 25, 12
+  m_sources.parts.labels[1].name = "tumour";
+  m_sources.parts.meshes = {meshNamed("cyst", {-28, 22, 11})};
+  m_sources.parts.meshes[0].drawnOn = "t2";
+  const scene::Case value = presenters::buildCase("ear", m_sources, {});
+  for (const auto& [letters, ofCt, ofMr, vertex] :
+       {std::tuple("RPS", Vector3d(1, 7, 7), Vector3d(-24, 25, 12), Vector3d(-21, 22, 11)),
+        std::tuple("LPI", Vector3d(-2, 7, 8), Vector3d(-24, 25, 23), Vector3d(-27, 22, 24)),
+        std::tuple("SLA", Vector3d(-1, 8, 6), Vector3d(-25, 31.5, 17.5),
+                   Vector3d(-28, 32.5, 14.5))})
+  {
+    scene::Case corrected = value;
+    for (const char* const name : {"incus", "tumour", "cyst"})
+      presenters::correctPart(corrected, presenters::axesPart(corrected, name),
+                              AxesCorrection::parse(letters));
+    EXPECT_LT((placeOf(corrected.labels.at(0)) - ofCt).norm(), 1e-9)
+        << letters << ": " << placeOf(corrected.labels[0]).transpose();
+    EXPECT_LT((placeOf(corrected.labels.at(1)) - ofMr).norm(), 1e-9)
+        << letters << ": " << placeOf(corrected.labels[1]).transpose();
+    EXPECT_EQ(corrected.labels[1].drawnOn, "t2");
+    const Vector3d moved = corrected.meshes.at(0).mesh.get()->vertices.at(1).cast<double>();
+    EXPECT_LT((moved - vertex).norm(), 1e-4) << letters << ": " << moved.transpose();
+    EXPECT_TRUE(core::sameGrid(corrected.mr.at(0).geometry, grid)) << "the image stays";
+    EXPECT_TRUE(core::sameGrid(corrected.ct.geometry, kFileGrid));
+  }
 }

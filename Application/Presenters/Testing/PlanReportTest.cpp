@@ -15,6 +15,7 @@
 #include "ShapeCase.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/DissectionDistances.h"
 #include "petrous/Presenters/IdentityText.h"
 #include "petrous/Presenters/IntensityDisplay.h"
@@ -285,14 +286,23 @@ TEST(PlanReport, NamesNoEarThatNobodyStated)
   scene::Case value = planned();
   const auto caption = [](const scene::Case& of)
   { return planReport(of, small()).sections.front().pictures.at(2).caption; };
+  const auto first = [](const scene::Case& of)
+  { return planReport(of, small()).sections.front().pictures.front().caption; };
   EXPECT_EQ(caption(value), "Surgical position, left ear");
+  EXPECT_EQ(first(value), "Lateral view") << "none was saved";
+  scene::Case looked = value;
+  looked.camera = standardCamera(value, rendering::StandardView::Superior);
+  EXPECT_EQ(first(looked), "3D view as saved");
   const core::GridGeometry placed({40, 32, 32}, Vector3d::Constant(0.5), {-60.0, 0.0, 0.0});
   for (const scene::Side side : {scene::Side::Unknown, scene::Side::Both})
   {
     value.description.side = side;
     // Its image is in the middle of the scanner, as exports without a header are.
     const PlanReport report = planReport(value, small());
-    EXPECT_EQ(report.sections.front().pictures.size(), 2U) << "as saved";
+    ASSERT_EQ(report.sections.front().pictures.size(), 2U) << "the lateral view";
+    // The middle of 40 voxels of 0.5 mm from 0 on is at x = 9.75 mm.
+    EXPECT_EQ(report.sections.front().pictures.front().caption,
+              "Lateral view from the patient's left; the case does not tell which ear it is");
     EXPECT_EQ(report.sections.front().paragraphs.back(),
               "The surgical position is not shown, as the case does not tell which ear it is.");
     scene::Case right = shapes::shapeCase(placed, {});

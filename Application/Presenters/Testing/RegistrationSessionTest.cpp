@@ -462,6 +462,71 @@ TEST_F(RegistrationSessionTest, TheModelKnowsWhetherAStepMovesAnMr)
   EXPECT_TRUE(model.redoMovesMr());
 }
 
+// The image that was registered is not there any more, neither under its own name nor under that to
+// which another one was registered.
+TEST_F(RegistrationSessionTest, AResultOfBeforeTheAxesWereCorrectedIsNotTaken)
+{
+  RegistrationRequest request;
+  request.mr = "T2";
+  request.from = RegistrationRequest::From::Given;
+  request.asIs = true;
+  const RegistrationOutcome stated = registerMr(model.value(), request);
+  EXPECT_FALSE(model.undoMovesMr());
+  model.correctAxes("T2", core::AxesCorrection::parse("LPI"));
+  EXPECT_TRUE(model.undoMovesMr()) << "not during a run either";
+  EXPECT_FALSE(model.canUndoMr()) << "no step of its registration";
+  ASSERT_TRUE(session.partsChanged());
+  EXPECT_THROW(session.take(stated), core::Error);
+  EXPECT_FALSE(t2().registered);
+  const RegistrationOutcome corrected = registerMr(model.value(), request);
+  EXPECT_TRUE(session.take(corrected));
+  EXPECT_TRUE(t2().registered);
+  request.mr = "DWI";
+  request.onto = "T2";
+  const RegistrationOutcome chained = registerMr(model.value(), request);
+  model.undo(); // the result
+  model.undo();
+  EXPECT_TRUE(model.redoMovesMr());
+  EXPECT_TRUE(t2().provenance.axes.isIdentity());
+  EXPECT_TRUE(session.partsChanged());
+  EXPECT_THROW(session.take(corrected), core::Error);
+  EXPECT_TRUE(session.take(stated));
+  session.choose("DWI");
+  EXPECT_THROW(session.take(chained), core::Error);
+  EXPECT_FALSE(model.value().mr[1].registered);
+  request.onto.clear();
+  EXPECT_TRUE(session.take(registerMr(model.value(), request)));
+}
+
+// RAS turns by half a turn about the axis of the head through the image's centre, here the origin:
+// x, y, z comes to -x, -y, z. What was marked of the image lies there.
+TEST_F(RegistrationSessionTest, LandmarksStayOnTheVoxelsOfTheirImageWhoseAxesAreCorrected)
+{
+  session.shift({1, 0, 0});
+  rest();
+  model.setCrosshair({1, 2, 3});
+  session.addLandmark();
+  session.addLandmark();
+  const Vector3d marked = session.landmarks().rows().at(0).mr.value();
+  session.addLandmark(); // still without its point of the MR
+  model.correctAxes("T2", core::AxesCorrection::parse("RAS"));
+  ASSERT_TRUE(session.partsChanged());
+  ASSERT_EQ(session.landmarks().rows().size(), 2U);
+  EXPECT_EQ(session.landmarks().rows()[0].ct, Vector3d(1, 2, 3));
+  EXPECT_LT((session.landmarks().rows()[0].mr.value() - Vector3d(-marked[0], -marked[1], marked[2]))
+                .norm(),
+            1e-9);
+  EXPECT_GT(marked.head<2>().norm(), 1.0);
+  EXPECT_TRUE(session.landmarks().waitsForMr());
+  EXPECT_EQ(session.movedByHand().shift, 0.0);
+  model.undo();
+  ASSERT_TRUE(session.partsChanged());
+  EXPECT_LT((session.landmarks().rows()[0].mr.value() - marked).norm(), 1e-9);
+  model.correctAxes("DWI", core::AxesCorrection::parse("RAS"));
+  ASSERT_TRUE(session.partsChanged());
+  EXPECT_LT((session.landmarks().rows()[0].mr.value() - marked).norm(), 1e-9) << "another image";
+}
+
 TEST_F(RegistrationSessionTest, StructuresFollowUndoAndTheirVoxelsForTouchAreMadeAnew)
 {
   model.changeMr(

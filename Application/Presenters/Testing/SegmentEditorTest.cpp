@@ -8,6 +8,7 @@
 
 #include "petrous/Core/NumberText.h"
 #include "petrous/Phantom/Phantom.h"
+#include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/SegmentEditor.h"
 #include "petrous/Segmentation/MaskOperations.h"
 
@@ -707,6 +708,74 @@ TEST_F(SegmentEditorTest, WhatComesBackLiesOnTheMrThatItWasDrawnOn)
   ASSERT_TRUE(scene::findMr(model.value(), "T2"));
   ASSERT_TRUE(editor.undo());
   EXPECT_EQ(model.value().labels.front().drawnOn, "T2 axial");
+}
+
+// Two structures of one map, or one on an MR: it would come back where that was before its axes were
+// corrected, beside what was corrected with it.
+TEST_F(SegmentEditorTest, WhatWasReplacedDoesNotComeBackToWhereItsAxesWere)
+{
+  openWithMr();
+  volume::LabelMap map;
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid());
+  voxels->at(10, 10, 10) = 1;
+  voxels->at(12, 10, 10) = 2;
+  map.voxels = voxels;
+  map.segments = {{"incus", 1, {}, 1}, {"malleus", 2, {}, 1}};
+  scene::Case value = model.value();
+  addStructures(value, std::move(map));
+  model.adopt(std::move(value));
+  editor.caseChanged();
+  model.prepareNow();
+  const auto edit = [this](const std::string& name)
+  {
+    editor.edit(name)({})();
+    editor.setTool(Tool::Paint);
+    stroke(kBall, kBall);
+    editor.create();
+    model.prepareNow();
+  };
+  edit("incus");
+  ASSERT_EQ(model.value().labels.size(), 2U);
+  const auto expectRefused = [this](const std::string& named)
+  {
+    const std::size_t parts = model.value().labels.size();
+    try
+    {
+      editor.undo();
+      FAIL() << named;
+    }
+    catch (const core::Error& error)
+    {
+      EXPECT_EQ(error.fault(), core::Fault::Refused) << error.what();
+      EXPECT_NE(std::string(error.what()).find("axes of '" + named + "'"), std::string::npos)
+          << error.what();
+    }
+    EXPECT_EQ(model.value().labels.size(), parts);
+  };
+  model.correctAxes("malleus", core::AxesCorrection::parse("RPS"));
+  expectRefused("malleus");
+  model.undo();
+  model.correctAxes("incus", core::AxesCorrection::parse("RPS")); // that was created
+  expectRefused("incus");
+  model.undo();
+  ASSERT_TRUE(editor.undo());
+  ASSERT_NE(scene::findStructure(model.value(), "incus"), nullptr);
+  EXPECT_EQ(scene::findStructure(model.value(), "incus")->voxels, 1U);
+  editor.discard();
+
+  value = model.value();
+  for (scene::LabelPart& part : value.labels)
+    part.drawnOn = "T2";
+  model.adopt(std::move(value));
+  editor.caseChanged();
+  model.prepareNow();
+  model.removePart("malleus");
+  edit("incus");
+  model.correctAxes("T2", core::AxesCorrection::parse("RPS"));
+  expectRefused("T2");
+  model.undo();
+  EXPECT_TRUE(editor.undo());
+  EXPECT_EQ(scene::findStructure(model.value(), "incus")->voxels, 1U);
 }
 
 TEST_F(SegmentEditorTest, WhatIsMadeFromAnMrKeepsWhichAndWhereItLay)

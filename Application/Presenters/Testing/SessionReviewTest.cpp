@@ -134,7 +134,149 @@ protected:
   bool tellsRedone = true; // in recordings of older programs it is not
 };
 
+// A straight way of so many mm in so many seconds, drilling under a force.
+OperationReview::Part straight(double begin, double seconds, double length, double force)
+{
+  RecordedCourse course;
+  const int ticks = static_cast<int>(1000.0 * seconds);
+  for (int n = 0; n <= ticks; ++n)
+    course.add(tick(10.0 + 0.001 * n, {length * n / ticks, 0.0, 0.0}, true, force));
+  OperationReview::Part part;
+  part.begin = begin;
+  part.review.course = course.tools();
+  part.review.metrics = course.metrics();
+  part.review.burr.rpm = 60000.0;
+  return part;
+}
+
+dissection::StrokeInfo strokeOf(double removed, double nerve)
+{
+  dissection::StrokeInfo info;
+  info.removed = removed;
+  info.structures = {{"nerve", nerve}};
+  return info;
+}
+
+// With strokes of 1, 2, … mm^3, a tenth of it nerve.
+void fill(SessionReview& review, std::size_t applied, const std::vector<double>& made,
+          std::size_t undone, double nearest)
+{
+  review.applied = applied;
+  review.undone = undone;
+  review.removed = 0.0;
+  for (const double removed : made)
+  {
+    review.made.push_back(strokeOf(removed, 0.1 * removed));
+    *review.removed += removed;
+  }
+  review.strokes = made.size();
+  review.structures = {{"nerve", nearest, 0.1 * *review.removed}};
+}
+
 } // namespace
+
+// 2 N for one second along 3 mm, then 5 N for three along 4 mm.
+TEST(OperationReview, AddsTimesAndPathsAndTakesForcesOverAllOfTheTime)
+{
+  const OperationReview whole =
+      togetherOf({straight(0.0, 1.0, 3.0, 2.0), straight(1.0, 3.0, 4.0, 5.0)});
+  EXPECT_NEAR(whole.metrics.duration, 4.0, 1e-9);
+  EXPECT_NEAR(whole.metrics.drilling, 4.0, 1e-9);
+  EXPECT_NEAR(whole.metrics.path, 7.0, 2.0 * RecordedCourse::kStep);
+  EXPECT_NEAR(whole.metrics.drillingPath, 7.0, 2.0 * RecordedCourse::kStep);
+  EXPECT_NEAR(whole.metrics.meanForce, (2.0 * 1.0 + 5.0 * 3.0) / 4.0, 1e-9);
+  EXPECT_DOUBLE_EQ(whole.metrics.maxForce, 5.0);
+  EXPECT_DOUBLE_EQ(whole.metrics.maxThrust, 10.0);
+  EXPECT_EQ(whole.metrics.drillStarts, 2U);
+  EXPECT_FALSE(whole.speed) << "no pedal set it";
+  double last = 0.0;
+  for (const RecordedTool& tool : whole.course)
+  {
+    EXPECT_GE(tool.time, last);
+    EXPECT_DOUBLE_EQ(tool.force, tool.time < 1.0 ? 2.0 : tool.time > 1.01 ? 5.0 : tool.force);
+    last = tool.time;
+  }
+  EXPECT_NEAR(last, 4.0, 1e-9);
+  EXPECT_NEAR(toolAt(whole.course, 2.5)->center.x(), 2.0, 0.01) << "half of the second part";
+  EXPECT_EQ(&partAt(whole, 0.5), &whole.parts[0]);
+  EXPECT_EQ(&partAt(whole, 1.5), &whole.parts[1]);
+  EXPECT_EQ(&partAt(whole, 9.0), &whole.parts[1]);
+  EXPECT_THROW(togetherOf({}), core::InvalidParameter);
+}
+
+TEST(OperationReview, TakesTheSetSpeedWhereNoPedalGaveOne)
+{
+  auto first = straight(0.0, 1.0, 1.0, 1.0);
+  auto second = straight(1.0, 3.0, 1.0, 1.0);
+  second.review.speed = dissection::SpindleSpeed{20000.0, 30000.0};
+  const OperationReview whole = togetherOf({first, second});
+  ASSERT_TRUE(whole.speed);
+  EXPECT_NEAR(whole.speed->mean, (60000.0 + 3.0 * 20000.0) / 4.0, 1e-6);
+  EXPECT_DOUBLE_EQ(whole.speed->max, 60000.0);
+}
+
+// 7 strokes are older. The second part undoes the last stroke of the first; between second and
+// third another one was undone.
+TEST(OperationReview, AddsVolumesOfTheStrokesThatStayAndTakesTheNearestDistance)
+{
+  std::vector<OperationReview::Part> parts{
+      straight(0.0, 1.0, 1.0, 1.0), straight(1.0, 1.0, 1.0, 1.0), straight(2.0, 1.0, 1.0, 1.0)};
+  fill(parts[0].review, 7, {1.0, 2.0, 4.0}, 0, 0.8);
+  fill(parts[1].review, 10, {8.0, 16.0}, 1, 0.3);
+  fill(parts[2].review, 10, {32.0}, 0, 0.5); // 7 + 3 - 1 + 2 = 11 before
+  parts[2].review.structures.push_back({"dura", 1.5, 0.0});
+  const OperationReview whole = togetherOf(parts);
+  ASSERT_TRUE(whole.removed);
+  EXPECT_DOUBLE_EQ(*whole.removed, 1.0 + 2.0 + 8.0 + 32.0);
+  EXPECT_EQ(whole.strokes, 4U);
+  ASSERT_EQ(whole.structures.size(), 2U);
+  EXPECT_EQ(whole.structures[0].name, "dura");
+  EXPECT_DOUBLE_EQ(*whole.structures[0].nearest, 1.5);
+  EXPECT_DOUBLE_EQ(*whole.structures[1].nearest, 0.3);
+  EXPECT_NEAR(*whole.structures[1].removed, 4.3, 1e-12);
+
+  // What is not known of a part is not known of all.
+  parts[1].review.removed.reset();
+  parts[1].review.whyUnmeasured = "began on another dissection";
+  const OperationReview partly = togetherOf(parts);
+  EXPECT_FALSE(partly.removed);
+  EXPECT_EQ(partly.whyUnmeasured, "began on another dissection");
+  EXPECT_FALSE(partly.structures[1].removed);
+  EXPECT_DOUBLE_EQ(*partly.structures[1].nearest, 0.3);
+}
+
+TEST(OperationReview, ATableHasARowPerPartAndOneOfTheWhole)
+{
+  std::vector<OperationReview::Part> parts{straight(0.0, 1.0, 3.0, 2.0),
+                                           straight(1.0, 3.0, 4.0, 5.0)};
+  parts[0].name = "a.ticks";
+  parts[1].name = "b, \"c\".ticks";
+  fill(parts[0].review, 0, {1.0}, 0, 0.8);
+  fill(parts[1].review, 1, {2.0, 4.0}, 0, 0.3);
+  const OperationReview whole = togetherOf(parts);
+  std::istringstream table(operationCsv(whole));
+  std::vector<double> durations, volumes, nearest;
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(table, line);)
+    lines.push_back(line);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_NE(lines[0].find("nearest_mm nerve,removed_mm3 nerve"), std::string::npos) << lines[0];
+  EXPECT_EQ(lines[1].rfind("1,a.ticks,", 0), 0U) << lines[1];
+  EXPECT_EQ(lines[2].rfind("2,\"b, \"\"c\"\".ticks\",", 0), 0U) << lines[2];
+  EXPECT_EQ(lines[3].rfind("total,,,,,4.000,4.000,2,", 0), 0U) << lines[3];
+  EXPECT_NE(lines[3].find(",3,7.000,0.300,0.700"), std::string::npos) << lines[3];
+
+  std::istringstream course(operationCourseCsv(whole));
+  std::size_t rows = 0;
+  core::readCsv(course, "course", {"t_s", "force_n", "part"},
+                [&](std::size_t, const std::vector<double>& row)
+                {
+                  EXPECT_NEAR(row[0], whole.course[rows].time, 1e-4);
+                  EXPECT_DOUBLE_EQ(row[1], row[2] == 1.0 ? 2.0 : 5.0);
+                  ++rows;
+                });
+  EXPECT_EQ(rows, whole.course.size());
+}
 
 TEST(RecordedCourse, MeasuresTimePathAndForceOfAStraightStroke)
 {
@@ -314,6 +456,37 @@ TEST_F(SessionReviewTest, MeasuresWhatTheRecordedStrokesRemoved)
   ASSERT_TRUE(review.structures[0].removed);
 }
 
+// Two balls that overlap: the second stroke removes less. On a copy where nothing was drilled the
+// second recording goes on from the first.
+TEST_F(SessionReviewTest, RecordingsOfAnOperationAreReviewedTogether)
+{
+  scene::Case value = namedBlock();
+  record(value, false, {5.0, 6.0, kTop - 1.0});
+  const auto first = file;
+  file = folder / "session (2).ticks";
+  record(value, false, {6.0, 6.0, kTop - 1.0});
+  const double removed = value.removedVolume();
+  ASSERT_GT(removed, 0.0);
+  for (const scene::Case& one : {value, namedBlock()})
+  {
+    const OperationReview whole = reviewOperation({first, file}, one);
+    EXPECT_EQ(whole.whyUnmeasured, "");
+    ASSERT_TRUE(whole.removed);
+    EXPECT_NEAR(*whole.removed, removed, 1e-9 * removed);
+    EXPECT_EQ(whole.strokes, 2U);
+    ASSERT_EQ(whole.parts.size(), 2U);
+    EXPECT_EQ(whole.parts[1].name, "session (2).ticks");
+    EXPECT_LT(*whole.parts[1].review.removed, *whole.parts[0].review.removed);
+    EXPECT_DOUBLE_EQ(*whole.removed,
+                     *whole.parts[0].review.removed + *whole.parts[1].review.removed);
+  }
+  const OperationReview alone = reviewOperation({first}, namedBlock());
+  ASSERT_TRUE(alone.removed);
+  EXPECT_EQ(metricsCsv(alone), metricsCsv(reviewRecording(first, namedBlock())));
+  const OperationReview wrong = reviewOperation({file}, namedBlock());
+  EXPECT_FALSE(wrong.removed);
+}
+
 // A colleague's copy holds what was drilled, more of it, and perhaps another threshold.
 TEST_F(SessionReviewTest, OpensOnACopyThatWasDrilledAndChangedSince)
 {
@@ -478,6 +651,20 @@ TEST_F(SessionReviewTest, TablesHaveTheMetricsAndTheCourse)
                   ++rows;
                 });
   EXPECT_EQ(rows, review.course.size());
+}
+
+TEST(Recordings, FilesOfASessionBelongTogetherInTheirOrder)
+{
+  using Files = std::vector<std::filesystem::path>;
+  const Files files{"r/ball 2026-03-02 08-00-00.ticks",      "r/ball 2026-03-01 09-30-00.ticks",
+                    "r/ball 2026-03-01 09-30-00 (10).ticks", "r/ball 2026-03-01 09-30-00 (2).ticks",
+                    "s/ball 2026-03-01 09-30-00 (3).ticks",  "r/notes (left).ticks"};
+  const auto operations = inOperations(files);
+  ASSERT_EQ(operations.size(), 4U);
+  EXPECT_EQ(operations[0], Files{files[0]});
+  EXPECT_EQ(operations[1], (Files{files[1], files[3], files[2]}));
+  EXPECT_EQ(operations[2], Files{files[4]}) << "another folder";
+  EXPECT_EQ(operations[3], Files{files[5]});
 }
 
 TEST_F(SessionReviewTest, RecordingsOfACaseAreListedLatestFirst)

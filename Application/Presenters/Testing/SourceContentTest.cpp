@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <random>
 #include <set>
 
@@ -355,6 +356,41 @@ TEST_F(SourceContent, ASeriesThatTheMemoryDoesNotHoldIsKnownBeforeItIsRead)
   {
     EXPECT_EQ(error.reason(), imaging::DicomError::Reason::TooLarge) << error.what();
     EXPECT_EQ(error.fault(), core::Fault::Refused) << "the input is sound, and a region may do";
+  }
+}
+
+// Sparse files: the disk holds their headers alone.
+TEST_F(SourceContent, AFileThatTheMemoryDoesNotHoldIsOfferedByRegion)
+{
+  constexpr std::uint64_t kEdge = 512;
+  constexpr std::uint64_t kBytes = kEdge * kEdge * sizeof(std::int16_t);
+  const std::uint64_t memory = core::systemMemory().total;
+  if (memory == 0)
+    GTEST_SKIP() << "its size is not known";
+  const std::uint64_t slices = memory / kBytes + 3;
+  const std::string sizes =
+      std::to_string(kEdge) + " " + std::to_string(kEdge) + " " + std::to_string(slices);
+  const std::map<std::string, std::string> headers{
+      {"large.nrrd",
+       "NRRD0004\ntype: int16\ndimension: 3\nspace: left-posterior-superior\nsizes: " + sizes +
+           "\nspace directions: (0.01,0,0) (0,0.01,0) (0,0,0.001)\n"
+           "kinds: domain domain domain\nendian: little\nencoding: raw\n"
+           "space origin: (1,2,3)\n\n"},
+      {"large.mha", "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = "
+                    "False\nCompressedData = False\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n"
+                    "Offset = 1 2 3\nElementSpacing = 0.01 0.01 0.001\nDimSize = " +
+                        sizes + "\nElementType = MET_SHORT\nElementDataFile = LOCAL\n"}};
+  for (const auto& [name, header] : headers)
+  {
+    const auto file = m_folder / name;
+    imaging::test::writeText(file, header);
+    std::error_code refused;
+    std::filesystem::resize_file(file, header.size() + kBytes * slices, refused);
+    if (refused)
+      GTEST_SKIP() << "no sparse files here: " << refused.message();
+    const auto found = presenters::lookAt(file, {});
+    EXPECT_TRUE(found.isTooLarge) << name;
+    EXPECT_EQ(found.content, Content::Image) << name; // all zero
   }
 }
 

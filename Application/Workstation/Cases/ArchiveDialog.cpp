@@ -218,7 +218,6 @@ bool ArchiveDialog::mayLeaveFaces()
     return true;
   QMessageBox ask(QMessageBox::Warning, windowTitle(), left.join('\n'), QMessageBox::Cancel, this);
   ask.setObjectName("archiveFace");
-  ask.setTextFormat(Qt::PlainText);
   auto* go = ask.addButton(tr("&Archive with the face"), QMessageBox::AcceptRole);
   ask.setDefaultButton(QMessageBox::Cancel);
   ask.exec();

@@ -57,7 +57,7 @@ char opposite(char letter)
   return kLetters[(at - std::begin(kLetters)) ^ 1];
 }
 
-QString listed(const std::vector<std::string>& names)
+QString shownNames(const std::vector<std::string>& names)
 {
   QStringList all;
   for (const std::string& name : names)
@@ -69,9 +69,10 @@ QString followText(const presenters::AxesFollowers& followers)
 {
   QStringList lines;
   if (!followers.parts.empty())
-    lines += AxesDialog::tr("Goes along: %1").arg(listed(followers.parts));
+    lines += AxesDialog::tr("Goes along: %1").arg(shownNames(followers.parts));
   if (!followers.unregistered.empty())
-    lines += AxesDialog::tr("Is to be registered again: %1").arg(listed(followers.unregistered));
+    lines +=
+        AxesDialog::tr("Is to be registered again: %1").arg(shownNames(followers.unregistered));
   return lines.join('\n');
 }
 
@@ -101,9 +102,9 @@ QString leftText(const presenters::LeftBehind& left)
   const auto add = [&lines](const QString& line)
   { lines += QString::fromUtf8("\xe2\x80\xa2 ") + line; };
   if (!left.mr.empty())
-    add(AxesDialog::tr("MRs with their registrations: %1").arg(listed(left.mr)));
+    add(AxesDialog::tr("MRs with their registrations: %1").arg(shownNames(left.mr)));
   if (!left.drawnOnMr.empty())
-    add(AxesDialog::tr("Drawn on an MR: %1").arg(listed(left.drawnOnMr)));
+    add(AxesDialog::tr("Drawn on an MR: %1").arg(shownNames(left.drawnOnMr)));
   if (left.strokes > 0)
     add(AxesDialog::tr("Strokes: %1").arg(left.strokes));
   if (left.measurements > 0)
@@ -143,9 +144,15 @@ AxesDialog::AxesDialog(const scene::Case& value, QWidget* parent, std::string pa
   setObjectName("correctAxes");
   setWindowTitle(tr("Correct the axes"));
   resizeOnScreen(*this, {900, 620});
-  const presenters::AxesFollowers followers =
-      part.empty() ? presenters::AxesFollowers() : presenters::axesFollowers(value, part);
-  showOnly(value, part);
+  presenters::AxesFollowers followers;
+  if (part.empty())
+    showImage(value, {});
+  else
+  {
+    const presenters::AxesPart corrected = presenters::axesPart(value, part);
+    followers = presenters::axesFollowers(value, corrected);
+    showOnly(value, corrected);
+  }
 
   auto* title = new QLabel(
       part.empty()
@@ -241,47 +248,48 @@ void AxesDialog::choose(std::size_t axis, char letter)
   setAxes(AxesCorrection::parse(letters));
 }
 
-// An MR, and the image on which a structure or a mesh was drawn, are shown as the primary one.
-void AxesDialog::showOnly(const scene::Case& value, const std::string& part)
+void AxesDialog::showOnly(const scene::Case& value, const presenters::AxesPart& part)
+{
+  using Kind = presenters::AxesPart::Kind;
+  if (part.kind == Kind::Mr)
+    return showImage(value, part.name);
+  m_part = part;
+  if (part.kind == Kind::Mesh)
+  {
+    scene::MeshPart mesh =
+        *std::find_if(value.meshes.begin(), value.meshes.end(),
+                      [&part](const scene::MeshPart& one) { return one.name == part.name; });
+    showImage(value, mesh.drawnOn);
+    mesh.drawnOn.clear();
+    mesh.look.shown = true;
+    m_image.meshes = {mesh};
+    return;
+  }
+  const auto holds = [&part](const scene::LabelPart& one)
+  {
+    return std::any_of(one.structures.begin(), one.structures.end(),
+                       [&part](const auto& structure) { return structure.name == part.name; });
+  };
+  scene::LabelPart map = *std::find_if(value.labels.begin(), value.labels.end(), holds);
+  showImage(value, scene::placementOf(value, map).drawnOn);
+  map.drawnOn = std::string();
+  for (scene::StructurePart& one : map.structures)
+    one.look.shown = true;
+  m_image.labels = {map};
+}
+
+// Nothing but an image: an MR is shown as the primary one.
+void AxesDialog::showImage(const scene::Case& value, const std::string& image)
 {
   m_image.mr.clear();
   m_image.labels.clear();
   m_image.meshes.clear();
-  if (part.empty())
-    return;
-  std::string on = part;
-  for (const scene::LabelPart& map : value.labels)
-    for (const scene::StructurePart& one : map.structures)
-      if (one.name == part)
-      {
-        on = scene::placementOf(value, map).drawnOn;
-        m_image.labels = {map};
-        m_part = part;
-      }
-  for (const scene::MeshPart& mesh : value.meshes)
-    if (mesh.name == part)
-    {
-      on = mesh.drawnOn;
-      m_image.meshes = {mesh};
-      m_part = part;
-    }
-  if (const scene::ImagePart* mr = scene::findMr(value, on))
+  if (const scene::ImagePart* mr = scene::findMr(value, image))
   {
     m_image.ct = *mr;
     m_image.ct.modality = scene::Modality::Mr;
   }
   m_image.dissection = {}; // its drawings are shown wherever strokes are
-  for (scene::LabelPart& map : m_image.labels)
-  {
-    map.drawnOn = std::string();
-    for (scene::StructurePart& one : map.structures)
-      one.look.shown = true;
-  }
-  for (scene::MeshPart& mesh : m_image.meshes)
-  {
-    mesh.drawnOn.clear();
-    mesh.look.shown = true;
-  }
 }
 
 void AxesDialog::setAxes(const AxesCorrection& axes)
@@ -293,15 +301,15 @@ void AxesDialog::setAxes(const AxesCorrection& axes)
     m_choices[axis]->setCurrentIndex(m_choices[axis]->findData(QChar(axes.letter(axis))));
   }
   m_apply->setEnabled(!axes.isIdentity());
-  m_kind->setText(axes.isIdentity()    ? tr("As it is. Choose what is wrong.")
-                  : axes.isMirroring() ? tr("The anatomy is mirrored: a left ear becomes a right "
-                                            "one.")
-                                       : tr("The anatomy is turned, and not mirrored."));
+  m_kind->setText(axes.isIdentity()     ? tr("As it is. Choose what is wrong.")
+                  : !axes.isMirroring() ? tr("The anatomy is turned, and not mirrored.")
+                  : m_part ? tr("It is mirrored. The image on which it lies stays as it is.")
+                           : tr("The anatomy is mirrored: a left ear becomes a right one."));
   scene::Case shown = m_image;
-  if (!axes.isIdentity() && m_part.empty())
+  if (!axes.isIdentity() && !m_part)
     shown = presenters::correctedCase(m_image, axes, m_image.name);
   else if (!axes.isIdentity())
-    presenters::correctPart(shown, m_part, axes);
+    presenters::correctPart(shown, *m_part, axes);
   const auto presenter = std::make_shared<const presenters::SlicePresenter>(shown);
   for (SliceView* view : m_views)
   {

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include <QDialog>
 #include <QString>
 
 #include "petrous/Core/AxesCorrection.h"
+#include "petrous/Presenters/CorrectedCase.h"
 #include "petrous/Scene/Case.h"
 
 class QComboBox;
@@ -41,11 +43,12 @@ public:
 
 private:
   void choose(std::size_t axis, char letter);
-  void showOnly(const scene::Case& value, const std::string& part);
+  void showOnly(const scene::Case& value, const presenters::AxesPart& part);
+  void showImage(const scene::Case& value, const std::string& image);
   void setAxes(const core::AxesCorrection& axes);
 
   scene::Case m_image; ///< the case without anything but the image, and what is corrected on it
-  std::string m_part;  ///< a structure or a mesh of m_image; empty: the image
+  std::optional<presenters::AxesPart> m_part; ///< a structure or a mesh of m_image; or the image
   core::AxesCorrection m_axes;
   std::array<QComboBox*, 3> m_choices{};
   std::array<SliceView*, 3> m_views{};

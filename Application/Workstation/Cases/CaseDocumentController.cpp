@@ -375,7 +375,6 @@ void CaseDocumentController::bringBack()
 void CaseDocumentController::refuse(const QString& why)
 {
   QMessageBox box(QMessageBox::Warning, tr("Petrous"), windowText(why), QMessageBox::Ok, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setTextInteractionFlags(Qt::TextSelectableByMouse);
   box.exec();
 }
@@ -386,7 +385,6 @@ void CaseDocumentController::inform(const QString& text)
   auto* box =
       new QMessageBox(QMessageBox::Information, tr("Petrous"), text, QMessageBox::Ok, &m_window);
   box->setAttribute(Qt::WA_DeleteOnClose);
-  box->setTextFormat(Qt::PlainText);
   box->setTextInteractionFlags(Qt::TextSelectableByMouse);
   box->open();
 }
@@ -639,7 +637,6 @@ bool CaseDocumentController::askContent(SourceContent& source)
   QMessageBox box(QMessageBox::Question, tr("What is this?"),
                   tr("What is “%1”? It %2.").arg(titleOf(source), phrase(source.why)),
                   QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setObjectName("askContent");
   const bool open = m_model.hasCase();
   const QString name = open ? words(m_model.value().name) : QString();
@@ -671,7 +668,6 @@ bool CaseDocumentController::askMrAlone(const SourceContent& source)
   QMessageBox box(QMessageBox::Question, tr("A case without a CT?"),
                   tr("There is no CT here. Begin the case with the MR “%1”?").arg(titleOf(source)),
                   QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setObjectName("askMrAlone");
   box.setInformativeText(tr("Its surface is then where tissue begins, not bone. If there is a CT "
                             "of the patient, open that first, and the MR comes to it."));
@@ -699,7 +695,6 @@ void CaseDocumentController::refuseSeries(const SourceContent& source)
   QMessageBox box(QMessageBox::Warning, tr("The scan cannot be used"),
                   tr("“%1” cannot be used: it would mislead.").arg(titleOf(source)),
                   QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setTextInteractionFlags(Qt::TextSelectableByMouse);
   box.setObjectName("seriesRefused");
   QStringList lines;
@@ -727,7 +722,8 @@ bool CaseDocumentController::askRegion(Item& item)
   if (!item.region && !item.source.isTooLarge)
     return true;
   RegionDialog dialog(item.source.path, item.source.selector, !item.source.repair.empty(),
-                      item.assumeRas, item.unit, &m_window);
+                      item.assumeRas, item.unit, &m_window,
+                      item.axes.value_or(core::AxesCorrection()));
   dialog.setWindowTitle(tr("Region of the %1").arg(lineOf(item.source)));
   if (dialog.exec() != QDialog::Accepted)
     return false;
@@ -1213,7 +1209,6 @@ CaseDocumentController::askOutside(const std::vector<presenters::StructureReport
                 .arg(what, QString::number(read), QString::number(outside.size())),
       QMessageBox::NoButton, &m_window);
   box.setObjectName("askOutside");
-  box.setTextFormat(Qt::PlainText);
   QString more = tr("They may be another patient's, or of another scan.");
   if (!isAll)
     more = outside.mid(0, kNamed).join(", ") +
@@ -1289,7 +1284,6 @@ void CaseDocumentController::refuseAll(const QStringList& whys)
   QMessageBox box(QMessageBox::Warning, tr("Petrous"),
                   tr("%1 files were not added.").arg(lines.size()), QMessageBox::Ok, &m_window);
   box.setObjectName("notAdded");
-  box.setTextFormat(Qt::PlainText);
   box.setTextInteractionFlags(Qt::TextSelectableByMouse);
   box.setInformativeText(lines.mid(0, kShown).join("\n\n"));
   if (lines.size() > kShown)
@@ -1323,7 +1317,6 @@ void CaseDocumentController::tellStructures(const std::vector<presenters::Struct
       new QMessageBox(QMessageBox::Warning, tr("Structures"),
                       phrase(presenters::summaryOf(report).text) + ".", QMessageBox::Ok, &m_window);
   box->setAttribute(Qt::WA_DeleteOnClose);
-  box->setTextFormat(Qt::PlainText);
   box->setObjectName("structuresRead");
   box->setInformativeText(tr("Not all are as the file has them."));
   box->setDetailedText(lines.join("\n"));
@@ -1404,7 +1397,6 @@ std::optional<double> CaseDocumentController::askUnit(const fs::path& path,
                                       "specimen.")
                                        .arg(nameOf(path), edge),
                   QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setObjectName("askUnit");
   box.setInformativeText(tr("In which unit are its numbers? Every distance, tool and thickness "
                             "follows this answer. Export the file again with its unit if you do "
@@ -1436,7 +1428,6 @@ std::optional<imaging::UndeclaredBits> CaseDocumentController::askBits(const std
   QMessageBox box(QMessageBox::Warning, tr("What are these bits?"),
                   tr("The scan contradicts itself about the bits of a pixel."),
                   QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setTextInteractionFlags(Qt::TextSelectableByMouse);
   box.setObjectName("askBits");
   box.setInformativeText(
@@ -1462,7 +1453,6 @@ std::optional<bool> CaseDocumentController::askSide(const fs::path& path)
                   tr("“%1” does not say which side of the patient is left. How do its axes run?")
                       .arg(nameOf(path)),
                   QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setObjectName("askSide");
   box.setInformativeText(
       tr("A wrong answer turns it by half a turn: what is left is then shown on the right, and "
@@ -1496,7 +1486,6 @@ bool CaseDocumentController::askDrawnOn(presenters::PartSource& source)
                             "case."))
                       .arg(titleOf(source)),
                   QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setObjectName("askDrawnOn");
   box.setInformativeText(
       (hasCorrected
@@ -1542,7 +1531,6 @@ bool CaseDocumentController::askAsTheyLie(const presenters::PartFailure& failure
       QMessageBox::Warning, tr("Does it lie where it belongs?"),
       tr("“%1” has another grid than the CT, which was repaired.").arg(titleOf(failure.source)),
       QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setObjectName("askAsTheyLie");
   box.setInformativeText(
       tr("Drawn on the slices as they lie in the files, by a program that takes them for straight "
@@ -1629,7 +1617,6 @@ bool CaseDocumentController::askOtherPatient(const presenters::PartFailure& fail
                   tr("“%1” states another patient than the images of “%2” do. What differs: %3.")
                       .arg(titleOf(failure.source), target.name, phrase(failure.differing)),
                   QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setObjectName("askOtherPatient");
   box.setInformativeText(
       tr("Of another patient, it would put an anatomy into the picture that is not this one's, and "
@@ -1649,7 +1636,6 @@ CaseDocumentController::askMeshSpace(const presenters::PartFailure& failure)
       QMessageBox::Question, tr("Coordinates of a mesh"),
       tr("Which coordinate system does the mesh “%1” use?").arg(nameOf(failure.source.path)),
       QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setObjectName("askMeshSpace");
   box.setInformativeText(phrase(failure.why));
   std::vector<QAbstractButton*> buttons;
@@ -1706,8 +1692,10 @@ void CaseDocumentController::restorePart()
 
 void CaseDocumentController::renamePart(const std::string& name)
 {
-  if (!m_model.hasCase() || writing())
+  if (!m_model.hasCase())
     return;
+  if (writing())
+    return emit statusMessage(tr("One at a time: something is being read already"));
   const QScopedValueRollback<bool> asking(m_asking, true);
   const std::string to =
       bytes(askName(m_window, tr("Rename"), tr("New name of “%1”:").arg(words(name)), words(name),
@@ -1724,8 +1712,10 @@ void CaseDocumentController::renamePart(const std::string& name)
 
 void CaseDocumentController::correctAxes(const std::string& part)
 {
-  if (!m_model.hasCase() || writing())
+  if (!m_model.hasCase())
     return;
+  if (writing())
+    return emit statusMessage(tr("One at a time: something is being read already"));
   core::AxesCorrection axes;
   const std::uint64_t shown = m_model.shownAs();
   try
@@ -1962,7 +1952,6 @@ void CaseDocumentController::offerCtGrid(const presenters::ExportOptions& option
   auto* box = new QMessageBox(QMessageBox::Question, tr("Export"), sentence(why),
                               QMessageBox::Cancel, &m_window);
   box->setAttribute(Qt::WA_DeleteOnClose);
-  box->setTextFormat(Qt::PlainText);
   box->setObjectName("exportGrids");
   const QString primary = m_model.hasCase() ? presenters::primaryName(m_model.value()) : "CT";
   box->setInformativeText(tr("On the %1's grid each of its voxels takes the nearest label, so that "

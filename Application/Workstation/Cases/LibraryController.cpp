@@ -226,7 +226,6 @@ void LibraryController::remove(const std::string& name)
 {
   QMessageBox box(QMessageBox::Warning, tr("Delete the case"),
                   tr("Delete the case “%1”?").arg(words(name)), QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setObjectName("askDelete");
   const std::size_t strokes = m_panel->strokes();
   box.setInformativeText(
@@ -283,7 +282,6 @@ void LibraryController::askDescription(const std::string& name, const scene::Des
                                     QMessageBox::Ok, &m_window);
         box->setObjectName("sideDoubt");
         box->setAttribute(Qt::WA_DeleteOnClose);
-        box->setTextFormat(Qt::PlainText);
         box->open();
       });
 }
@@ -357,7 +355,6 @@ void LibraryController::collect()
           : tr("Remove %1 deleted cases for good, and all that no case needs?").arg(deleted),
       QMessageBox::NoButton, &m_window);
   box.setObjectName("askCollect");
-  box.setTextFormat(Qt::PlainText);
   QString more = tr("They cannot be brought back afterwards. Data that were derived from images "
                     "are computed anew when they are needed.");
   if (!m_model.removedPart().empty())

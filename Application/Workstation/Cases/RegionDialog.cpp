@@ -38,7 +38,8 @@ QString sizeText(std::size_t voxels, std::size_t bytes)
 
 RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string& selector,
                            bool repair, const std::optional<bool>& assumeRas,
-                           const std::optional<double>& unit, QWidget* parent)
+                           const std::optional<double>& unit, QWidget* parent,
+                           const core::AxesCorrection& axes)
   : QDialog(parent)
   , m_views{new SliceView(SliceOrientation::Axial), new SliceView(SliceOrientation::Coronal),
             new SliceView(SliceOrientation::Sagittal)}
@@ -51,7 +52,10 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
   setWindowTitle(tr("Region of the scan"));
   resizeOnScreen(*this, {1000, 560});
   auto* title = new QLabel(
-      tr("Only what lies in the box is read: drag its edges, or give it in mm (patient LPS)."));
+      axes.isIdentity()
+          ? tr("Only what lies in the box is read: drag its edges, or give it in mm (patient LPS).")
+          : tr("Only what lies in the box is read: drag its edges, or give it in mm (the file's "
+               "LPS). The letters at the slices are the patient's, by the corrected axes."));
   wrapWords(*title);
   auto* views = new QHBoxLayout;
   views->setSpacing(3);
@@ -59,6 +63,7 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
   {
     view->setToolTip(tr("Drag an edge of the box, or the box.  Outside it: move the crosshair.  "
                         "Wheel: scroll."));
+    view->setCorrection(axes);
     views->addWidget(view, 1);
     connect(view, &SliceView::boxTaken, this,
             [this](const presenters::BoxFaces& faces, const Eigen::Vector3d& patient)

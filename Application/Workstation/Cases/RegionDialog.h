@@ -7,6 +7,7 @@
 #include <QDialog>
 
 #include "SliceView.h"
+#include "petrous/Core/AxesCorrection.h"
 #include "petrous/Core/PatientBox.h"
 #include "petrous/Presenters/BoxHandles.h"
 #include "petrous/Presenters/SeriesPreview.h"
@@ -25,10 +26,11 @@ class RegionDialog : public QDialog
 {
   Q_OBJECT
 public:
-  /// `selector`: imaging::chooseSeries; `assumeRas`, `unit`: presenters::CaseSources.
+  /// `selector`: imaging::chooseSeries; `assumeRas`, `unit`, `axes`: presenters::CaseSources. The
+  /// slices lie as the file states them, as the region does; their letters are corrected.
   RegionDialog(const std::filesystem::path& path, const std::string& selector, bool repair,
                const std::optional<bool>& assumeRas = {}, const std::optional<double>& unit = {},
-               QWidget* parent = nullptr);
+               QWidget* parent = nullptr, const core::AxesCorrection& axes = {});
 
   /// Patient LPS mm; nullopt: all of it.
   std::optional<core::PatientBox> region() const;

@@ -162,7 +162,7 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
     auto* line = new QTreeWidgetItem(m_list);
     fillLine(*line, series, m_series);
     if (!line->isDisabled())
-      addAxes(*line);
+      addAxes(*line, series);
   }
   constexpr int kWidest = 420; // px, of a column; longer texts are in its tooltip
   m_list->header()->setStretchLastSection(false);
@@ -210,14 +210,25 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
   resizeOnScreen(*this, {std::max(860, m_list->header()->length() + around), 380});
 }
 
-void SeriesDialog::addAxes(QTreeWidgetItem& line)
+// What was drawn on an image follows its axes unless it is said to lie where it belongs.
+void SeriesDialog::addAxes(QTreeWidgetItem& line, const SeriesContent& series)
 {
   auto* axes = new QComboBox;
   axes->setAccessibleName(tr("Axes"));
   axes->setToolTip(
       tr("For a file that states wrong axes. What else can be wrong, and how the image "
          "then looks, is in Case > Correct the axes…"));
-  axes->addItem(tr("as the file states"));
+  if (series.content == Content::Labels || series.content == Content::Mesh)
+  {
+    axes->addItem(tr("as its image"));
+    axes->setItemData(0, tr("It follows a correction of the image on which it was drawn"),
+                      Qt::ToolTipRole);
+    axes->addItem(tr("as the file states"), words(core::AxesCorrection().letters()));
+    axes->setItemData(1, tr("It lies where it belongs, whatever is wrong with its image"),
+                      Qt::ToolTipRole);
+  }
+  else
+    axes->addItem(tr("as the file states"));
   for (const CommonCorrection& common : commonCorrections())
   {
     axes->addItem(QString(common.text).remove('&'), words(common.axes.letters()));

@@ -27,7 +27,8 @@ public:
   SeriesDialog(const presenters::SourceContent& source, bool hasCase, QWidget* parent = nullptr);
 
   std::vector<presenters::SeriesContent> chosen() const;
-  /// Of each of them, where its file is wrong; nullopt: as it states them.
+  /// Of each of them, where its file is wrong; nullopt: of an image as it states them, of structures
+  /// and meshes as those of their image.
   std::vector<std::optional<core::AxesCorrection>> axes() const;
   bool wantsRegion() const; ///< a region of each image is to be chosen before it is read
 
@@ -35,7 +36,7 @@ protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-  void addAxes(QTreeWidgetItem& line);
+  void addAxes(QTreeWidgetItem& line, const presenters::SeriesContent& series);
   bool isChosen(std::size_t series) const;
   void proposeTicks();
   void keepOneCt(QTreeWidgetItem& changed);

@@ -120,13 +120,16 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
           [this]
           {
             // A moving slider would remake it at each step.
-            QApplication::mouseButtons() == Qt::NoButton ? void(takeTool()) : m_anew.start();
+            if (QApplication::mouseButtons() != Qt::NoButton)
+              return m_anew.start();
+            renewCoupling();
+            takeTool();
           });
   connectBar();
   connectView();
   connectDevices();
   connect(this, &DrillController::strokeEnded, this, // for another thrust than it began with
-          [this] { QTimer::singleShot(0, this, &DrillController::applyBar); });
+          [this] { QTimer::singleShot(0, this, &DrillController::renewCoupling); });
   applyBar();
 }
 
@@ -227,9 +230,22 @@ void DrillController::applyBar()
     settings.beyond = kTipBeyond;
   }
   m_view.setWheelPresses(settings.mode == Mode::Surface);
+  const bool pressesOtherwise = m_driver.settings().mode != settings.mode;
   m_driver.set(settings);
-  if (m_model.touching() && !m_model.drilling() && m_driver.outgrown())
-    putAway(); // the pointer's next move takes it up
+  if (pressesOtherwise)
+    renewCoupling();
+  else if (m_model.touching() && m_driver.outgrown())
+    m_anew.start(); // after the last step of the thrust
+}
+
+// The mouse's tool is taken up again where it is, if it needs another coupling; not in a stroke,
+// which keeps the one that it began with.
+void DrillController::renewCoupling()
+{
+  if (!m_model.touching() || m_model.drilling() || !m_driver.outgrown())
+    return;
+  putAway();
+  takeTool();
 }
 
 void DrillController::turnHandpiece(double turn, double tilt)
@@ -560,7 +576,7 @@ void DrillController::takeAtPointer()
   if (!takeTool())
     return;
   m_view.tool().PointAgain();
-  if (m_driver.byMouse() && !m_view.underMouse())
+  if (m_driver.awaitsPointer() && !m_view.underMouse())
   {
     m_hints = true;
     emit statusMessage(tr("Point at the patient in the 3D view: there the tool comes"));
@@ -585,13 +601,14 @@ void DrillController::deviceCame()
     takeTool();
 }
 
-// Another burr, scale or limit. The mouse pointer's next move takes the tool up; for a device the
-// timer does.
+// Another burr, scale or limit. A tool in use is taken up again by the timer, where it was, or
+// before by the mouse pointer's next move.
 void DrillController::restartTool()
 {
+  const bool isInUse = m_devices.device() || m_model.touching() || m_anew.isActive();
   putAway();
   applyBar();
-  if (m_devices.device())
+  if (isInUse)
     m_anew.start();
   prepareAhead();
 }

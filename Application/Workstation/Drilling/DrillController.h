@@ -126,6 +126,7 @@ private:
   bool takeTool(); // into use, unless it is
   void putAway();
   void restartTool();
+  void renewCoupling();
   void takeAtPointer();
   void dropHint();
   session::TouchTool toolChosen() const;

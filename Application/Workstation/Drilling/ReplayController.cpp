@@ -28,9 +28,14 @@ namespace
 
 constexpr int kFrame = 16; // ms
 
-QString nameOf(const std::filesystem::path& file)
+using Files = std::vector<std::filesystem::path>;
+
+QString nameOf(const Files& files)
 {
-  return QFile::decodeName(file.filename().c_str());
+  const QString name = QFile::decodeName(files.front().filename().c_str());
+  if (files.size() == 1)
+    return name;
+  return ReplayController::tr("%1 and %2 more").arg(name).arg(files.size() - 1);
 }
 
 } // namespace
@@ -62,8 +67,8 @@ ReplayController::ReplayController(presenters::WorkstationModel& model, ThreeDVi
   };
   m_panel->onPartsChanged = [this]
   {
-    if (!m_file.empty()) // other structures
-      read(m_file);
+    if (!m_files.empty()) // other structures
+      read(m_files);
   };
   m_panel->onRecordingsChanged = [this] { listRecordings(); };
   m_panel->onToolMoved = [this] { toolMoved(); };
@@ -83,7 +88,8 @@ ReplayController::~ReplayController()
   m_panel->setReview(nullptr); // the panel lives on
 }
 
-// The library's, the last one where it is elsewhere, those attached, and the one that is open.
+// The library's, the last one where it is elsewhere, those attached, and the one that is open; what
+// belongs to one operation in one row.
 void ReplayController::listRecordings()
 {
   m_sources.clear();
@@ -91,40 +97,42 @@ void ReplayController::listRecordings()
   int current = -1;
   if (m_model.hasCase())
   {
-    const auto add = [this](const std::filesystem::path& file)
+    Files files;
+    const auto add = [this, &files](const std::filesystem::path& file)
     {
       const bool isWritten = m_model.touching() && file == m_model.recording();
-      const bool isListed = std::any_of(m_sources.begin(), m_sources.end(),
-                                        [&file](const Source& one) { return one.file == file; });
+      const bool isListed = std::find(files.begin(), files.end(), file) != files.end();
       if (!file.empty() && !isWritten && !isListed)
-        m_sources.push_back({nameOf(file), file, {}});
+        files.push_back(file);
     };
     for (const auto& file : presenters::recordingsOf(m_model.library(), m_model.value().name))
       add(file);
     add(m_model.lastRecording());
+    for (Files& operation : presenters::inOperations(files))
+      m_sources.push_back({nameOf(operation), std::move(operation), {}});
     for (const scene::Attachment& one : m_model.value().attachments)
       if (one.kind == scene::Attachment::Kind::Recording)
         m_sources.push_back({tr("%1, attached").arg(words(one.name)), {}, one.name});
     for (std::size_t n = 0; n < m_sources.size(); ++n)
-      if (!m_file.empty())
+      if (!m_files.empty())
       {
-        std::filesystem::path file = m_sources[n].file;
-        if (file.empty())
+        Files there = m_sources[n].files;
+        if (there.empty())
           guarded(
               [&]
               {
-                file = library::attachmentFile(
+                there = {library::attachmentFile(
                     m_model.library(),
-                    scene::findAttachment(m_model.value(), m_sources[n].attachment));
+                    scene::findAttachment(m_model.value(), m_sources[n].attachment))};
               },
               [](const QString&) {}); // not stored yet
-        if (file == m_file)
+        if (there == m_files)
           current = static_cast<int>(n);
       }
-    if (!m_file.empty() && current < 0)
+    if (!m_files.empty() && current < 0)
     {
       current = static_cast<int>(m_sources.size());
-      m_sources.push_back({nameOf(m_file), m_file, {}});
+      m_sources.push_back({nameOf(m_files), m_files, {}});
     }
   }
   for (const Source& one : m_sources)
@@ -141,10 +149,10 @@ void ReplayController::choose(int row)
       [&]
       {
         open(source.attachment.empty()
-                 ? source.file
-                 : library::attachmentFile(
+                 ? source.files
+                 : Files{library::attachmentFile(
                        m_model.library(),
-                       scene::findAttachment(m_model.value(), source.attachment)));
+                       scene::findAttachment(m_model.value(), source.attachment))});
       },
       [this](const QString& why)
       {
@@ -159,27 +167,34 @@ void ReplayController::openFile()
     return;
   QFileDialog dialog(&m_window, tr("Open a recording"));
   dialog.setObjectName("openRecording");
-  dialog.setFileMode(QFileDialog::ExistingFile);
+  dialog.setFileMode(QFileDialog::ExistingFiles);
   dialog.setNameFilters({tr("Recordings (*.ticks)"), tr("All files (*)")});
   const auto usual = m_model.library().folder() / "recordings";
   std::error_code error;
   dialog.setDirectory(std::filesystem::is_directory(usual, error) ? QFile::decodeName(usual.c_str())
                                                                   : QDir::homePath());
-  const QString file = chosenFile(dialog);
-  if (!file.isEmpty() && m_model.hasCase())
-    open(pathOf(file));
+  if (chosenFile(dialog).isEmpty() || !m_model.hasCase())
+    return;
+  Files files;
+  for (const QString& file : dialog.selectedFiles())
+    files.push_back(pathOf(file));
+  std::sort(files.begin(), files.end()); // by name, hence by case and time
+  Files inOrder;
+  for (const Files& operation : presenters::inOperations(files))
+    inOrder.insert(inOrder.end(), operation.begin(), operation.end());
+  open(inOrder);
 }
 
-void ReplayController::open(const std::filesystem::path& file)
+void ReplayController::open(const Files& files)
 {
   emit panelWanted();
-  read(file);
+  read(files);
 }
 
-void ReplayController::read(std::filesystem::path file)
+void ReplayController::read(Files files)
 {
   close();
-  m_file = file;
+  m_files = files;
   listRecordings();
   m_waits = !m_model.ready() || m_model.drilling();
   if (m_waits)
@@ -188,11 +203,11 @@ void ReplayController::read(std::filesystem::path file)
                             : tr("The case is still being prepared; then the recording is read."));
   m_panel->say(tr("Reading the recording, and measuring what was drilled in it…"));
   m_work.replace(
-      [this, file, value = m_model.value(),
+      [this, files, value = m_model.value(),
        shownAs = m_model.shownAs()](const core::Progress& progress) -> BackgroundWork::Reply
       {
-        const auto review = std::make_shared<presenters::SessionReview>(
-            presenters::reviewRecording(file, value, progress));
+        const auto review = std::make_shared<presenters::OperationReview>(
+            presenters::reviewOperation(files, value, progress));
         return [this, review, shownAs]
         {
           if (m_model.shownAs() != shownAs)
@@ -211,7 +226,7 @@ void ReplayController::caseReady()
 {
   const bool mayBeKnownNow = m_review && !m_review->whyUnmeasured.empty(); // prepared anew
   if ((m_waits || mayBeKnownNow) && m_model.hasCase() && m_model.ready() && !m_model.drilling())
-    read(m_file);
+    read(m_files);
 }
 
 void ReplayController::close()
@@ -222,7 +237,7 @@ void ReplayController::close()
   m_panel->setReview(nullptr);
   m_panel->say({});
   m_review.reset();
-  m_file.clear();
+  m_files.clear();
   m_time = 0.0;
   showGhost();
 }
@@ -277,7 +292,7 @@ void ReplayController::showGhost()
       ghost.emplace();
       ghost->center = tool->center;
       ghost->axisToHand = tool->axisToHand;
-      ghost->radius = 0.5 * m_review->burr.diameter;
+      ghost->radius = 0.5 * presenters::partAt(*m_review, m_time).review.burr.diameter;
       ghost->drilling = tool->drilling;
     }
   m_view.display().setGhost(ghost);
@@ -301,14 +316,15 @@ void ReplayController::exportTable()
 {
   if (!m_review)
     return;
-  const presenters::SessionReview review = *m_review; // another one may be opened meanwhile
+  const presenters::OperationReview review = *m_review; // another one may be opened meanwhile
   const QString metrics = tr("Metrics (*.csv)");
   QFileDialog dialog(&m_window, tr("Export the recording"));
   dialog.setObjectName("exportRecording");
   dialog.setNameFilters({metrics, tr("Place and force over time (*.csv)")});
   dialog.setDefaultSuffix("csv");
   dialog.setDirectory(QDir::homePath());
-  dialog.selectFile(QFileInfo(QFile::decodeName(m_file.c_str())).completeBaseName() + ".csv");
+  dialog.selectFile(QFileInfo(QFile::decodeName(m_files.front().c_str())).completeBaseName() +
+                    ".csv");
   const std::filesystem::path file = askFile(dialog);
   if (file.empty())
     return;
@@ -316,9 +332,13 @@ void ReplayController::exportTable()
       [&]
       {
         library::refuseOverwriting(file, m_model.library().folder());
-        core::writeFile(file, dialog.selectedNameFilter() == metrics
-                                  ? presenters::metricsCsv(review)
-                                  : presenters::courseCsv(review));
+        const bool isOne = review.parts.size() == 1;
+        if (dialog.selectedNameFilter() == metrics)
+          core::writeFile(file, isOne ? presenters::metricsCsv(review)
+                                      : presenters::operationCsv(review));
+        else
+          core::writeFile(file, isOne ? presenters::courseCsv(review)
+                                      : presenters::operationCourseCsv(review));
         emit statusMessage(tr("The table is in %1").arg(QFile::decodeName(file.c_str())));
       },
       [this](const QString& why) { m_panel->say(sentence(capitalized(why))); });

@@ -22,8 +22,9 @@ namespace petrous::workstation
 class ReplayPanel;
 class ThreeDView;
 
-/// Plays a recorded session on the open case: a ghost of its tool in the 3D view, beside the tool
-/// in use. The case stays as it is; the recorded cuts are repeated on a copy, to be measured.
+/// Plays a recorded operation, of one or several recordings, on the open case: a ghost of its tool
+/// in the 3D view, beside the tool in use. The case stays as it is; the recorded cuts are repeated
+/// on a copy, to be measured.
 class ReplayController : public QObject
 {
   Q_OBJECT
@@ -36,10 +37,11 @@ public:
   ReplayPanel* panel() const noexcept { return m_panel; } ///< owned by the window that takes it
 
   void openFile(); ///< one that the user chooses
-  void open(const std::filesystem::path& file);
+  void open(const std::filesystem::path& file) { open(std::vector{file}); }
+  void open(const std::vector<std::filesystem::path>& files); ///< of one operation, in order
   void caseReady(); ///< it is prepared for tools: what was asked for before is read now
 
-  const std::optional<presenters::SessionReview>& review() const noexcept { return m_review; }
+  const std::optional<presenters::OperationReview>& review() const noexcept { return m_review; }
   double time() const noexcept { return m_time; } ///< s
   bool playing() const { return m_frames.isActive(); }
 
@@ -51,12 +53,12 @@ private:
   struct Source
   {
     QString name;
-    std::filesystem::path file; ///< empty: an attachment
+    std::vector<std::filesystem::path> files; ///< empty: an attachment
     std::string attachment;
   };
   void listRecordings();
   void choose(int row);
-  void read(std::filesystem::path file);
+  void read(std::vector<std::filesystem::path> files);
   void close();
   void togglePlay();
   void play(bool on);
@@ -73,13 +75,13 @@ private:
   ReplayPanel* m_panel;
   BackgroundWork m_work;
   std::vector<Source> m_sources;
-  std::filesystem::path m_file; ///< that is open, or being read
-  std::optional<presenters::SessionReview> m_review;
+  std::vector<std::filesystem::path> m_files; ///< that are open, or being read
+  std::optional<presenters::OperationReview> m_review;
   QTimer m_frames;
   QElapsedTimer m_sinceFrame;
   double m_time = 0.0; // s
   bool m_wasDrilling = false;
-  bool m_waits = false; // m_file is read when the case is ready and no stroke is open
+  bool m_waits = false; // m_files are read when the case is ready and no stroke is open
 };
 
 } // namespace petrous::workstation

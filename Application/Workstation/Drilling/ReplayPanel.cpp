@@ -187,6 +187,8 @@ ReplayPanel::ReplayPanel(QAction& play, QWidget* parent)
   , m_ghost(new QCheckBox(tr("&Ghost of the tool")))
   , m_withDrill(new QCheckBox(tr("&Start with my drill")))
   , m_force(new ForceCourse)
+  , m_parts(table("replayParts", tr("Recordings of the operation"),
+                  {tr("Recording"), tr("Time"), tr("Drilling"), tr("Path"), tr("Drilled")}))
   , m_metrics(table("replayMetrics", tr("Metrics of the recording"), {tr("Metric"), tr("Value")}))
   , m_structures(table("replayStructures", tr("Structures in the recording"),
                        {tr("Structure"), tr("Nearest"), tr("Drilled")}))
@@ -248,6 +250,7 @@ ReplayPanel::ReplayPanel(QAction& play, QWidget* parent)
   layout->addLayout(choices);
   layout->addWidget(m_force);
   layout->addWidget(m_now);
+  layout->addWidget(m_parts, 1);
   layout->addWidget(m_metrics, 2);
   layout->addWidget(m_structures, 2);
   layout->addWidget(m_note);
@@ -258,6 +261,21 @@ ReplayPanel::ReplayPanel(QAction& play, QWidget* parent)
   connect(m_export, &QPushButton::clicked, this, &ReplayPanel::exportAsked);
   connect(m_ghost, &QCheckBox::toggled, this, &ReplayPanel::ghostAsked);
   connect(m_recordings, qOverload<int>(&QComboBox::activated), this, &ReplayPanel::recordingChosen);
+  m_parts->setToolTip(
+      tr("An operation has a recording for each burr. The tables below are those of "
+         "the line that is chosen, which the time goes to"));
+  m_parts->hide();
+  connect(m_parts, &QTreeWidget::currentItemChanged, this,
+          [this](const QTreeWidgetItem* item)
+          {
+            if (m_refreshing || !item || !m_review)
+              return;
+            showMetrics();
+            if (const int at = m_parts->indexOfTopLevelItem(const_cast<QTreeWidgetItem*>(item));
+                at > 0)
+              emit seekAsked(static_cast<int>(
+                  std::lround(1000.0 * m_review->parts[static_cast<std::size_t>(at - 1)].begin)));
+          });
   connect(m_place, &QSlider::valueChanged, this,
           [this](int at)
           {
@@ -327,7 +345,7 @@ void ReplayPanel::setRecordings(const QStringList& names, int current)
   m_recordings->setEnabled(!names.isEmpty());
 }
 
-void ReplayPanel::setReview(const presenters::SessionReview* review)
+void ReplayPanel::setReview(const presenters::OperationReview* review)
 {
   m_review = review;
   m_force->setReview(review);
@@ -338,6 +356,7 @@ void ReplayPanel::setReview(const presenters::SessionReview* review)
   }
   for (QWidget* one : {static_cast<QWidget*>(m_place), static_cast<QWidget*>(m_export)})
     one->setEnabled(review != nullptr);
+  showParts();
   showMetrics();
   setTime(0.0);
 }
@@ -356,6 +375,39 @@ void ReplayPanel::setTime(double seconds)
                       : QString(" "));
 }
 
+void ReplayPanel::showParts()
+{
+  const QScopedValueRollback<bool> refreshing(m_refreshing, true);
+  m_parts->clear();
+  m_parts->setVisible(m_review && m_review->parts.size() > 1);
+  if (!m_review)
+    return;
+  const auto add =
+      [this](const QString& name, const QString& hint, const presenters::SessionReview& review)
+  {
+    auto* item = new QTreeWidgetItem(
+        m_parts, {name, durationText(review.metrics.duration),
+                  durationText(review.metrics.drilling), fixed(review.metrics.path, 0, tr("mm")),
+                  review.removed ? volumeText(*review.removed) : QString::fromUtf8("–")});
+    item->setToolTip(0, hint);
+    for (int column = 1; column < m_parts->columnCount(); ++column)
+      item->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
+  };
+  add(tr("Together"), tr("All recordings of the operation, without the pauses between them"),
+      *m_review);
+  for (const auto& part : m_review->parts)
+    add(phrase(part.review.tool), words(part.name), part.review);
+  m_parts->setCurrentItem(m_parts->topLevelItem(0));
+}
+
+const presenters::SessionReview& ReplayPanel::chosenPart() const
+{
+  const int row = m_parts->indexOfTopLevelItem(m_parts->currentItem());
+  if (row <= 0)
+    return *m_review;
+  return m_review->parts[static_cast<std::size_t>(row - 1)].review;
+}
+
 void ReplayPanel::showMetrics()
 {
   m_metrics->clear();
@@ -363,33 +415,36 @@ void ReplayPanel::showMetrics()
   workstation::say(*m_note, {});
   if (!m_review)
     return;
-  const presenters::SessionMetrics& metrics = m_review->metrics;
+  const presenters::SessionReview& review = chosenPart();
+  const presenters::SessionMetrics& metrics = review.metrics;
   const auto add = [this](const QString& what, const QString& value)
   {
     auto* item = new QTreeWidgetItem(m_metrics, {what, value});
     item->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
     item->setToolTip(0, what);
   };
-  add(tr("Tool"), phrase(m_review->tool));
+  const bool isOfSeveral = &review == m_review && m_review->parts.size() > 1;
+  if (!isOfSeveral)
+    add(tr("Tool"), phrase(review.tool));
   add(tr("Time"), durationText(metrics.duration));
   add(tr("Time drilling"), durationText(metrics.drilling));
   add(tr("Times the drill was switched on"), QString::number(metrics.drillStarts));
-  if (m_review->speed)
+  if (review.speed)
   {
-    add(tr("Mean speed drilling"), fixed(m_review->speed->mean, 0, tr("/min")));
-    add(tr("Highest speed"), fixed(m_review->speed->max, 0, tr("/min")));
+    add(tr("Mean speed drilling"), fixed(review.speed->mean, 0, tr("/min")));
+    add(tr("Highest speed"), fixed(review.speed->max, 0, tr("/min")));
   }
   add(tr("Path of the burr"), fixed(metrics.path, 1, tr("mm")));
   add(tr("Path drilling"), fixed(metrics.drillingPath, 1, tr("mm")));
   add(tr("Mean force drilling"), fixed(metrics.meanForce, 2, tr("N")));
   add(tr("Largest force"), fixed(metrics.maxForce, 2, tr("N")));
   add(tr("Largest thrust"), fixed(metrics.maxThrust, 2, tr("N")));
-  if (m_review->removed)
+  if (review.removed)
   {
-    add(tr("Strokes"), QString::number(m_review->strokes));
-    add(tr("Removed"), volumeText(*m_review->removed));
+    add(tr("Strokes"), QString::number(review.strokes));
+    add(tr("Removed"), volumeText(*review.removed));
   }
-  for (const auto& one : m_review->structures)
+  for (const auto& one : review.structures)
   {
     auto* item =
         new QTreeWidgetItem(m_structures, {shownName(one.name),
@@ -404,11 +459,11 @@ void ReplayPanel::showMetrics()
       item->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
   }
   QStringList notes;
-  if (!m_review->warning.empty())
-    notes += sentence(capitalized(phrase(m_review->warning)));
-  if (!m_review->whyUnmeasured.empty())
+  if (!review.warning.empty())
+    notes += sentence(capitalized(phrase(review.warning)));
+  if (!review.whyUnmeasured.empty())
     notes += sentence(tr("What was drilled is not known here: the recording %1")
-                          .arg(phrase(m_review->whyUnmeasured)));
+                          .arg(phrase(review.whyUnmeasured)));
   workstation::say(*m_note, notes.join('\n'));
 }
 

@@ -19,7 +19,8 @@ namespace petrous::workstation
 
 class ForceCourse;
 
-/// A recorded session: which one, its place in time, the force over time, and its metrics.
+/// A recorded operation: which one, its place in time, the force over time, and its metrics, of the
+/// whole and of each of its recordings.
 class ReplayPanel : public Panel
 {
   Q_OBJECT
@@ -28,7 +29,7 @@ public:
 
   void setRecordings(const QStringList& names, int current); ///< -1: none is chosen
   /// nullptr: none. It must stay as long as it is shown.
-  void setReview(const presenters::SessionReview* review);
+  void setReview(const presenters::OperationReview* review);
   void setTime(double seconds);
   void say(const QString& text); ///< what is going on, or went wrong; empty: nothing
 
@@ -52,9 +53,11 @@ signals:
   void exportAsked();
 
 private:
+  void showParts();
   void showMetrics();
+  const presenters::SessionReview& chosenPart() const;
 
-  const presenters::SessionReview* m_review = nullptr;
+  const presenters::OperationReview* m_review = nullptr;
   QComboBox* m_recordings;
   QSlider* m_place;
   QLabel* m_time;
@@ -64,6 +67,7 @@ private:
   QCheckBox* m_ghost;
   QCheckBox* m_withDrill;
   ForceCourse* m_force;
+  QTreeWidget* m_parts; ///< the whole and the parts, if there are several
   QTreeWidget* m_metrics;
   QTreeWidget* m_structures;
   QLabel* m_note;

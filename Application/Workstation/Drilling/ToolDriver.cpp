@@ -46,6 +46,7 @@ void ToolDriver::set(const interaction::AimSettings& settings)
 
 void ToolDriver::beginThere() noexcept
 {
+  m_continues = false;
   m_place.reset();
   m_handPlace.setZero();
 }
@@ -106,7 +107,7 @@ haptics::Device& ToolDriver::prepare(session::TouchSession::Setup& setup)
   m_mode = setup.tool.instrument ? session::TouchTool::Mode::SixDof : setup.tool.mode;
   setup.tool.coupling = session::couplingFor(m_mode, setThrust());
   m_stiffness = setup.tool.coupling.stiffness;
-  m_aim.begin();
+  std::exchange(m_continues, true) ? m_aim.resume() : m_aim.begin();
   interaction::PointerDevice::Limits limits;
   limits.silence = kSilence;
   auto pointer = std::make_unique<interaction::PointerDevice>(setup.center, limits);

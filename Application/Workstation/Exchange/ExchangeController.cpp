@@ -139,7 +139,6 @@ void ExchangeController::refuse(const QString& why)
   auto* box = new QMessageBox(QMessageBox::Warning, tr("Petrous"), windowText(why), QMessageBox::Ok,
                               &m_window);
   box->setAttribute(Qt::WA_DeleteOnClose);
-  box->setTextFormat(Qt::PlainText);
   box->setTextInteractionFlags(Qt::TextSelectableByMouse);
   box->open();
 }

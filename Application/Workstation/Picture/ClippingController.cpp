@@ -275,7 +275,8 @@ void ClippingController::movePlanes(double step)
     emit statusMessage(readPlane(0, before));
 }
 
-// In the plane of the slice that has the keyboard, clockwise as it is seen, likewise.
+// In the plane of the slice that has the keyboard, clockwise as it is seen, likewise; in the 3D
+// view clockwise as seen from above.
 void ClippingController::turnPlanes(double degrees)
 {
   if (!m_model.hasCase())
@@ -289,7 +290,7 @@ void ClippingController::turnPlanes(double degrees)
     {
       const Eigen::Vector3d up = m_view.picture().camera().viewUp.normalized();
       plane = presenters::turnedPlane(plane, up, presenters::planeCenter(plane, grid),
-                                      degrees * kDegree, grid);
+                                      -degrees * kDegree, grid);
     }
     else
     {

@@ -309,7 +309,6 @@ void PictureController::fail(const QString& why)
   const bool safe = !flush || flush();
   QMessageBox box(QMessageBox::Warning, tr("The 3D picture failed"), why, QMessageBox::Ok,
                   &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setTextInteractionFlags(Qt::TextSelectableByMouse);
   box.setInformativeText(
       (safe ? tr("The case is saved. ") : tr("The case could not be saved; save it first. ")) +

@@ -469,20 +469,21 @@ void RegistrationController::askMetric()
   const scene::ImagePart* part = m_session.part();
   if (!part || !m_panel->isVisible())
     return;
-  if (m_metric && m_metricOf == part->name)
+  if (m_metric && m_metricOf == part->volume.peek())
     return showMetric();
   if (m_metricWork->busy() || running())
     return;
   m_panel->setMetric(tr("Metric: being prepared…"));
   m_metricWork->start(
-      [this, ct = m_model.value().ct.volume, mr = part->volume,
-       name = part->name](const core::Progress&) -> BackgroundWork::Reply
+      [this, ct = m_model.value().ct.volume,
+       mr = part->volume](const core::Progress&) -> BackgroundWork::Reply
       {
-        const auto metric = std::make_shared<const registration::LiveMetric>(*ct.get(), *mr.get());
-        return [this, metric, name]
+        const auto image = mr.get();
+        const auto metric = std::make_shared<const registration::LiveMetric>(*ct.get(), *image);
+        return [this, metric, image]
         {
           m_metric = metric;
-          m_metricOf = name;
+          m_metricOf = image;
           m_firstMetric.reset();
           showMetric();
         };
@@ -492,7 +493,7 @@ void RegistrationController::askMetric()
 void RegistrationController::showMetric()
 {
   const scene::ImagePart* part = m_session.part();
-  if (!part || !m_metric || m_metricOf != part->name)
+  if (!part || !m_metric || m_metricOf != part->volume.peek())
     return m_panel->setMetric({});
   const double now = m_metric->at(part->mrFromCt);
   const auto moved = m_session.movedByHand();

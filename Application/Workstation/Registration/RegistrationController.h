@@ -98,7 +98,7 @@ private:
   std::unique_ptr<BackgroundWork> m_run;
   std::unique_ptr<BackgroundWork> m_metricWork;
   std::shared_ptr<const registration::LiveMetric> m_metric; // of m_metricOf, loaded on demand
-  std::string m_metricOf;
+  std::shared_ptr<const volume::IntensityVolume> m_metricOf;
   std::optional<double> m_firstMetric;
   Best m_best;                       // of the run
   QPointer<QMessageBox> m_question;  // whether m_best is kept

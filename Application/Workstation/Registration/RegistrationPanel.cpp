@@ -33,6 +33,7 @@ constexpr int kOff = -1;
 QLabel* heading(const QString& text)
 {
   auto* label = new QLabel("<b>" + text + "</b>");
+  label->setTextFormat(Qt::RichText);
   label->setContentsMargins(0, 6, 0, 0);
   return label;
 }

@@ -524,7 +524,6 @@ void SegmentController::discard()
                       .arg(m_editor.name().empty() ? tr("a structure without a name")
                                                    : shownName(m_editor.name())),
                   QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setObjectName("askDiscard");
   auto* drop = box.addButton(tr("Discard"), QMessageBox::DestructiveRole);
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
@@ -656,7 +655,6 @@ bool SegmentController::mayLeave()
                       .arg(m_editor.name().empty() ? tr("a structure without a name")
                                                    : shownName(m_editor.name())),
                   QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setObjectName("askDraft");
   if (!whyNot.empty())
     box.setInformativeText(tr("It cannot be created as it is: %1").arg(phrase(whyNot)));

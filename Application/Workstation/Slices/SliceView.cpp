@@ -592,7 +592,15 @@ std::vector<SliceView::EdgeText> SliceView::edgeTexts(const QFont& base) const
   font.setBold(true);
   const QFontMetricsF metrics(font);
   const QColor color("#f2f5f8");
-  const auto letters = slice().edgeLetters();
+  const presenters::SliceGeometry seen = slice();
+  const Eigen::Matrix3d toPatient = m_correction.matrix();
+  const presenters::SliceAxes directions{toPatient * seen.axes().right,
+                                         toPatient * seen.axes().down,
+                                         toPatient * seen.axes().next};
+  const auto letters =
+      presenters::SliceGeometry(m_orientation, directions, seen.center(), seen.mmPerPixel(),
+                                seen.width(), seen.height())
+          .edgeLetters();
   const double top = m_covered + kMargin;
   const double middle = 0.5 * height() + 0.35 * metrics.ascent();
   const auto letter = [](const std::string& text) { return words(text); };
@@ -779,6 +787,12 @@ void SliceView::setBox(const std::optional<SliceBox>& box)
   m_box = box;
   if (!box && std::exchange(m_boxDown, false))
     emit boxReleased();
+  update();
+}
+
+void SliceView::setCorrection(const core::AxesCorrection& axes)
+{
+  m_correction = axes;
   update();
 }
 

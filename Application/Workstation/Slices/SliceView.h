@@ -9,6 +9,7 @@
 #include <QWidget>
 
 #include "SliceMarks.h"
+#include "petrous/Core/AxesCorrection.h"
 #include "petrous/Presenters/BoxHandles.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/SlicePlanes.h"
@@ -104,6 +105,8 @@ public:
   void setDrawing(SliceDrawing drawing);
   void setMeasures(std::vector<DrawnMeasure> measures);
   void setBox(const std::optional<SliceBox>& box);
+  /// The letters are those of the patient where the image lies as a file states it that is wrong.
+  void setCorrection(const core::AxesCorrection& axes);
   void setCuts(std::vector<SliceCut> cuts);
   /// What is being segmented; nullptr: nothing.
   void setDraft(std::shared_ptr<const presenters::DraftLayer> draft);
@@ -260,6 +263,7 @@ private:
   std::optional<QPointF> m_pressed; // what is held, until it is dragged
   std::vector<DrawnMeasure> m_measures;
   std::optional<SliceBox> m_box;
+  core::AxesCorrection m_correction;
   bool m_boxDown = false;
   std::vector<SliceCut> m_cuts;
   bool m_cutDown = false;

@@ -102,15 +102,16 @@ TEST_F(Axes, OfPartsOfTheOpenCaseAreCorrectedInItAndUndone)
   openWindow("ear");
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
   const presenters::WorkstationModel& model = window().model();
-  const auto answer = [this](const char* button, const char* told)
+  const auto answer = [this](const char* button, const char* told, const char* kind)
   {
     onDialog(
-        [button, told](QDialog& dialog)
+        [button, told, kind](QDialog& dialog)
         {
           if (dialog.objectName() != "correctAxes")
             return false;
           EXPECT_EQ(dialog.findChild<QLabel*>("axesLeftBehind")->text(), told);
           dialog.findChild<QPushButton*>(button)->click();
+          EXPECT_EQ(dialog.findChild<QLabel*>("axesKind")->text(), kind);
           auto* apply = dialog.findChild<QPushButton*>("primary");
           EXPECT_TRUE(apply->isEnabled());
           EXPECT_EQ(sharedMnemonics(dialog), QStringList());
@@ -118,7 +119,8 @@ TEST_F(Axes, OfPartsOfTheOpenCaseAreCorrectedInItAndUndone)
           return true;
         });
   };
-  answer("axesHeadFeet", "Is to be registered again: T2");
+  answer("axesHeadFeet", "Is to be registered again: T2",
+         "The anatomy is mirrored: a left ear becomes a right one.");
   // The menu is filled when it is shown.
   auto* menu = qobject_cast<QMenu*>(action("Correct the axes…")->associatedWidgets().value(0));
   ASSERT_TRUE(menu);
@@ -129,7 +131,7 @@ TEST_F(Axes, OfPartsOfTheOpenCaseAreCorrectedInItAndUndone)
   EXPECT_FALSE(model.value().mr[0].registered);
   EXPECT_TRUE(model.value().ct.provenance.axes.isIdentity());
 
-  answer("axesMirror", "");
+  answer("axesMirror", "", "It is mirrored. The image on which it lies stays as it is.");
   structureList().setCurrentIndex(structureCell("nerve"));
   structureList().findChild<QAction*>("axesOfPart")->trigger();
   ASSERT_TRUE(waitFor([&] { return !model.value().labels[0].provenance.axes.isIdentity(); }));

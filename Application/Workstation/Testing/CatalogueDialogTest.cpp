@@ -90,6 +90,27 @@ TEST_F(CatalogueDialogs, AMaterialThatIsAddedIsSavedAndOfferedToStructures)
   EXPECT_GE(choice.findText("Sclerotic bone"), 0);
 }
 
+TEST_F(CatalogueDialogs, ANumberThatIsTypedOverHasNoSourceBeforeOneIsEntered)
+{
+  saveBall("ball");
+  openWindow("ball");
+  auto& edit = dialog();
+  auto& materials = table(edit, "materials");
+  const QString stated = materials.item(0, 6)->text();
+  ASSERT_NE(stated, "not stated");
+  materials.item(0, 4)->setText("-3"); // refused: what was stated stays
+  EXPECT_EQ(materials.item(0, 6)->text(), stated);
+  materials.item(0, 4)->setText("45");
+  for (const int column : {5, 6}) // certainty and source
+    EXPECT_EQ(materials.item(0, column)->text(), "not stated") << column;
+  materials.item(0, 6)->setText("our own indenter");
+  EXPECT_EQ(materials.item(0, 6)->text(), "our own indenter");
+  EXPECT_EQ(materials.item(0, 4)->text(), "45");
+  edit.findChild<QPushButton*>("catalogueSave")->click();
+  EXPECT_EQ(read().materials.material("cortical-bone").status, "our own indenter");
+  EXPECT_EQ(read().materials.material("cortical-bone").certainty, "");
+}
+
 TEST_F(CatalogueDialogs, WhatTheLawsDoNotAllowIsToldAndNotTaken)
 {
   saveBall("ball");

@@ -869,6 +869,28 @@ TEST_F(ClippingBox, APlaneIsTurnedByAnEndOfItsLine)
   EXPECT_LT((clipping().planes.front().normal - normal).norm(), 1e-9);
 }
 
+// Seen from above, what points forward in the picture goes to its right when it is turned
+// clockwise.
+TEST_F(ClippingBox, ThePlaneIsTurnedFromTheThreeDViewAsSeenFromAbove)
+{
+  ASSERT_NO_FATAL_FAILURE(openCut());
+  ASSERT_TRUE(settled());
+  const core::CameraPose camera = view().picture().camera();
+  const Vector3d forward = (camera.focalPoint - camera.position).normalized();
+  const Vector3d right = forward.cross(camera.viewUp).normalized();
+  const Vector3d before = clipping().planes.front().normal;
+  const double towards = before.dot(forward) > 0.0 ? 1.0 : -1.0; // where it points, of the depth
+  view().setFocus();
+  action("Turn the cut clockwise")->trigger();
+  const Vector3d clockwise = clipping().planes.front().normal;
+  ASSERT_GT(std::abs(before.dot(forward)), 0.99) << "it was cut as it is looked at";
+  EXPECT_NEAR(towards * (clockwise - before).dot(right), std::sin(0.0174532925), 1e-4);
+  action("Turn the cut counterclockwise")->trigger();
+  action("Turn the cut counterclockwise")->trigger();
+  EXPECT_NEAR(towards * (clipping().planes.front().normal - before).dot(right),
+              -std::sin(0.0174532925), 1e-4);
+}
+
 TEST_F(ClippingBox, TheLineOfAPlaneGivesWayToATool)
 {
   ASSERT_NO_FATAL_FAILURE(openUpright());

@@ -250,8 +250,11 @@ TEST_F(Drill, AnotherBurrIsTakenUpAndDrillsAWiderHole)
   saveBall("ball");
   openWindow();
   drill(500);
+  leave(); // to the field of the diameter
   window().findChild<QDoubleSpinBox*>("burrDiameter")->setValue(6.0);
-  EXPECT_FALSE(window().model().touching()); // until the pointer is back
+  EXPECT_FALSE(window().model().touching());
+  EXPECT_TRUE(waitFor([this] { return window().model().touching(); })) << "by itself";
+  EXPECT_FALSE(window().model().drilling());
   drill(500);
   const auto& strokes = window().model().value().dissection.strokes();
   ASSERT_EQ(strokes.size(), 2u);
@@ -329,27 +332,113 @@ TEST_F(Drill, TheWheelSetsTheThrustWhileTheBurrDrills)
   EXPECT_NE(view().picture().camera().position, before.position);
 }
 
-// The coupling differs between a set thrust and the wheel.
-TEST_F(Drill, TheBurrIsTakenUpAnewWhereTheWheelPresses)
+// The coupling differs between a set thrust and the wheel, and with the thrust.
+TEST_F(Drill, ABurrThatNeedsAnotherCouplingIsTakenUpAgainWhereItIs)
 {
   saveBall("ball");
   openWindow();
+  auto* thrust = window().findChild<QDoubleSpinBox*>("thrust");
+  thrust->setValue(1.0);
+  QTest::keyClick(&view(), Qt::Key_D);
+  QTest::mouseMove(&view(), view().rect().center());
+  const auto center = [this] { return view().display().tool()->center; };
+  const auto comes = [this]
+  { return waitFor([this] { return view().display().tool().has_value(); }); };
+  const auto height = [&] { return (center() - kBallCenter).norm() - kBallRadius; };
+  constexpr double kHover = 2.0 + 1.0; // mm, radius and lift
+  ASSERT_TRUE(comes());
+  ASSERT_TRUE(waitFor([&] { return std::abs(height() - kHover) < 0.3; }));
+  QTest::qWait(300); // it arrives
+  leave();           // to the tool bar
+  const Eigen::Vector3d before = center();
+  QSignalSpy gone(window().findChild<DrillController*>(), &DrillController::toolGone);
+  for (const double newtons : {4.0, 0.4})
+  {
+    SCOPED_TRACE(newtons);
+    gone.clear();
+    thrust->setValue(newtons + 0.1);
+    thrust->setValue(newtons);
+    EXPECT_TRUE(window().model().touching());
+    EXPECT_EQ(gone.size(), 0) << "not at each step";
+    EXPECT_TRUE(waitFor([&] { return !gone.isEmpty() && window().model().touching(); }));
+    EXPECT_TRUE(comes());
+    EXPECT_LT((center() - before).norm(), 0.1);
+    EXPECT_FALSE(window().model().drilling());
+  }
+  QTest::keyClick(&view(), Qt::Key_M);
+  EXPECT_TRUE(window().model().touching());
+  EXPECT_TRUE(comes());
+  EXPECT_LT((center() - before).norm(), 0.1);
+  gone.clear();
+  thrust->setValue(2.0); // which does not press there
+  QTest::qWait(600);
+  EXPECT_EQ(gone.size(), 0);
+  EXPECT_TRUE(window().model().value().dissection.strokes().empty());
+}
+
+// With the wheel the burr lies on the bone; a larger one there would be in it.
+TEST_F(Drill, ALargerBurrIsDrawnBackFromTheBoneThatASmallerOneTouches)
+{
+  saveBall("ball");
+  openWindow();
+  auto* diameter = window().findChild<QDoubleSpinBox*>("burrDiameter");
+  diameter->setValue(3.0);
+  QTest::keyClick(&view(), Qt::Key_D);
+  QTest::keyClick(&view(), Qt::Key_M);
+  const QPoint middle = view().rect().center();
+  QTest::mouseMove(&view(), middle + QPoint(3, 0));
+  QTest::mouseMove(&view(), middle);
+  const auto comes = [this]
+  { return waitFor([this] { return view().display().tool().has_value(); }); };
+  const auto height = [&]
+  { return (view().display().tool()->center - kBallCenter).norm() - kBallRadius; };
+  ASSERT_TRUE(comes());
+  QWheelEvent wheel(middle, view().mapToGlobal(middle), {}, {0, 120 * 8}, Qt::NoButton,
+                    Qt::NoModifier, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(&view(), &wheel); // 2 mm
+  ASSERT_TRUE(waitFor([&] { return std::abs(height() - 1.5) < 0.3; })) << height();
+  const auto line = view().sightLine(middle);
+  leave();
+  diameter->setValue(6.0);
+  EXPECT_FALSE(window().model().touching());
+  ASSERT_TRUE(waitFor([this] { return window().model().touching(); }));
+  ASSERT_TRUE(comes());
+  QTest::qWait(300);
+  EXPECT_GT(height(), 3.0 - 0.3);
+  EXPECT_LT(height(), 1.5 + 2.0 + 0.3) << "two steps back";
+  const Eigen::Vector3d offset = view().display().tool()->center - line.origin;
+  EXPECT_LT(offset.cross(line.direction).norm(), 0.3);
+  EXPECT_TRUE(window().model().value().dissection.mask().untouched());
+}
+
+// The thrust changes in a stroke, and the coupling after it.
+TEST_F(Drill, AStrokeWithAnotherThrustIsOneAndTheDrillIsReadyAfterIt)
+{
+  saveBall("ball");
+  openWindow();
+  auto* thrust = window().findChild<QDoubleSpinBox*>("thrust");
+  thrust->setValue(1.0);
   QTest::keyClick(&view(), Qt::Key_D);
   const QPoint middle = view().rect().center();
   QTest::mouseMove(&view(), middle);
-  EXPECT_TRUE(waitFor([this] { return window().model().touching(); }));
-  QTest::keyClick(&view(), Qt::Key_M);
-  EXPECT_FALSE(window().model().touching());
-  QTest::mouseMove(&view(), middle + QPoint(2, 0));
-  EXPECT_TRUE(waitFor([this] { return window().model().touching(); }));
-  window().findChild<QDoubleSpinBox*>("thrust")->setValue(0.2);
-  EXPECT_TRUE(window().model().touching());
-  QTest::keyClick(&view(), Qt::Key_M);
-  EXPECT_FALSE(window().model().touching());
-  QTest::mouseMove(&view(), middle);
-  EXPECT_TRUE(waitFor([this] { return window().model().touching(); }));
-  window().findChild<QDoubleSpinBox*>("thrust")->setValue(2.0);
-  EXPECT_FALSE(window().model().touching());
+  ASSERT_TRUE(waitFor([this] { return window().model().touching(); }));
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  ASSERT_TRUE(cuts());
+  QSignalSpy gone(window().findChild<DrillController*>(), &DrillController::toolGone);
+  thrust->setValue(4.0);
+  QTest::qWait(700); // longer than a change of the thrust waits
+  EXPECT_TRUE(window().model().drilling());
+  EXPECT_EQ(gone.size(), 0);
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  ASSERT_TRUE(strokeEnds());
+  ASSERT_TRUE(waitFor([&] { return !gone.isEmpty() && window().model().touching(); }));
+  EXPECT_FALSE(window().model().drilling());
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1U);
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle); // without a move
+  EXPECT_TRUE(cuts());
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  EXPECT_TRUE(strokeEnds());
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 2U);
 }
 
 TEST_F(Drill, ReturnAndEscapeInANumberGiveTheKeysBackToTheView)

@@ -32,6 +32,7 @@
 #include <QStyleOption>
 #include <QTabBar>
 #include <QTextEdit>
+#include <QToolTip>
 #include <QTranslator>
 #include <QTreeView>
 
@@ -734,6 +735,62 @@ TEST_F(Manners, NoPanelIsLargerThanTheSmallestScreen)
 }
 
 // What is said while drilling, and the report's advice, beside the name of a recording.
+// As HTML they would be an x and a sign for a missing image. Lines are broken at blanks at most.
+TEST_F(Manners, NamesThatLookLikeHtmlAreShownAsTheyAre)
+{
+  const QString name = "<b>x</b><img src='y.png'>";
+  const auto isWhole = [&name](const QLabel& label)
+  {
+    return label.text().contains(name) && label.textFormat() == Qt::PlainText &&
+           label.sizeHint().width() >= label.fontMetrics().horizontalAdvance("<b>x</b><img");
+  };
+  scene::Case value = ballCase("ball");
+  value.labels.front().structures.front().name = name.toStdString();
+  library().save(value);
+  openWindow("ball");
+
+  QMessageBox box(QMessageBox::Question, "Names", name, QMessageBox::Ok, &window());
+  box.setInformativeText(name);
+  box.open();
+  int whole = 0;
+  for (const QLabel* label : box.findChildren<QLabel*>())
+    whole += isWhole(*label);
+  EXPECT_EQ(whole, 2) << "the text and the informative one";
+  box.close();
+
+  QLabel label(name, &window());
+  label.show();
+  EXPECT_TRUE(isWhole(label));
+  label.hide();
+
+  const QModelIndex cell = structureCell(name.toStdString());
+  ASSERT_TRUE(cell.isValid());
+  EXPECT_EQ(cell.data().toString(), name);
+  for (const QString& tip : {name, cell.data(Qt::ToolTipRole).toString()})
+  {
+    ASSERT_TRUE(tip.contains(name)) << tip.toStdString();
+    QToolTip::showText(window().mapToGlobal(QPoint(9, 9)), tip, &window());
+    const QLabel* shown = nullptr;
+    for (const QWidget* one : QApplication::topLevelWidgets())
+      if (one->inherits("QTipLabel") && one->isVisible())
+        shown = qobject_cast<const QLabel*>(one);
+    ASSERT_TRUE(shown);
+    EXPECT_EQ(shown->text(), tip);
+    EXPECT_EQ(shown->textFormat(), Qt::PlainText);
+    QToolTip::hideText();
+  }
+
+  bool isAbout = false;
+  onMessage(
+      [&](QMessageBox& about)
+      {
+        isAbout = about.textFormat() == Qt::RichText;
+        about.close();
+      });
+  action("About Petrous")->trigger();
+  EXPECT_TRUE(waitFor([&isAbout] { return isAbout; })) << "the program's own texts have formats";
+}
+
 TEST_F(Manners, AMessageGetsTheRoomOfThePermanentTexts)
 {
   openWindow();

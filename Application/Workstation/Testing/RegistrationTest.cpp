@@ -8,6 +8,7 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMenu>
 #include <QPointer>
 #include <QPushButton>
 #include <QRegularExpression>
@@ -827,6 +828,13 @@ TEST_F(RegistrationWindow, NoStepMovesAnMrWhileARegistrationIsUnderWay)
   EXPECT_FALSE(step("Redo move").isEnabled);
   QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   EXPECT_LT((place() - phantom.mrFromCt().matrix()).norm(), 1e-12);
+  // Nor do its axes.
+  auto* menu = qobject_cast<QMenu*>(action("Correct the axes…")->associatedWidgets().value(0));
+  ASSERT_TRUE(menu);
+  emit menu->aboutToShow();
+  action("Correct the axes of the MR “T2”…")->trigger();
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("registration is under way"))
+      << window().statusBar()->currentMessage().toStdString();
   stop([](QMessageBox& box) { clickOn(box, QMessageBox::RejectRole); });
   EXPECT_TRUE(step("Redo move").isEnabled);
 }

@@ -4,6 +4,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QLabel>
 #include <QPushButton>
@@ -134,6 +135,52 @@ TEST_F(Replay, MetricsAreShownWithTheirUnitsAndExported)
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     EXPECT_EQ(text.rfind(kind == 0 ? "quantity,structure,value,unit" : "t_s,x_mm", 0), 0u) << text;
   }
+}
+
+// Each burr begins a file; together they are one entry.
+TEST_F(Replay, AnOperationWithTwoBurrsIsOneEntryWithAPartPerBurr)
+{
+  saveBall("ball");
+  openWindow("ball");
+  const auto first = record();
+  drill(600, 30);
+  window().findChild<QDoubleSpinBox*>("burrDiameter")->setValue(6.0);
+  drill(600, -30);
+  action("Drill")->trigger();
+  ASSERT_TRUE(waitFor([&] { return window().model().lastRecording() != first; }));
+  const auto& strokes = window().model().value().dissection.strokes();
+  ASSERT_EQ(strokes.size(), 2U);
+  auto& recordings = child<QComboBox>("replayChoice");
+  ASSERT_EQ(recordings.count(), 1);
+  EXPECT_EQ(recordings.itemText(0).toStdString(), first.filename().string() + " and 1 more");
+  emit recordings.activated(0);
+  ASSERT_TRUE(isRead()) << child<QLabel>("replaySaid").text().toStdString();
+  EXPECT_EQ(recordings.currentIndex(), 0);
+  const auto& review = *replay().review();
+  ASSERT_EQ(review.parts.size(), 2U);
+  ASSERT_TRUE(review.removed) << review.whyUnmeasured;
+  EXPECT_NEAR(*review.removed, strokes[0]->info.removed + strokes[1]->info.removed, 1e-9);
+  EXPECT_EQ(review.strokes, 2U);
+  EXPECT_DOUBLE_EQ(review.metrics.duration, review.parts[0].review.metrics.duration +
+                                                review.parts[1].review.metrics.duration);
+
+  auto& parts = child<QTreeWidget>("replayParts");
+  EXPECT_TRUE(parts.isVisible());
+  ASSERT_EQ(parts.topLevelItemCount(), 3);
+  EXPECT_EQ(parts.topLevelItem(0)->text(0), "Together");
+  EXPECT_TRUE(parts.topLevelItem(2)->text(0).contains("6"));
+  const auto firstMetric = [this]
+  { return child<QTreeWidget>("replayMetrics").topLevelItem(0)->text(0); };
+  EXPECT_EQ(firstMetric(), "Time");
+  parts.setCurrentItem(parts.topLevelItem(2));
+  EXPECT_EQ(firstMetric(), "Tool");
+  EXPECT_NEAR(replay().time(), review.parts[1].begin, 0.001);
+  auto& place = child<QSlider>("replayPlace");
+  ASSERT_TRUE(ghost());
+  place.setValue(place.maximum());
+  EXPECT_DOUBLE_EQ(ghost()->radius, 3.0);
+  place.setValue(0);
+  EXPECT_DOUBLE_EQ(ghost()->radius, 2.0);
 }
 
 // The copy has neither its strokes nor its name.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <new>
 
+#include <QEvent>
+#include <QLabel>
 #include <QSettings>
 #include <QWidget>
 
@@ -26,6 +28,15 @@ void notifyApplication(const QString& why)
         application, [application, why] { emit application->faulted(why); }, Qt::QueuedConnection);
 }
 
+// QMessageBox::setTextFormat does not reach the informative text, whose label is made with that,
+// nor is there such a setting of tooltips. Labels are polished before they are measured or shown.
+void showAsItIs(QObject* receiver)
+{
+  auto* label = qobject_cast<QLabel*>(receiver);
+  if (label && label->textFormat() == Qt::AutoText)
+    label->setTextFormat(Qt::PlainText);
+}
+
 } // namespace
 
 Application::Application(int& argc, char** argv)
@@ -39,7 +50,13 @@ Application::Application(int& argc, char** argv)
 bool Application::notify(QObject* receiver, QEvent* event)
 {
   bool handled = false;
-  guarded([&] { handled = QApplication::notify(receiver, event); });
+  guarded(
+      [&]
+      {
+        if (event->type() == QEvent::Polish)
+          showAsItIs(receiver);
+        handled = QApplication::notify(receiver, event);
+      });
   return handled;
 }
 

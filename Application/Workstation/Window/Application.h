@@ -9,7 +9,9 @@ namespace petrous::workstation
 
 /// Reports exceptions of event handlers instead of letting them escape: Qt's own loop would end the
 /// program, and lose unsaved removal. Qt's file dialogs keep no folder in the user's settings:
-/// folders of DICOM are named after patients.
+/// folders of DICOM are named after patients. Labels, those of message boxes and tooltips too, show
+/// their text as it is, unless they state Qt::RichText: names of cases, structures and files may
+/// look like HTML, of which Qt would draw the formatting and read the images.
 class Application : public QApplication
 {
   Q_OBJECT

@@ -66,7 +66,6 @@ bool mayReplace(QWidget& parent, const std::vector<std::filesystem::path>& files
                       : QObject::tr("%1 are there already. Replace them?").arg(there.join(", ")),
                   QMessageBox::Cancel, &parent);
   box.setObjectName("askReplace");
-  box.setTextFormat(Qt::PlainText);
   const auto* replace = box.addButton(QObject::tr("&Replace"), QMessageBox::AcceptRole);
   box.setDefaultButton(QMessageBox::Cancel);
   box.exec();

@@ -46,7 +46,6 @@ bool CaseJobs::mayLeave(const std::function<void()>& again, const QString& what)
   const QScopedValueRollback<bool> asking(m_isAsking, true);
   QMessageBox box(QMessageBox::Question, tr("Still running"),
                   tr("Still running: %1").arg(jobs.join(", ")), QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
   box.setObjectName("askJobs");
   box.setInformativeText(tr("What is stopped now is lost, and the case stays as it was before."));
   QPushButton* wait = again ? box.addButton(tr("&Wait for it"), QMessageBox::AcceptRole) : nullptr;

@@ -276,6 +276,17 @@ private:
   QPointer<QTimer> m_timer; // its window's, which may end before
 };
 
+// As QMessageBox::about, in rich text.
+void showAbout(QWidget& window)
+{
+  constexpr int kIcon = 64; // pixels
+  QMessageBox box(QMessageBox::NoIcon, MainWindow::tr("About Petrous"), aboutText(),
+                  QMessageBox::Ok, &window);
+  box.setTextFormat(Qt::RichText);
+  box.setIconPixmap(window.windowIcon().pixmap(kIcon));
+  box.exec();
+}
+
 } // namespace
 
 MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
@@ -932,7 +943,6 @@ void MainWindow::connectActions()
           {
             QMessageBox box(QMessageBox::Warning, tr("Instrument from a file"), why,
                             QMessageBox::Close, this);
-            box.setTextFormat(Qt::PlainText);
             const auto* choose = box.addButton(tr("Choose a &file…"), QMessageBox::AcceptRole);
             box.exec();
             if (box.clickedButton() == choose)
@@ -962,7 +972,7 @@ void MainWindow::connectActions()
        statusBar()->showMessage(why.isEmpty() ? tr("The manual is in the browser") : why, kMessage);
      });
   on(m_actions->findCommand, [this] { findCommand(); });
-  on(m_actions->about, [this] { QMessageBox::about(this, tr("About Petrous"), aboutText()); });
+  on(m_actions->about, [this] { showAbout(*this); });
   m_bound.add(
       m_actions->record, [this] { return !m_model.recording().empty(); },
       [this](bool chosen) { record(chosen); });
@@ -1442,7 +1452,6 @@ void MainWindow::editCatalogues()
                                 capitalized(sentence(why)), QMessageBox::Cancel, this);
     box->setObjectName("catalogueRepair");
     box->setAttribute(Qt::WA_DeleteOnClose);
-    box->setTextFormat(Qt::PlainText);
     box->setInformativeText(tr("Begin with the built-in tables in place of what cannot be read? "
                                "The file stays as it is until you save, which replaces or removes "
                                "it."));
@@ -1526,7 +1535,6 @@ void MainWindow::notice(const QString& text)
   auto* box = new QMessageBox(QMessageBox::Information, tr("Note on the case"), text,
                               QMessageBox::Ok, this);
   box->setAttribute(Qt::WA_DeleteOnClose);
-  box->setTextFormat(Qt::PlainText);
   box->open();
 }
 
@@ -1639,6 +1647,8 @@ void MainWindow::fillCaseMenu()
 // Of a part.
 void MainWindow::correctAxes(const std::string& part)
 {
+  if (m_registration->running() && m_model.hasCase() && scene::findMr(m_model.value(), part))
+    return statusBar()->showMessage(disturbsText(), kMessage);
   m_drill->releaseTool(); // ends an open stroke
   m_keeper->correctAxes(part);
 }

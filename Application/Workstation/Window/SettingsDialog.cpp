@@ -180,7 +180,6 @@ void SettingsDialog::changeLibrary()
                     tr("Use the library in %1 from the next start on?").arg(chosen),
                     QMessageBox::NoButton, this);
     box.setObjectName("askLibrary");
-    box.setTextFormat(Qt::PlainText);
     box.setInformativeText(
         (isLibrary ? (count == 1 ? tr("It has 1 case.") : tr("It has %1 cases.").arg(count))
          : isEmpty ? tr("It is empty: a new library begins there.")

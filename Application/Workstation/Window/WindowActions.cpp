@@ -209,7 +209,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   clipLess = make(m_view, tr("Cut l&ess deep"), Qt::SHIFT + Qt::Key_PageUp,
                   tr("Moves the plane that cuts the picture back by 0.5 mm"));
   const QString turned = tr("By a degree, within the slice that has the keyboard; in the 3D view "
-                            "about the vertical of the picture");
+                            "about the vertical of the picture, as seen from above");
   clipTurnLeft =
       make(m_view, tr("Turn the cut counterclockwise"), Qt::SHIFT + Qt::Key_Left, turned);
   clipTurnRight = make(m_view, tr("Turn the cut clockwise"), Qt::SHIFT + Qt::Key_Right, turned);

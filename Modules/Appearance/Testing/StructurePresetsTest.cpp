@@ -486,6 +486,23 @@ TEST(StructureAppearance, FlagsGoThereAndBack)
   EXPECT_EQ(flagsOf(look), "none");
 }
 
+TEST(StructureAppearance, FlagsWithASignLeaveTheOthers)
+{
+  StructureAppearance look;
+  setFlags(look, "shown,drillable");
+  changeFlags(look, "+touchable");
+  EXPECT_EQ(flagsOf(look), "shown,touchable,drillable");
+  changeFlags(look, "-shown,-drillable");
+  EXPECT_EQ(flagsOf(look), "touchable");
+  changeFlags(look, "-touchable,+shown");
+  EXPECT_EQ(flagsOf(look), "shown");
+  changeFlags(look, "drillable");
+  EXPECT_EQ(flagsOf(look), "drillable") << "without a sign it is the whole";
+  for (const char* wrong : {"+touchable,shown", "+loud", "-", "+touchable,,-shown"})
+    EXPECT_THROW(changeFlags(look, wrong), petrous::core::InvalidParameter) << wrong;
+  EXPECT_EQ(flagsOf(look), "drillable");
+}
+
 TEST(StructurePresets, KnowsWhichWordsOfANameAreThoseOfStructures)
 {
   const StructurePresets presets = StructurePresets::builtIn();

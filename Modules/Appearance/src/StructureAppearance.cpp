@@ -48,6 +48,35 @@ void setFlags(StructureAppearance& look, const std::string& flags)
   look = result;
 }
 
+void changeFlags(StructureAppearance& look, const std::string& flags)
+{
+  const auto isSigned = [](const std::string& word)
+  { return word.size() > 1 && (word.front() == '+' || word.front() == '-'); };
+  std::vector<std::string> words;
+  std::istringstream list(flags);
+  for (std::string word; std::getline(list, word, ',');)
+    words.push_back(word);
+  const auto signs = std::count_if(words.begin(), words.end(), isSigned);
+  if (signs == 0)
+    return setFlags(look, flags);
+  if (signs != static_cast<std::ptrdiff_t>(words.size()))
+    throw core::InvalidParameter("flags '" + flags +
+                                 "': give all of them a sign (+touchable,-drillable), or none");
+  StructureAppearance result = look;
+  for (const std::string& word : words)
+  {
+    StructureAppearance named;
+    setFlags(named, word.substr(1)); // throws where it is unknown
+    forEachFlag(
+        [&](auto flag, const std::string&)
+        {
+          if (named.*flag)
+            result.*flag = word.front() == '+';
+        });
+  }
+  look = result;
+}
+
 std::string flagsOf(const StructureAppearance& look)
 {
   std::string flags;

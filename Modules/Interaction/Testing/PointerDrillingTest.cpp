@@ -33,12 +33,14 @@ PickRay through(const Vector3d& point)
 class Session
 {
 public:
-  explicit Session(Mode mode, std::shared_ptr<const volume::TissueField> bone = block())
+  explicit Session(Mode mode, std::shared_ptr<const volume::TissueField> bone = block(),
+                   double radius = kRadius)
     : tissue(std::move(bone))
-    , proxy(haptic(*tissue), haptics::makeBurrShell(shape(), kVoxel, 700))
+    , proxy(haptic(*tissue), haptics::makeBurrShell(shape(radius), kVoxel, 700))
     , servo(proxy, setup(proxy))
     , device(kCenter)
-    , aim([this](const PickRay& line) { return firstTissue(*tissue, line); }, settings(mode))
+    , aim([this](const PickRay& line) { return firstTissue(*tissue, line); },
+          settings(mode, radius))
   {
     core::CameraPose camera;
     camera.position = kEye;
@@ -72,17 +74,17 @@ public:
   double now = 10.0;
 
 private:
-  static haptics::BurrShape shape()
+  static haptics::BurrShape shape(double radius)
   {
     haptics::BurrShape burr;
-    burr.radius = kRadius;
+    burr.radius = radius;
     return burr;
   }
-  static AimSettings settings(Mode mode)
+  static AimSettings settings(Mode mode, double radius)
   {
     AimSettings settings;
     settings.mode = mode;
-    settings.burrRadius = kRadius;
+    settings.burrRadius = radius;
     return settings;
   }
   static std::shared_ptr<const haptics::HapticField> haptic(const volume::TissueField& tissue)
@@ -223,6 +225,46 @@ TEST(PointerDrilling, ComesBackUnderThePointerAfterAStall)
   session.aim.wheel(4.0, false);
   session.run(300);
   EXPECT_NEAR(session.force().z(), 1.0, 0.05);
+}
+
+// A ball of 3 mm on the rim of a hole of 2.25 mm has its centre sqrt(3^2 - 2.25^2) above it.
+TEST(PointerDrilling, ALargerBurrComesFreeOnTheLineOfSightWhereTheSmallerOneWas)
+{
+  const auto bone = blockWithHole(-4.0, 0.0, 2.25, 4.0);
+  const PickRay line = through({-4.0, 0.0, 0.0});
+  for (const Mode mode : {Mode::Surface, Mode::Depth})
+  {
+    Session small(Mode::Surface, bone);
+    drillInto(small, {-4.0, 0.0, 0.0});
+    for (const double radius : {3.0, kRadius})
+    {
+      SCOPED_TRACE(radius);
+      Session next(mode, bone, radius);
+      next.aim.point(line);
+      next.aim.see(small.record, false);
+      next.aim.resume();
+      const TickRecord& record = next.run(100);
+      EXPECT_EQ(next.fault(), ServoFault::None);
+      EXPECT_EQ(record.drill, 0);
+      EXPECT_LT(besideLine(next.tool(), line), 0.15);
+      if (radius != kRadius)
+      {
+        EXPECT_GT(next.tool().z(), std::sqrt(9.0 - 2.25 * 2.25) - kVoxel);
+        if (mode == Mode::Depth)
+        {
+          EXPECT_LT(next.tool().z(), small.tool().z() + 8.05) << "four steps back";
+        }
+      }
+      else if (mode == Mode::Depth)
+      {
+        EXPECT_GT(next.tool().z(), small.tool().z() - 0.05);
+        EXPECT_LT(next.tool().z(), small.tool().z() + 1.05) << "a step back at most";
+        EXPECT_EQ(next.force().norm(), 0.0);
+      }
+      next.run(400);
+      EXPECT_EQ(next.fault(), ServoFault::None);
+    }
+  }
 }
 
 // The burr is in a hole of its own size; without the button the pointer is free to leave.

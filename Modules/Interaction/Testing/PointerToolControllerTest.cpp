@@ -294,6 +294,30 @@ TEST(PointerToolController, ATakenUpToolBeginsBeforeTheTissueInDepthToo)
   expectNear(place(aim), {0.0, 0.0, 3.0});
 }
 
+TEST(PointerToolController, AnotherToolGoesOnWhereTheLastOneWas)
+{
+  const PickRay line = through({20.0, 10.0, 0.0});
+  PointerToolController aim = aimAt(line, Mode::Depth);
+  aim.wheel(1000.0, false); // far into the tissue, which holds the tool
+  const Vector3d held = line.at((line.origin.z() - 2.0) / -line.direction.z());
+  aim.see(recordAt(held), false);
+  aim.resume();
+  expectNear(place(aim), held);
+
+  PointerToolController hovers = aimAt(line, Mode::Surface);
+  hovers.see(recordAt(place(hovers)), false);
+  AimSettings settings = hovers.settings();
+  settings.burrRadius = 3.5;
+  hovers.setSettings(settings);
+  hovers.resume();
+  EXPECT_LT(distanceToLine(place(hovers), line), 1e-9);
+  EXPECT_NEAR((Vector3d(20.0, 10.0, 0.0) - place(hovers)).norm(), 3.5 + 1.0, 1e-9);
+
+  PointerToolController unused(plane(0.0));
+  unused.resume();
+  EXPECT_FALSE(unused.wanted());
+}
+
 TEST(PointerToolController, DoesNotTurnTheWheelIntoDepthOnTheSurface)
 {
   PointerToolController aim = aimAt(through({0.0, 0.0, 0.0}), Mode::Surface);

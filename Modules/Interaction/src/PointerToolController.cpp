@@ -91,6 +91,16 @@ void PointerToolController::begin()
   m_meets = m_lifted = false;
 }
 
+void PointerToolController::resume()
+{
+  if (m_tool && m_settings.mode == AimSettings::Mode::Depth)
+    m_place = m_tool; // the wanted place may lie deep in tissue
+  m_tool.reset();
+  m_pressedAt.reset();
+  m_sank = 0.0;
+  update();
+}
+
 void PointerToolController::point(const PickRay& line)
 {
   check(line.origin.allFinite() && std::abs(line.direction.norm() - 1.0) < 1e-6,

@@ -526,6 +526,19 @@ TEST_F(Deidentification, KeepsNoTextInPlaceOfNumbers)
   // Object Pixel Spacing in Center of Beam, FL
   for (const std::string text : {"Room 12 ", "WARD 12A", "M\xfcller 7"})
     EXPECT_EQ(cleaned(element(0x00189404, text)).count("00189404"), 0U) << text;
+  // As numbers these are neither too large nor too small for an image: 'A' to 'C' end a double of
+  // 2^17 to 2^63, 'D' to 'W' a float of 2^9 to 2^49.
+  for (const char* const eight :
+       {"KR\xdcGER H", "M\xdcLLER A", "GR\xd6SCH C", "B\xd6HM,RAA",
+        "SCH\xc4"
+        "FER,",
+        "J\xd6RG A B", "GO\xd1I, AB", "NOV\xc1KOV\xc1", "\xa3UKASZ A", "M\xfcller A"})
+    for (const std::uint32_t tag : {0x00189305U, 0x00189404U}) // FD, FL
+    {
+      const std::string key = tag == 0x00189305U ? "00189305" : "00189404";
+      EXPECT_EQ(cleaned(element(0x00100010, "MUELLER^ANNA") + element(tag, eight)).count(key), 0U)
+          << key << ": " << eight;
+    }
   // A name of the patient's that is shorter than what is told by itself
   EXPECT_EQ(cleaned(element(0x00100010, "Wong^Li") + element(0x00209057, "Wong")).count("00209057"),
             0U);
@@ -542,6 +555,14 @@ TEST_F(Deidentification, KeepsRealNumbers)
     const float pair[] = {static_cast<float>(value), 0.4f};
     std::memcpy(eight.data(), pair, sizeof pair);
     EXPECT_EQ(cleaned(element(0x00189404, eight)).count("00189404"), 1U) << value;
+  }
+  // Letters, but no words: about 2e9 as a double, 10 to 120 as floats.
+  for (const std::string text : {"aB\xe9\x42"
+                                 "cD\xc0\x41",
+                                 "qR\xb5\x41xN\xd7\x41"})
+  {
+    EXPECT_EQ(cleaned(element(0x00189305, text)).count("00189305"), 1U) << text;
+    EXPECT_EQ(cleaned(element(0x00189404, text)).count("00189404"), 1U) << text;
   }
 }
 

@@ -1,9 +1,14 @@
 #include "OpticalModel.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include <gtest/gtest.h>
+
+#include "petrous/Core/SplitMix64.h"
 
 using namespace petrous;
 using namespace petrous::rendering;
@@ -356,7 +361,7 @@ TEST(OpticalModel, GrainIsNoFinerThanAPixelShows)
   }; // a voxel is a cell
   for (const double cells : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 1.0, 3.0})
   {
-    const double pixel = cells * optics::kGrainCell;
+    const double pixel = cells * 0.25;
     double squares = 0.0;
     constexpr int kPixels = 40;
     for (int n = 0; n < kPixels * kPixels; ++n)
@@ -375,21 +380,68 @@ TEST(OpticalModel, GrainIsNoFinerThanAPixelShows)
   }
 }
 
+// Values of its equation in another program (numpy).
 TEST(OpticalModel, GrainFadesWithThePixelsItCovers)
 {
   const core::GridGeometry grid({64, 64, 64}, {0.5, 0.5, 0.5}, {0.0, 0.0, 0.0});
-  const Eigen::Vector3d voxel(8.5, 3.0, 4.0); // at the corner 17, 6, 8
-  const double noise = optics::grainNoise({17.0, 6.0, 8.0});
-  ASSERT_GT(std::abs(noise), 0.1);
+  const Eigen::Vector3d voxel(8.5, 3.0, 4.0);
   const auto at = [&](double cosine, double pixel, double grain)
   { return optics::grainFactor(grid, voxel, cosine, pixel, grain); };
-  EXPECT_NEAR(at(1.0, 0.05, 1.0), 1.0 + optics::kGrainContrast * noise, 1e-12);
-  EXPECT_NEAR(at(-1.0, 0.05, 0.5), 1.0 + 0.5 * optics::kGrainContrast * noise, 1e-12);
-  EXPECT_NEAR(at(1.0, 0.125, 1.0), 1.0 + 0.5 * optics::kGrainContrast * noise,
-              1e-12); // half a cell
-  EXPECT_EQ(at(1.0, 0.17, 1.0), 1.0);
-  EXPECT_EQ(at(0.25, 0.05, 1.0), 1.0) << "a pixel covers four times as much from the side";
+  EXPECT_NEAR(at(1.0, 0.05, 1.0), 1.0449674222181133, 1e-12);
+  EXPECT_NEAR(at(-1.0, 0.05, 0.5), 1.0224837111090566, 1e-12);
+  EXPECT_NEAR(at(1.0, 0.1, 1.0), 1.0279675516543698, 1e-12) << "half a cell of the fine octave";
+  EXPECT_EQ(at(1.0, 0.24, 1.0), 1.0);
+  EXPECT_EQ(at(0.2, 0.05, 1.0), 1.0) << "a pixel covers five times as much from the side";
   EXPECT_EQ(at(0.5, 0.05, 0.0), 1.0);
+  const core::GridGeometry other({200, 64, 64}, {0.3, 0.3, 0.6}, {-20.0, 7.0, 3.0});
+  const Eigen::Vector3d there(100.25, 7.5, 41.0);
+  EXPECT_NEAR(optics::grainFactor(other, there, 0.5, 0.04, 0.5), 1.0164772102828374, 1e-12);
+  EXPECT_NEAR(optics::grainFactor(other, there, 1.0, 0.16, 1.0), 0.9942824424420056, 1e-12)
+      << "the coarse octave alone";
+}
+
+// Seen along an axis of the CT, as in anatomical views, a lattice along the axes shows as squares:
+// half way between its planes the noise varies half as much as on them.
+TEST(OpticalModel, GrainShowsNoLatticeAlongTheAxesOfTheCt)
+{
+  const core::GridGeometry grid({400, 400, 400}, {0.25, 0.25, 0.25}, {0.0, 0.0, 0.0});
+  constexpr int kPoints = 60000;
+  constexpr std::size_t kBins = 8;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<double> noise;
+  std::uint64_t state = 11;
+  const auto uniform = [&state]
+  { return static_cast<double>(core::splitMix64(state++) >> 11) / 9007199254740992.0; };
+  for (int n = 0; n < kPoints; ++n)
+  {
+    points.emplace_back(20.0 + 40.0 * uniform(), 20.0 + 40.0 * uniform(), 20.0 + 40.0 * uniform());
+    noise.push_back(optics::grainFactor(grid, points.back() / 0.25, 1.0, 0.01, 1.0) - 1.0);
+  }
+  const auto spread = [&](const std::vector<double>& values, double cell, int axis)
+  {
+    std::array<double, kBins> squares{};
+    std::array<double, kBins> counts{};
+    for (std::size_t n = 0; n < values.size(); ++n)
+    {
+      const double within = points[n][axis] / cell - std::floor(points[n][axis] / cell);
+      const auto bin = std::min(static_cast<std::size_t>(kBins * within), kBins - 1);
+      squares[bin] += values[n] * values[n];
+      counts[bin] += 1.0;
+    }
+    for (std::size_t bin = 0; bin < kBins; ++bin)
+      squares[bin] /= counts[bin];
+    return *std::max_element(squares.begin(), squares.end()) /
+           *std::min_element(squares.begin(), squares.end());
+  };
+  std::vector<double> straight; // the lattice of an octave without its turn
+  for (const Eigen::Vector3d& point : points)
+    straight.push_back(optics::grainNoise(point / optics::kGrainCells[1]));
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const double cell : optics::kGrainCells)
+      EXPECT_LT(spread(noise, cell, axis), 1.15) << cell << " mm, axis " << axis;
+    EXPECT_GT(spread(straight, optics::kGrainCells[1], axis), 1.6) << "what the bound is for";
+  }
 }
 
 // A shell of opacity 0.12 is passed twice as long at 60 degrees.

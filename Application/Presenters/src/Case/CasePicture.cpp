@@ -29,9 +29,13 @@ rendering::SceneContents sceneContents(const scene::Case& value, const core::Pro
 namespace
 {
 
+scene::Side sideOfCoordinates(const scene::Case& value)
+{
+  return value.ct.geometry.center().x() > 0.0 ? scene::Side::Left : scene::Side::Right;
+}
+
 // Of a case without a side the renderer knows it by the place of the image, if that states one.
-// Where the ear is not known it is the side to which the coordinates lie: some camera is needed,
-// and whoever asked for this view is told (warnOfView, MainWindow::showView).
+// Where the ear is not known some camera is needed all the same.
 rendering::StandardView lateralView(const scene::Case& value)
 {
   using rendering::StandardView;
@@ -39,13 +43,16 @@ rendering::StandardView lateralView(const scene::Case& value)
       value.description.side == scene::Side::Left || value.description.side == scene::Side::Right;
   if (!isDescribed && statesPlace(value.ct))
     return StandardView::Lateral;
-  const bool isLeft = value.ct.geometry.center().x() > 0.0;
-  return earOf(value).value_or(isLeft ? scene::Side::Left : scene::Side::Right) == scene::Side::Left
-             ? StandardView::Left
-             : StandardView::Right;
+  return earOf(value).value_or(sideOfCoordinates(value)) == scene::Side::Left ? StandardView::Left
+                                                                              : StandardView::Right;
 }
 
 } // namespace
+
+std::optional<scene::Side> guessedEar(const scene::Case& value)
+{
+  return earOf(value) ? std::nullopt : std::optional(sideOfCoordinates(value));
+}
 
 core::CameraPose standardCamera(const scene::Case& value, rendering::StandardView view)
 {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "CorrectAxes.h"
 #include "RecordedParts.h"
+#include "SameLabels.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Placement.h"
@@ -40,49 +42,131 @@ void forget(std::vector<std::string>& notes, const std::string& note)
   notes.erase(std::remove(notes.begin(), notes.end(), note), notes.end());
 }
 
+// The correction that a note states as correctedAxesText or followedNote.
+std::optional<core::AxesCorrection> statedBy(const std::string& note)
+{
+  constexpr std::size_t kLetters = 3;
+  const std::size_t at = note.rfind('(');
+  if (at == std::string::npos)
+    return std::nullopt;
+  try
+  {
+    const auto axes = core::AxesCorrection::parse(note.substr(at + 1, kLetters));
+    scene::ImagePart image; // whatever its name was
+    image.provenance.axes = axes;
+    std::string follows = followedNote(image);
+    follows.erase(0, follows.find("' as "));
+    const bool isFollowing =
+        note.size() > follows.size() &&
+        note.compare(note.size() - follows.size(), follows.size(), follows) == 0;
+    return isFollowing || note == correctedAxesText(axes) ? std::optional(axes) : std::nullopt;
+  }
+  catch (const core::InvalidParameter&)
+  {
+    return std::nullopt; // something else in brackets
+  }
+}
+
+// All that the notes of a mesh state, which keeps no provenance.
+core::AxesCorrection statedBy(const std::vector<std::string>& notes)
+{
+  core::AxesCorrection axes;
+  for (const std::string& note : notes)
+    axes = statedBy(note).value_or(core::AxesCorrection()) * axes;
+  return axes;
+}
+
+// In place of what they stated: the axes of what was drawn on an image.
+void noteAxes(std::vector<std::string>& notes, const core::AxesCorrection& axes,
+              const scene::ImagePart& image)
+{
+  notes.erase(std::remove_if(notes.begin(), notes.end(),
+                             [](const std::string& note) { return statedBy(note).has_value(); }),
+              notes.end());
+  if (!axes.isIdentity())
+    notes.push_back(axes == image.provenance.axes ? followedNote(image) : correctedAxesText(axes));
+}
+
 [[noreturn]] void failIdentity()
 {
   throw core::InvalidParameter("axes: LPS leaves them as they are; say where what the file calls "
                                "left, posterior and superior really points, such as RPS");
 }
 
-// The map that holds a structure; nullptr: none.
-scene::LabelPart* mapOf(scene::Case& value, const std::string& structure)
+// The structures of a map may be in several parts: all that lie on the one that holds a structure.
+std::vector<const scene::LabelPart*> mapOf(const scene::Case& value, const std::string& structure)
 {
-  for (scene::LabelPart& part : value.labels)
-    for (const scene::StructurePart& one : part.structures)
-      if (one.name == structure)
-        return &part;
-  return nullptr;
+  const auto& all = value.labels;
+  const auto holder =
+      std::find_if(all.begin(), all.end(),
+                   [&structure](const scene::LabelPart& map)
+                   {
+                     return std::any_of(map.structures.begin(), map.structures.end(),
+                                        [&](const auto& one) { return one.name == structure; });
+                   });
+  std::vector<const scene::LabelPart*> parts;
+  if (holder == all.end())
+    return parts;
+  const std::string on = scene::placementOf(value, *holder).drawnOn;
+  for (const scene::LabelPart& map : all)
+    if (haveSameLabels(map, *holder) && scene::placementOf(value, map).drawnOn == on)
+      parts.push_back(&map);
+  return parts;
 }
 
+// An older case does not say on which of several MRs of one grid a map was drawn. As soon as the
+// grid of one is another, it would be taken to be of the others.
+void checkPlaceKnown(const scene::Case& value, const AxesPart& corrected)
+{
+  for (const scene::LabelPart& map : value.labels)
+  {
+    if (map.drawnOn || value.mr.size() < 2 || map.structures.empty())
+      continue;
+    const auto mrs = scene::mrWithGrid(value, map.labels.get()->voxels->geometry());
+    if (mrs.size() < 2)
+      continue;
+    const std::string why = scene::placementOf(value, map).missing;
+    if (corrected.kind == AxesPart::Kind::Mr &&
+        std::find(mrs.begin(), mrs.end(), corrected.name) != mrs.end())
+      throw core::Error(core::Fault::Refused, "'" + corrected.name + "' keeps its axes: whether '" +
+                                                  map.structures.front().name +
+                                                  "' goes with it is not known: " + why);
+    if (corrected.kind == AxesPart::Kind::Structure &&
+        std::any_of(map.structures.begin(), map.structures.end(),
+                    [&](const auto& one) { return one.name == corrected.name; }))
+      throw core::Error(core::Fault::Refused, "'" + corrected.name + "' keeps its axes: " + why);
+  }
+}
+
+// `image`: on which it was drawn, as it is by now.
 void correctMap(scene::LabelPart& part, const core::AxesCorrection& axes,
-                const Eigen::Vector3d& center)
+                const scene::ImagePart& image)
 {
   const auto labels = part.labels.get();
   part.labels = std::make_shared<const volume::LabelMap>(
-      volume::onGrid(*labels, axes.applied(labels->voxels->geometry(), center)));
+      volume::onGrid(*labels, axes.applied(labels->voxels->geometry(), image.geometry.center())));
   part.object.clear();
   part.moved = {};
   part.provenance.axes = axes * part.provenance.axes;
+  noteAxes(part.notes, part.provenance.axes, image);
 }
 
 void correctMesh(scene::MeshPart& part, const core::AxesCorrection& axes,
-                 const Eigen::Vector3d& center)
+                 const scene::ImagePart& image)
 {
   core::TriangleMesh mesh = *part.mesh.get();
-  correctAxes(mesh, axes, center);
+  correctAxes(mesh, axes, image.geometry.center());
   part.mesh = std::make_shared<const core::TriangleMesh>(std::move(mesh));
   part.object.clear();
   part.moved = {};
   part.touch = {};
+  noteAxes(part.notes, axes * statedBy(part.notes), image);
 }
 
 void correctMr(scene::Case& value, const std::string& name, const core::AxesCorrection& axes)
 {
   scene::ImagePart& mr = *std::find_if(value.mr.begin(), value.mr.end(),
                                        [&name](const auto& one) { return one.name == name; });
-  const std::string before = followedNote(mr);
   // Before the grid moves, by which a map without a statement is known to be drawn on it.
   std::vector<scene::LabelPart*> maps;
   for (scene::LabelPart& part : value.labels)
@@ -90,30 +174,45 @@ void correctMr(scene::Case& value, const std::string& name, const core::AxesCorr
       maps.push_back(&part);
   correctAxes(mr, axes);
   mr.object.clear();
-  const Eigen::Vector3d center = mr.geometry.center();
-  const auto note = [&](std::vector<std::string>& notes)
-  {
-    forget(notes, before);
-    if (!mr.provenance.axes.isIdentity())
-      notes.push_back(followedNote(mr));
-  };
   std::map<std::shared_ptr<const volume::LabelMap>, core::Lazy<volume::LabelMap>> made;
   for (scene::LabelPart* part : maps)
   {
     // Structures of one map may be in several parts.
     const auto drawn = part->labels.get();
-    correctMap(*part, axes, center);
+    correctMap(*part, axes, mr);
     part->labels = made.emplace(drawn, part->labels).first->second;
     part->drawnOn = name;
-    note(part->notes);
   }
   for (scene::MeshPart& part : value.meshes)
     if (part.drawnOn == name)
-    {
-      correctMesh(part, axes, center);
-      note(part.notes);
-    }
+      correctMesh(part, axes, mr);
   scene::removeRegistration(value, name);
+}
+
+void correctMeshPart(scene::Case& value, const std::string& name, const core::AxesCorrection& axes)
+{
+  scene::MeshPart& mesh = *scene::findMesh(value, name);
+  const scene::ImagePart* mr = scene::findMr(value, mesh.drawnOn);
+  correctMesh(mesh, axes, mr ? *mr : value.ct);
+}
+
+void correctStructure(scene::Case& value, const std::string& name, const core::AxesCorrection& axes)
+{
+  const std::vector<const scene::LabelPart*> maps = mapOf(value, name);
+  // About the middle of the image on which it was drawn, as the builder of a case does, so that
+  // what lies on parts of its grid keeps its place among the rest.
+  const std::string on = scene::placementOf(value, *maps.front()).drawnOn;
+  const scene::ImagePart* mr = scene::findMr(value, on);
+  std::map<std::shared_ptr<const volume::LabelMap>, core::Lazy<volume::LabelMap>> made;
+  for (scene::LabelPart& map : value.labels)
+  {
+    if (std::find(maps.begin(), maps.end(), &map) == maps.end())
+      continue;
+    const auto drawn = map.labels.get();
+    correctMap(map, axes, mr ? *mr : value.ct);
+    map.drawnOn = on; // which an older case knows by the grid alone
+    map.labels = made.emplace(drawn, map.labels).first->second;
+  }
 }
 
 } // namespace
@@ -185,107 +284,92 @@ scene::Case correctedCase(const scene::Case& value, const core::AxesCorrection& 
   next.derived = nullptr;
   correctAxes(next.ct, axes);
   next.ct.object.clear();
-  const Eigen::Vector3d center = next.ct.geometry.center();
-  const auto note = [&](std::vector<std::string>& notes)
-  {
-    forget(notes, followedNote(value.ct));
-    if (!next.ct.provenance.axes.isIdentity())
-      notes.push_back(followedNote(next.ct));
-  };
   for (scene::LabelPart& part : next.labels)
   {
     progress.check("correcting the axes");
-    correctMap(part, axes, center);
+    correctMap(part, axes, next.ct);
     part.drawnOn = std::string();
-    note(part.notes);
   }
   for (scene::MeshPart& part : next.meshes)
   {
     progress.check("correcting the axes");
-    correctMesh(part, axes, center);
-    note(part.notes);
+    correctMesh(part, axes, next.ct);
   }
   return next;
 }
 
-AxesFollowers axesFollowers(const scene::Case& value, const std::string& part)
+std::vector<std::string> movedNames(const scene::Case& before, const scene::Case& after)
 {
-  AxesFollowers followers;
-  if (const scene::ImagePart* mr = scene::findMr(value, part))
-  {
-    followers.parts = scene::drawnOnMr(value, part);
-    for (const scene::ImagePart& one : value.mr)
-      if (one.registered && scene::liesThrough(value, one.name, mr->name))
-        followers.unregistered.push_back(one.name);
-    return followers;
-  }
-  for (const scene::MeshPart& mesh : value.meshes)
-    if (mesh.name == part)
-      return followers;
-  for (const scene::LabelPart& map : value.labels)
-  {
-    const auto& all = map.structures;
-    if (std::none_of(all.begin(), all.end(), [&](const auto& one) { return one.name == part; }))
-      continue;
-    for (const scene::StructurePart& one : all)
-      if (one.name != part)
-        followers.parts.push_back(one.name);
-    return followers;
-  }
-  throw core::InvalidParameter("the case has no MR, structure or mesh '" + part +
+  std::vector<std::string> names;
+  for (std::size_t n = 0; n < before.labels.size(); ++n)
+    if (before.labels[n].labels.peek() != after.labels[n].labels.peek())
+      for (const scene::StructurePart& one : before.labels[n].structures)
+        names.push_back(one.name);
+  for (std::size_t n = 0; n < before.meshes.size(); ++n)
+    if (before.meshes[n].mesh.peek() != after.meshes[n].mesh.peek())
+      names.push_back(before.meshes[n].name);
+  return names;
+}
+
+AxesPart axesPart(const scene::Case& value, const std::string& name)
+{
+  if (scene::findMr(value, name))
+    return {AxesPart::Kind::Mr, name};
+  if (scene::findStructure(value, name))
+    return {AxesPart::Kind::Structure, name};
+  if (std::any_of(value.meshes.begin(), value.meshes.end(),
+                  [&name](const scene::MeshPart& mesh) { return mesh.name == name; }))
+    return {AxesPart::Kind::Mesh, name};
+  throw core::InvalidParameter("the case has no MR, structure or mesh '" + name +
                                "' whose axes could be corrected");
 }
 
-void correctPart(scene::Case& value, const std::string& part, const core::AxesCorrection& axes)
+AxesFollowers axesFollowers(const scene::Case& value, const AxesPart& part)
+{
+  AxesFollowers followers;
+  if (part.kind == AxesPart::Kind::Mr)
+  {
+    followers.parts = scene::drawnOnMr(value, part.name);
+    for (const scene::ImagePart& one : value.mr)
+      if (one.registered && scene::liesThrough(value, one.name, part.name))
+        followers.unregistered.push_back(one.name);
+  }
+  if (part.kind == AxesPart::Kind::Structure)
+    for (const scene::LabelPart* const map : mapOf(value, part.name))
+      for (const scene::StructurePart& one : map->structures)
+        if (one.name != part.name)
+          followers.parts.push_back(one.name);
+  return followers;
+}
+
+void correctPart(scene::Case& value, const AxesPart& part, const core::AxesCorrection& axes)
 {
   if (axes.isIdentity())
     failIdentity();
   std::vector<std::string> moved = axesFollowers(value, part).parts;
-  moved.push_back(part);
+  moved.push_back(part.name);
   for (const std::string& one : moved)
     if (isRecorded(value, one))
       throw core::Error(core::Fault::Refused,
                         "'" + one +
                             "' keeps its axes: strokes of this case record what was removed from "
                             "it where it lies");
+  checkPlaceKnown(value, part);
   scene::Case next = value;
-  if (scene::findMr(next, part))
-    correctMr(next, part, axes);
-  else if (scene::MeshPart* mesh = scene::findMesh(next, part))
+  switch (part.kind)
   {
-    const scene::ImagePart* mr = scene::findMr(next, mesh->drawnOn);
-    correctMesh(*mesh, axes, (mr ? *mr : next.ct).geometry.center());
-    const std::string note = correctedAxesText(axes);
-    const auto noted = std::find(mesh->notes.begin(), mesh->notes.end(), note);
-    if (noted != mesh->notes.end() && (axes * axes).isIdentity())
-      mesh->notes.erase(noted); // it is as before
-    else
-      mesh->notes.push_back(note);
+  case AxesPart::Kind::Mr:
+    correctMr(next, part.name, axes);
+    break;
+  case AxesPart::Kind::Mesh:
+    correctMeshPart(next, part.name, axes);
+    break;
+  case AxesPart::Kind::Structure:
+    correctStructure(next, part.name, axes);
+    break;
   }
-  else
-  {
-    const auto drawn = mapOf(next, part)->labels.get();
-    core::Lazy<volume::LabelMap> made;
-    for (scene::LabelPart& map : next.labels)
-    {
-      if (map.labels.peek() != drawn)
-        continue;
-      forget(map.notes, correctedAxesText(map.provenance.axes));
-      // About the middle of the image on which it was drawn, as the builder of a case does, so that
-      // what lies on parts of its grid keeps its place among the rest.
-      const auto on = scene::placementOf(next, map).drawnOn;
-      const scene::ImagePart* mr = scene::findMr(next, on);
-      forget(map.notes, followedNote(next.ct));
-      if (mr)
-        forget(map.notes, followedNote(*mr));
-      correctMap(map, axes, (mr ? *mr : next.ct).geometry.center());
-      if (!made)
-        made = map.labels;
-      map.labels = made;
-      if (!map.provenance.axes.isIdentity())
-        map.notes.push_back(correctedAxesText(map.provenance.axes));
-    }
-  }
+  for (const std::string& name : movedNames(value, next))
+    scene::forgetStructure(next.measurements, name);
   value = std::move(next);
 }
 

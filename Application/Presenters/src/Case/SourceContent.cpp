@@ -334,7 +334,7 @@ try
 }
 catch (const imaging::FileError& error)
 {
-  if (error.fault() != core::Fault::Internal) // no memory
+  if (error.fault() != core::Fault::Refused) // too little memory; nothing else of reading
     throw;
   isTooLarge = true;
   return presenters::contentOf(*imaging::previewImageFile(path, kSlices, progress, std::nullopt, 0,

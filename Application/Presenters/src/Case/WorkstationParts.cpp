@@ -3,9 +3,11 @@
 #include <optional>
 #include <utility>
 
+#include "EditGroups.h"
 #include "LookEdits.h"
 #include "Notify.h"
 #include "RecordedParts.h"
+#include "SameLabels.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/CorrectedCase.h"
@@ -382,14 +384,9 @@ void WorkstationModel::bringBack(std::uint64_t removal)
   if (removed.labels)
   {
     scene::LabelPart& part = removed.labels->part;
-    const auto rest = std::find_if(m_case->labels.begin(), m_case->labels.end(),
-                                   [&part](const scene::LabelPart& one)
-                                   {
-                                     if (!one.object.empty() && !part.object.empty())
-                                       return one.object == part.object;
-                                     const auto voxels = part.labels.peek(); // made in memory
-                                     return voxels && one.labels.peek() == voxels;
-                                   });
+    const auto rest =
+        std::find_if(m_case->labels.begin(), m_case->labels.end(),
+                     [&part](const scene::LabelPart& one) { return haveSameLabels(one, part); });
     if (!removed.wasAlone && rest != m_case->labels.end())
     {
       const std::size_t at = std::min(removed.structure, rest->structures.size());
@@ -422,6 +419,7 @@ void WorkstationModel::correctAxes(const std::string& part, const core::AxesCorr
 {
   if (!m_case || drilling())
     return;
+  const AxesPart corrected = axesPart(*m_case, part); // and no namesake that was taken out
   scene::Case next = *m_case;
   for (const RemovedPart& removed : m_removed)
   {
@@ -431,7 +429,7 @@ void WorkstationModel::correctAxes(const std::string& part, const core::AxesCorr
       next.meshes.push_back(removed.mesh->part);
   }
   scene::Case present = next; // shares what is read
-  correctPart(next, part, axes);
+  correctPart(next, corrected, axes);
   PlacedParts before, after;
   for (std::size_t n = 0; n < next.mr.size(); ++n)
     if (next.mr[n].provenance.axes != present.mr[n].provenance.axes)
@@ -476,12 +474,57 @@ void WorkstationModel::correctAxes(const std::string& part, const core::AxesCorr
                                                   "' keeps its axes: what goes with it could not "
                                                   "be read");
   }
-  placeParts(before, after);
+  // What was measured by them lies where they were; what follows what was taken out as well.
+  const std::size_t structures = m_case->labels.size(), meshes = m_case->meshes.size();
+  for (scene::Case* one : {&present, &next})
+  {
+    one->labels.resize(std::min(structures, one->labels.size()));
+    one->meshes.resize(std::min(meshes, one->meshes.size()));
+  }
+  const std::vector<std::string> moved = movedNames(present, next);
+  std::map<std::uint64_t, std::vector<std::string>> ofRemoved;
+  for (const RemovedPart& removed : m_removed)
+  {
+    const auto isMoved = [](const auto& data, const auto& parts, auto kind)
+    {
+      return std::any_of(parts.begin(), parts.end(),
+                         [&](const auto& one) { return (one.*kind).peek() == data.peek(); });
+    };
+    if ((removed.labels &&
+         isMoved(removed.labels->part.labels, before.labels, &scene::LabelPart::labels)) ||
+        (removed.mesh && isMoved(removed.mesh->part.mesh, before.meshes, &scene::MeshPart::mesh)))
+      ofRemoved[removed.id] = removed.measured;
+  }
+  const auto measured =
+      std::make_shared<std::vector<std::pair<std::string, std::vector<std::string>>>>();
+  const auto place = [this, before, after, moved, ofRemoved, measured]
+  {
+    placeParts(before, after);
+    for (RemovedPart& removed : m_removed)
+      if (ofRemoved.count(removed.id) > 0)
+        removed.measured.clear();
+    measured->clear();
+    auto measurements = m_case->measurements;
+    for (const std::string& name : moved)
+      measured->emplace_back(name, scene::forgetStructure(measurements, name));
+    setMeasurements(std::move(measurements));
+  };
+  place();
   recordEdit({"axes of " + shownName(part),
               {},
-              [this, before, after] { placeParts(after, before); },
-              [this, before, after] { placeParts(before, after); },
-              true});
+              [this, before, after, ofRemoved, measured]
+              {
+                placeParts(after, before);
+                for (RemovedPart& removed : m_removed)
+                  if (const auto was = ofRemoved.find(removed.id); was != ofRemoved.end())
+                    removed.measured = was->second;
+                auto measurements = m_case->measurements;
+                for (const auto& [name, which] : *measured)
+                  scene::recallStructure(measurements, name, which);
+                setMeasurements(std::move(measurements));
+              },
+              place,
+              true, after.mr.empty() ? "" : kMrAxes});
 }
 
 // Parts are found by their data: their names and places in the case may be others.
@@ -513,6 +556,8 @@ void WorkstationModel::placeParts(const PlacedParts& from, const PlacedParts& to
             {
               if (part.labels.peek() != was)
                 return;
+              if (to.labels[n].drawnOn != from.labels[n].drawnOn) // an older case's, by the grid
+                part.drawnOn = to.labels[n].drawnOn;
               part.labels = to.labels[n].labels;
               part.object = to.labels[n].object;
               part.provenance.axes = to.labels[n].provenance.axes;
@@ -535,6 +580,7 @@ void WorkstationModel::placeParts(const PlacedParts& from, const PlacedParts& to
             });
   if (found == 0)
     throw core::InvalidParameter("the axes stay: what was corrected was replaced since");
+  forgetTissue(); // an MR may be felt, too
   scene::layAs(*m_case, to.places);
   m_partsMoved = true;
   if (to.labels.empty() && to.meshes.empty())

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "EditGroups.h"
 #include "Notify.h"
 #include "petrous/Presenters/BoneThickness.h"
 #include "petrous/Presenters/WorkstationModel.h"
@@ -16,13 +17,17 @@ namespace petrous::presenters
 
 namespace
 {
-constexpr const char* kMrEdits = "mr"; // EditHistory::Edit::group
 
 bool isOnPresentBranch(const dissection::History& history, std::size_t state)
 {
   const std::vector<std::size_t> line = history.lineTo(history.branch().tip);
   return state == dissection::History::kStart ||
          std::find(line.begin(), line.end(), state) != line.end();
+}
+
+bool movesMr(const EditHistory::Edit& edit)
+{
+  return edit.group == kMrEdits || edit.group == kMrAxes;
 }
 
 } // namespace
@@ -364,13 +369,13 @@ void WorkstationModel::redoMr()
 
 bool WorkstationModel::undoMovesMr() const noexcept
 {
-  return !undoesStroke() && canUndo() && m_edits.next(m_case->applied())->group == kMrEdits;
+  return !undoesStroke() && canUndo() && movesMr(*m_edits.next(m_case->applied()));
 }
 
 bool WorkstationModel::redoMovesMr() const noexcept
 {
   return !redoesStroke() && canRedo() &&
-         m_edits.nextRedo(m_case->dissection.history().ahead())->group == kMrEdits;
+         movesMr(*m_edits.nextRedo(m_case->dissection.history().ahead()));
 }
 
 } // namespace petrous::presenters

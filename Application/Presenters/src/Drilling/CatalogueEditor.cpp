@@ -98,6 +98,16 @@ Tables withLike(Tables tables, std::vector<Row> Tables::*which, std::size_t like
   return tables;
 }
 
+// Of other numbers: what was stated of those before does not hold of them, what is set together
+// with them does.
+template <typename Row>
+void dropStatements(Row& now, const Row& before)
+{
+  for (std::string Row::*text : {&Row::certainty, &Row::source})
+    if (now.*text == before.*text)
+      (now.*text).clear();
+}
+
 template <typename Tables, typename Row>
 Tables without(Tables tables, std::vector<Row> Tables::*which, std::size_t row)
 {
@@ -297,7 +307,10 @@ void CatalogueEditor::setMaterial(std::size_t row, const Material& material)
       if (*end == present.name)
         *end = material.name;
   }
-  present = material;
+  const Material before = std::exchange(present, material);
+  if (present.specificEnergy != before.specificEnergy || present.friction != before.friction ||
+      present.hardness != before.hardness)
+    dropStatements(present, before);
   take(std::move(next));
 }
 
@@ -324,8 +337,10 @@ void CatalogueEditor::setBurr(std::size_t row, const Burr& burr)
   if (burr.name != next.burrs[row].name && isUsualBurr(row))
     throw core::InvalidParameter("burr '" + next.burrs[row].name +
                                  "' has its name for good: it is the usual one of its kind");
-  next.burrs[row] = burr;
+  const Burr before = std::exchange(next.burrs[row], burr);
   next.burrs[row].kind = kind;
+  if (burr.constant != before.constant || burr.grit != before.grit)
+    dropStatements(next.burrs[row], before);
   checkNumbers(next.burrs[row]);
   auto& diameters = next.burrs[row].diameters;
   std::sort(diameters.begin(), diameters.end());

@@ -1,7 +1,9 @@
 #include "petrous/Presenters/Recordings.h"
 
 #include <algorithm>
+#include <map>
 #include <string_view>
+#include <utility>
 
 #include "petrous/Core/LocalTime.h"
 
@@ -41,6 +43,56 @@ std::vector<std::filesystem::path> recordingsOf(const library::Library& library,
   }
   std::sort(files.rbegin(), files.rend());
   return files;
+}
+
+namespace
+{
+
+// The file's name without " (N)", and N; 1 without one.
+std::pair<std::filesystem::path, int> sessionOf(const std::filesystem::path& file)
+{
+  constexpr std::size_t kDigits = 6;
+  const std::string stem = file.stem().string();
+  const std::size_t open = stem.rfind(" (");
+  if (open == std::string::npos || open == 0 || stem.back() != ')')
+    return {file, 1};
+  const std::string number = stem.substr(open + 2, stem.size() - open - 3);
+  const bool isNumber = !number.empty() && number.size() <= kDigits && number.front() != '0' &&
+                        number.find_first_not_of("0123456789") == std::string::npos;
+  if (!isNumber)
+    return {file, 1};
+  return {file.parent_path() / (stem.substr(0, open) + file.extension().string()),
+          std::stoi(number)};
+}
+
+} // namespace
+
+std::vector<std::vector<std::filesystem::path>>
+inOperations(const std::vector<std::filesystem::path>& files)
+{
+  struct Operation
+  {
+    std::filesystem::path session;
+    std::map<int, std::filesystem::path> parts;
+  };
+  std::vector<Operation> operations;
+  for (const std::filesystem::path& file : files)
+  {
+    const auto [session, part] = sessionOf(file);
+    auto at = std::find_if(operations.begin(), operations.end(),
+                           [&name = session](const Operation& one) { return one.session == name; });
+    if (at == operations.end())
+      at = operations.insert(at, Operation{session, {}});
+    at->parts[part] = file;
+  }
+  std::vector<std::vector<std::filesystem::path>> result;
+  for (const Operation& one : operations)
+  {
+    result.emplace_back();
+    for (const auto& [part, file] : one.parts)
+      result.back().push_back(file);
+  }
+  return result;
 }
 
 std::filesystem::path unusedName(const std::filesystem::path& file)

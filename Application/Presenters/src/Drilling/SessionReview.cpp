@@ -117,18 +117,23 @@ std::string prepareRedo(scene::Case& value, const session::MaskEdit& redo, std::
   return "redoes an older stroke that this case does not have";
 }
 
-// Of the strokes from `before` on that are applied.
-void addRemoved(const dissection::Dissection& work, std::size_t before, SessionReview& review,
-                Volumes& structures)
+// Of the strokes from `before` on that are applied; and how many of those applied at the beginning
+// are not.
+void addRemoved(const dissection::Dissection& work, std::size_t before,
+                const std::vector<std::size_t>& atBegin, SessionReview& review, Volumes& structures)
 {
   review.removed = 0.0;
-  for (const std::size_t n : work.history().lineTo(work.history().position()))
+  const auto line = work.history().lineTo(work.history().position());
+  for (const std::size_t n : atBegin)
+    review.undone += std::find(line.begin(), line.end(), n) == line.end();
+  for (const std::size_t n : line)
   {
     if (n < before)
       continue;
     const dissection::Stroke& stroke = *work.strokes()[n];
     ++review.strokes;
     *review.removed += stroke.info.removed;
+    review.made.push_back(stroke.info);
     for (const auto& one : stroke.info.structures)
       structures[one.name] += one.volume;
   }
@@ -230,8 +235,12 @@ std::optional<RecordedTool> toolAt(const std::vector<RecordedTool>& course, doub
   return tool;
 }
 
-SessionReview reviewRecording(const std::filesystem::path& file, scene::Case value,
-                              const core::Progress& progress)
+namespace
+{
+
+// Leaves the case as it is after the recording, if the volumes are known.
+SessionReview reviewOn(const std::filesystem::path& file, scene::Case& value,
+                       const core::Progress& progress)
 {
   const std::string name = file.filename().string();
   session::RecordingReader reader(file);
@@ -240,6 +249,7 @@ SessionReview reviewRecording(const std::filesystem::path& file, scene::Case val
   SessionReview review;
   review.burr = setup.burr;
   review.tool = toString(setup);
+  review.applied = static_cast<std::size_t>(setup.scene.applied);
 
   State state(value, setup, name, progress.part(0.0, 0.5));
   session::NoRemovalModel recorded; // cuts are repeated as they were
@@ -249,6 +259,7 @@ SessionReview reviewRecording(const std::filesystem::path& file, scene::Case val
                  state.scene().drill().protectedTissue(),
                  state.scene().hooksOf(setup.burr, [] { return std::nullopt; }));
   const std::size_t before = value.dissection.strokes().size();
+  const auto atBegin = value.dissection.history().lineTo(value.dissection.history().position());
   review.whyUnmeasured = state.misfit();
 
   StructureDistances distances(value, MeasuredTool(0.5 * setup.burr.diameter));
@@ -281,7 +292,7 @@ SessionReview reviewRecording(const std::filesystem::path& file, scene::Case val
   if (loop)
   {
     loop->endStroke();
-    addRemoved(value.dissection, before, review, removed);
+    addRemoved(value.dissection, before, atBegin, review, removed);
   }
   progress.check("measuring the structures");
   std::map<std::string, SessionReview::Structure> structures;
@@ -298,6 +309,46 @@ SessionReview reviewRecording(const std::filesystem::path& file, scene::Case val
     review.structures.push_back(one);
   }
   return review;
+}
+
+} // namespace
+
+SessionReview reviewRecording(const std::filesystem::path& file, scene::Case value,
+                              const core::Progress& progress)
+{
+  return reviewOn(file, value, progress);
+}
+
+OperationReview reviewOperation(const std::vector<std::filesystem::path>& files,
+                                const scene::Case& value, const core::Progress& progress)
+{
+  std::vector<OperationReview::Part> parts;
+  std::optional<scene::Case> after; // the part before, where the case itself lacks its strokes
+  double begin = 0.0;
+  for (std::size_t n = 0; n < files.size(); ++n)
+  {
+    const double share = 1.0 / static_cast<double>(files.size());
+    const double done = share * static_cast<double>(n);
+    const core::Progress own = progress.part(done, done + share);
+    OperationReview::Part part;
+    part.name = files[n].filename().string();
+    part.begin = begin;
+    scene::Case there = value;
+    part.review = reviewOn(files[n], there, own);
+    if (!part.review.removed && after)
+    {
+      there = std::move(*after);
+      SessionReview goesOn = reviewOn(files[n], there, own);
+      if (goesOn.removed)
+        part.review = std::move(goesOn);
+    }
+    after.reset();
+    if (part.review.removed)
+      after = std::move(there);
+    begin += part.review.metrics.duration;
+    parts.push_back(std::move(part));
+  }
+  return togetherOf(std::move(parts));
 }
 
 } // namespace petrous::presenters

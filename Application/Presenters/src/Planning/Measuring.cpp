@@ -324,6 +324,12 @@ std::string onMr(const scene::Case& value, const std::string& structure)
   return {};
 }
 
+// Whether a part has the structure's name: another one, or itself with its axes corrected.
+bool isThere(const scene::Case& value, const Measurement& measurement)
+{
+  return scene::kindOfPart(value, measurement.structure) != nullptr;
+}
+
 } // namespace
 
 std::string toString(const Quantity& quantity)
@@ -391,7 +397,9 @@ std::vector<Quantity> quantitiesOf(const scene::Case& value, const Measurement& 
   {
     main.uncertainty = spreadOfEnds(value, measurement);
     main.remark = joined({"along the centre line of '" + shownName(measurement.structure) + "'" +
-                              (measurement.structureGone ? ", which was removed" : ""),
+                              (!measurement.structureGone    ? ""
+                               : isThere(value, measurement) ? ", which was removed or moved since"
+                                                             : ", which was removed"),
                           main.remark});
     return {main};
   }
@@ -411,7 +419,9 @@ std::vector<Quantity> quantitiesOf(const scene::Case& value, const Measurement& 
   std::string remark;
   if (!measurement.structure.empty())
     remark = "to '" + shownName(measurement.structure) + "'" +
-             (measurement.structureGone ? ", which was removed" : "");
+             (!measurement.structureGone    ? ""
+              : isThere(value, measurement) ? ", which was removed or moved since"
+                                            : ", which was removed");
   main.remark = joined({remark, main.remark});
   // What was drawn on an MR lies as well as that is registered, which the image's voxels do not
   // say.

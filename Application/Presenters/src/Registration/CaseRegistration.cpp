@@ -281,6 +281,10 @@ RegistrationOutcome registerMr(const scene::Case& value, const RegistrationReque
   outcome.how.isFromFile =
       task.method == Method::ByHand && request.givenBy && request.givenBy->isFromFile;
   outcome.how.text = task.statusMessage;
+  outcome.grid = task.mr->geometry;
+  outcome.onto = request.onto;
+  if (!request.onto.empty())
+    outcome.ontoGrid = task.fixed->geometry;
   if (request.asIs)
   {
     layAsIs(task, request, outcome);

@@ -23,6 +23,13 @@ void LandmarkList::remove(std::size_t row)
     m_rows.erase(m_rows.begin() + static_cast<std::ptrdiff_t>(row));
 }
 
+void LandmarkList::moveMr(const core::GridGeometry& from, const core::GridGeometry& to)
+{
+  for (Row& row : m_rows)
+    if (row.mr)
+      row.mr = to.patientFromVoxel(from.voxelFromPatient(*row.mr));
+}
+
 std::optional<double> LandmarkList::residual(std::size_t row,
                                              const core::RigidTransform& mrFromCt) const
 {

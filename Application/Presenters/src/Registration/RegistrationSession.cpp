@@ -21,6 +21,14 @@ Registration manualRegistration()
   how.method = Registration::Method::ByHand;
   return how;
 }
+
+void checkLies(const std::optional<core::GridGeometry>& grid, const scene::ImagePart* mr)
+{
+  if (grid && (!mr || !core::sameGrid(*grid, mr->geometry)))
+    throw core::Error(core::Fault::Refused,
+                      "the axes of an MR were corrected while it was registered: the MR lies as "
+                      "before; register it again");
+}
 } // namespace
 
 RegistrationSession::RegistrationSession(WorkstationModel& model)
@@ -54,6 +62,7 @@ bool RegistrationSession::partsChanged()
     caseChanged();
     return false;
   }
+  followGrid();
   checkAim(); // a structure may be gone
   return true;
 }
@@ -62,8 +71,23 @@ void RegistrationSession::choose(const std::string& mr)
 {
   m_name = mr;
   m_landmarks.clear();
+  m_grid.reset();
+  followGrid();
   checkAim();
   m_fitted = part() ? part()->mrFromCt : core::RigidTransform();
+}
+
+// Where its axes were corrected the MR lies elsewhere in its own space, in which the landmarks are.
+void RegistrationSession::followGrid()
+{
+  std::optional<core::GridGeometry> before = std::exchange(m_grid, std::nullopt);
+  if (!part())
+    return;
+  m_grid = part()->geometry;
+  if (!before || core::sameGrid(*before, *m_grid))
+    return;
+  m_landmarks.moveMr(*before, *m_grid);
+  m_fitted = part()->mrFromCt;
 }
 
 bool RegistrationSession::preferUnregistered()
@@ -263,6 +287,9 @@ bool RegistrationSession::take(const RegistrationOutcome& outcome)
 {
   if (!part() || m_model.drilling() || outcome.failed)
     return false;
+  checkLies(outcome.grid, part());
+  if (!outcome.onto.empty())
+    checkLies(outcome.ontoGrid, scene::findMr(m_model.value(), outcome.onto));
   m_fitted = outcome.mrFromCt;
   m_model.changeMr([&](scene::Case& value) { accept(value, m_name, outcome); },
                    "registration of " + shownName(m_name));

@@ -172,6 +172,32 @@ core::TriangleMesh raised(core::TriangleMesh mesh, float millimetres)
   return mesh;
 }
 
+// Whether these are the same voxels on another grid: their axes were corrected (volume::onGrid).
+bool isElsewhere(const std::shared_ptr<const volume::LabelMap>& now,
+                 const std::shared_ptr<const volume::LabelMap>& before)
+{
+  return now && before && now->voxels->data() == before->voxels->data() &&
+         !core::sameGrid(now->voxels->geometry(), before->voxels->geometry());
+}
+
+bool isElsewhere(const std::shared_ptr<const volume::IntensityVolume>& now,
+                 const std::shared_ptr<const volume::IntensityVolume>& before)
+{
+  const auto dataOf = [](const volume::IntensityVolume& image)
+  {
+    return std::visit([](const auto& voxels) -> const void* { return voxels->data(); },
+                      image.voxels());
+  };
+  return now && before && dataOf(*now) == dataOf(*before) &&
+         !core::sameGrid(now->geometry(), before->geometry());
+}
+
+[[noreturn]] void failAxes(const std::string& name)
+{
+  throw core::Error(core::Fault::Refused,
+                    "the axes of '" + name + "' were corrected since: undo that first");
+}
+
 // As a step in the Undo entry.
 const char* nameOf(SegmentEditor::Tool tool)
 {
@@ -1775,6 +1801,12 @@ void SegmentEditor::undoCreated(const std::shared_ptr<Created>& made)
   Created& created = *made;
   const scene::Case& value = m_model.value();
   const scene::LabelPart* found = partOf(created);
+  // What was drawn on the grid of before would come back beside what is elsewhere by now.
+  for (const scene::LabelPart& part : value.labels)
+    if (const auto labels = part.labels.peek();
+        isElsewhere(labels, created.labels) ||
+        (created.replaced && isElsewhere(labels, created.replaced->labels.peek())))
+      failAxes(part.structures.front().name);
   if (!found)
     throw core::InvalidParameter("the structure that was created is not in the case any more");
   const std::string name = found->structures.front().name;
@@ -1788,6 +1820,9 @@ void SegmentEditor::undoCreated(const std::shared_ptr<Created>& made)
       const auto on = std::find_if(value.mr.begin(), value.mr.end(),
                                    [&created](const scene::ImagePart& image)
                                    { return image.volume.get() == created.replacedOn; });
+      for (const scene::ImagePart& image : value.mr)
+        if (isElsewhere(image.volume.peek(), created.replacedOn))
+          failAxes(image.name);
       if (on == value.mr.end())
         throw core::InvalidParameter("'" + before + "' cannot come back: the MR '" + *mr +
                                      "' on which it was drawn is not in the case any more");

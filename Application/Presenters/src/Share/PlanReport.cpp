@@ -590,7 +590,7 @@ private:
                                                caption + ", " + say("bone made translucent"),
                                                camera, clipping, part.part(0.5, 1.0)));
       };
-      add(say("3D view as saved"), currentCamera(m_value), m_value.view.clipping,
+      add(say(firstCaption()), currentCamera(m_value), m_value.view.clipping,
           progress.part(0.4, 0.7));
       if (ear)
         add(say(surgicalCaption()),
@@ -609,6 +609,20 @@ private:
       views.paragraphs.push_back(
           say("There are no 3D pictures: OpenGL is missing on this computer."));
     }
+  }
+
+  // Of the view that currentCamera takes.
+  const char* firstCaption() const
+  {
+    if (m_value.camera)
+      return "3D view as saved";
+    const std::optional<scene::Side> guessed = guessedEar(m_value);
+    if (!guessed)
+      return "Lateral view";
+    return guessed == scene::Side::Left ? "Lateral view from the patient's left; the case does not "
+                                          "tell which ear it is"
+                                        : "Lateral view from the patient's right; the case does "
+                                          "not tell which ear it is";
   }
 
   // No ear is named that nobody stated.

@@ -36,6 +36,13 @@ const std::map<std::string, std::string>& germanTexts()
        "Registrierung gelten."},
       {"Views", "Ansichten"},
       {"3D view as saved", "3D-Ansicht wie gespeichert"},
+      {"Lateral view", "Ansicht von lateral"},
+      {"Lateral view from the patient's left; the case does not tell which ear it is",
+       "Ansicht von lateral, von der linken Seite des Patienten; der Fall sagt nicht, welches Ohr "
+       "es ist"},
+      {"Lateral view from the patient's right; the case does not tell which ear it is",
+       "Ansicht von lateral, von der rechten Seite des Patienten; der Fall sagt nicht, welches Ohr "
+       "es ist"},
       {"Cut away for the view, not drilled", "Für die Ansicht weggeschnitten, nicht gebohrt"},
       {"Only a part of the image is shown", "Nur ein Teil des Bildes wird gezeigt"},
       {"Surgical position, left ear", "Operationslage, linkes Ohr"},

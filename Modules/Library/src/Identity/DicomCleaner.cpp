@@ -484,6 +484,41 @@ bool mayBeText(const std::string& text)
          2 * static_cast<std::size_t>(letters) >= text.size();
 }
 
+// Whether text of Latin-1 has a word of five letters or more, or is nothing but words, each in
+// capitals or in small letters after the first.
+bool hasWordsOfLatin1(const std::string& text)
+{
+  constexpr std::size_t kLong = 5;
+  const auto isCapital = [](unsigned char c)
+  { return (c >= 'A' && c <= 'Z') || (c >= 0xc0 && c <= 0xde && c != 0xd7); }; // a times sign
+  const auto isSmall = [](unsigned char c)
+  { return (c >= 'a' && c <= 'z') || (c >= 0xdf && c != 0xf7); }; // a division sign
+  const auto run = [&text](std::size_t from, const auto& is)
+  {
+    const auto start = text.begin() + static_cast<std::ptrdiff_t>(from);
+    return static_cast<std::size_t>(std::find_if_not(start, text.end(), is) - start);
+  };
+  bool isAll = true;
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const std::size_t capitals = run(at, isCapital);
+    const std::size_t small = run(at + capitals, isSmall);
+    // The last capital of several begins a word of small letters.
+    const std::size_t word =
+        small == 0 ? capitals : std::max(capitals, small + (capitals > 0 ? 1 : 0));
+    if (word >= kLong)
+      return true;
+    at += capitals + small;
+    isAll = isAll && (capitals < 2 || small == 0);
+    // Between two words, and around all of them.
+    const std::size_t between =
+        run(at, [](unsigned char c) { return c != '\0' && std::strchr("^ -,.'", c) != nullptr; });
+    isAll = isAll && (between > 0 || at == text.size());
+    at += std::max<std::size_t>(between, word == 0 ? 1 : 0);
+  }
+  return isAll;
+}
+
 // Values of the safe private attributes of VR CS, LO and SH: a ratio, anatomical directions, GE's
 // pulse sequences, ELSCINT's acquisition types.
 bool isSafePrivateTerm(const std::string& value)
@@ -794,10 +829,10 @@ private:
     const Number* end = values + length / sizeof(Number);
     if (areLetters(text) || (isPrinted(text) && m_people.hasWord(text)))
       return false;
-    // So are the bytes of one double in 700 of 0 to 1000, and of one pair of floats in 150: rather
-    // a number less than a name more.
+    // So are the bytes of one double in 400 of 0 to 1000, and of one pair of floats in 75: rather a
+    // number less than a name more.
     if (mayBeText(text) &&
-        (std::is_integral_v<Number> || core::isUtf8(text) ||
+        (std::is_integral_v<Number> || core::isUtf8(text) || hasWordsOfLatin1(text) ||
          std::any_of(values, end,
                      [](Number value) { return isImplausible(static_cast<double>(value)); })))
       return false;

@@ -209,8 +209,8 @@ void RayCaster::setLight(GlProgram& program, const Frame& frame) const
   program.set("plainLight", light.intensity);
   program.set("edges", light.edges);
   program.set("grain", light.grain);
-  program.set("cellsPerVoxel",
-              Eigen::Vector3d(m_contents.ct->geometry().spacing() / optics::kGrainCell));
+  program.set("coarseCells", optics::grainFromVoxel(m_contents.ct->geometry(), 0));
+  program.set("fineCells", optics::grainFromVoxel(m_contents.ct->geometry(), 1));
   program.set("falloff", light.falloff);
   program.set("aside", optics::asideOf(m_contents.ct->geometry(), frame.sample));
   const SectionWindow window = m_contents.section.value_or(SectionWindow());

@@ -91,14 +91,27 @@ double grainNoise(const Eigen::Vector3d& at)
   return noise;
 }
 
+Eigen::Matrix3d grainFromVoxel(const core::GridGeometry& grid, int octave)
+{
+  const Eigen::Quaterniond turns[] = {{9.0, 4.0, 2.0, 5.0}, {7.0, -3.0, 6.0, 1.0}};
+  return turns[octave].normalized().toRotationMatrix() *
+         (grid.spacing() / kGrainCells[octave]).asDiagonal();
+}
+
 double grainFactor(const core::GridGeometry& grid, const Eigen::Vector3d& voxel, double cosine,
                    double pixel, double grain)
 {
-  const double cells = pixel / (kGrainCell * std::clamp(std::abs(cosine), kLeastFacing, 1.0));
-  const double part = std::clamp((cells - kFineGrain) / (kCoarseGrain - kFineGrain), 0.0, 1.0);
-  const double left = 1.0 - part * part * (3.0 - 2.0 * part);
-  const Eigen::Vector3d at = voxel.cwiseProduct(grid.spacing()) / kGrainCell;
-  return 1.0 + grain * kGrainContrast * left * grainNoise(at);
+  const double covered = pixel / std::clamp(std::abs(cosine), kLeastFacing, 1.0);
+  double noise = 0.0;
+  for (int octave = 0; octave < 2; ++octave)
+  {
+    const double cells = covered / kGrainCells[octave];
+    const double part = std::clamp((cells - kFineGrain) / (kCoarseGrain - kFineGrain), 0.0, 1.0);
+    const double left = 1.0 - part * part * (3.0 - 2.0 * part);
+    if (left > 0.0)
+      noise += kGrainShares[octave] * left * grainNoise(grainFromVoxel(grid, octave) * voxel);
+  }
+  return 1.0 + grain * kGrainContrast * noise;
 }
 
 Eigen::Vector3d asideOf(const core::GridGeometry& grid, int sample)

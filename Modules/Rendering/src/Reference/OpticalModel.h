@@ -128,11 +128,12 @@ constexpr double kLeastFacing = 1.0 / 8.0;
 /// of cortical bone rise by 300 and more, noise about the iso value (diploe) by less than 150.
 constexpr double kEdgeSlope = 150.0;
 
-/// Edge, mm, of the cells of the grain of cut bone, along the CT's axes from its first voxel; by
-/// how much it changes the colour at most; and the cells a pixel covers up to which it is drawn in
-/// full, and from which it is not drawn, so that it does not flicker.
-constexpr double kGrainCell = 0.25;
-constexpr double kGrainContrast = 0.4;
+/// Of the two octaves of the grain of cut bone: edge of their cells, mm; their shares of the noise;
+/// by how much it changes the colour at most; and the cells a pixel covers up to which an octave is
+/// drawn in full, and from which it is not drawn, so that it does not flicker.
+constexpr double kGrainCells[] = {0.35, 0.2};
+constexpr double kGrainShares[] = {0.625, 0.375};
+constexpr double kGrainContrast = 0.3;
 constexpr double kFineGrain = 1.0 / 3.0;
 constexpr double kCoarseGrain = 2.0 / 3.0;
 
@@ -221,15 +222,21 @@ double edgeOpacity(double opacity, double cosine, double edges);
 double edgeFacing(double cosine, double slope);
 
 /// Value noise, -1 to 1 with mean 0: a random number for each corner of a cell, blended by the
-/// smoothstep of `at`, in cells, at least 0. The number is that of the corner's indices (i, j, k):
+/// smoothstep of `at`, in cells. The number is that of the corner's indices (i, j, k):
 /// i 73856093 xor j 19349663 xor k 83492791 modulo 2^32 (Teschner et al., Optimized spatial hashing
 /// for collision detection of deformable objects, 2003) after the finalizer of MurmurHash3, of
 /// which the upper 24 bits count.
 double grainNoise(const Eigen::Vector3d& at);
 
+/// Cells of an octave of the grain (0, 1) from voxels of the CT: millimetres along the CT's axes
+/// from its first voxel, turned by the rotation of the quaternion (9, 4, 2, 5) and (7, -3, 6, 1)
+/// over kGrainCells. No anatomical view looks along a turned lattice, so that none is seen.
+Eigen::Matrix3d grainFromVoxel(const core::GridGeometry& grid, int octave);
+
 /// Factor of the colour of bone that is cut at a point `voxel` of the CT and seen at a cosine:
-///   1 + grain kGrainContrast (1 - smoothstep(kFineGrain, kCoarseGrain, q)) grainNoise
-/// with q = pixel / (kGrainCell max(|cosine|, kLeastFacing)) the cells that a pixel covers.
+///   1 + grain kGrainContrast sum over octaves of
+///     kGrainShares (1 - smoothstep(kFineGrain, kCoarseGrain, q)) grainNoise(grainFromVoxel voxel)
+/// with q = pixel / (kGrainCells max(|cosine|, kLeastFacing)) the cells that a pixel covers.
 /// `pixel`: its edge there, mm.
 double grainFactor(const core::GridGeometry& grid, const Eigen::Vector3d& voxel, double cosine,
                    double pixel, double grain);

@@ -27,10 +27,15 @@ rendering::SceneContents sceneContents(const scene::Case& value,
 
 /// A standard view that frames the case's bone (TissueExtent.h), drilled or not. Loads the CT.
 /// Lateral: from the ear's side; where that is not known (earOf) from the side to which the image's
-/// coordinates lie, which the user is to be told.
+/// coordinates lie (guessedEar), which the user is to be told.
 core::CameraPose standardCamera(const scene::Case& value, rendering::StandardView view);
 
-/// The case's last view, else the lateral one. Loads the CT for the latter.
+/// The side of the patient from which the lateral view is where nothing tells which ear it is;
+/// nullopt if that is known (earOf).
+std::optional<scene::Side> guessedEar(const scene::Case& value);
+
+/// The case's last view, else the lateral one, of which the user is to be told if it is from a
+/// guessed side. Loads the CT for the latter.
 core::CameraPose currentCamera(const scene::Case& value);
 
 /// Cuts away from the scene what the view does not show; a box beyond the CT's is none.

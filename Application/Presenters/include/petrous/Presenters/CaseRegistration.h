@@ -53,6 +53,10 @@ struct RegistrationOutcome
   scene::Registration how;       ///< includes the verdict's text, also if it failed
   registration::Fit fit;         ///< to `onto` if given; empty if nothing was fitted
   double estimateSeconds = 0.0;
+  /// The MR's grid, and that of `onto`, as they were when they were registered: the result holds
+  /// for no others. None: of a result that was not computed.
+  std::optional<core::GridGeometry> grid, ontoGrid;
+  std::string onto; ///< another MR to which it was registered; empty: the CT
 };
 
 /// A structure of the middle or inner ear, by name, or else the centre of the region common to both

@@ -61,7 +61,9 @@ public:
   std::vector<std::string> lostBurrs() const; ///< likewise
 
   // These throw InvalidParameter, without effect. A number out of its range is told by the range in
-  // the table's unit: "must lie above 0 GPa, it is -3".
+  // the table's unit: "must lie above 0 GPa, it is -3". If a number other than a diameter changes,
+  // its row loses the certainty and the source that were stated of the number before, and keeps
+  // those that are set with it.
   void setMaterial(std::size_t row, const Material& material);
   /// With the numbers of a row, under a free name, without source and certainty; returns the new
   /// row.

@@ -31,24 +31,46 @@ LeftBehind leftBehind(const scene::Case& value);
 scene::Case correctedCase(const scene::Case& value, const core::AxesCorrection& axes,
                           const std::string& name, const core::Progress& progress = {});
 
+/// A part of a case whose axes can be corrected. What it is says which one is meant where a name is
+/// there twice, in older cases.
+struct AxesPart
+{
+  enum class Kind
+  {
+    Mr,
+    Structure,
+    Mesh
+  };
+  Kind kind;
+  std::string name;
+};
+/// The part of that name; the MR before the structure before the mesh, as kindOfPart. Throws
+/// InvalidParameter if the case has no such MR, structure or mesh.
+AxesPart axesPart(const scene::Case& value, const std::string& name);
+
 /// What else changes where the axes of an MR, a structure or a mesh are corrected.
 struct AxesFollowers
 {
   std::vector<std::string> parts;        ///< structures and meshes that follow
   std::vector<std::string> unregistered; ///< MRs whose registration ends
 };
-/// Throws InvalidParameter if the case has no such MR, structure or mesh. May read label maps.
-AxesFollowers axesFollowers(const scene::Case& value, const std::string& part);
+/// `part`: of axesPart. May read label maps.
+AxesFollowers axesFollowers(const scene::Case& value, const AxesPart& part);
 
 /// Corrects the axes of a part of a case, after any correction that it has, as `--mr-axes`,
 /// `--labels-axes` and `--mesh-axes` do of a file:
 /// MR         about the centre of its grid, with what was drawn on it; it is not registered any
 ///            more, nor are those that are registered through it
-/// structure  with all of its label map, about the centre of that one's grid
+/// structure  with all that lie on its label map, also in other parts, about the centre of the
+///            image on which it was drawn
 /// mesh       about the centre of the image on which it was drawn
-/// Voxels are not copied. Throws InvalidParameter for the identity and if there is no such part,
-/// Error (Refused) if strokes record what was removed from one that would move; what reading them
-/// throws. Strong exception guarantee.
-void correctPart(scene::Case& value, const std::string& part, const core::AxesCorrection& axes);
+/// What was measured along a structure or to one that moves does not follow it any more
+/// (scene::forgetStructure). `part` of axesPart. Voxels are not copied. Throws InvalidParameter for
+/// the identity, Error (Refused) if strokes record what was removed from one that would move; what
+/// reading them throws. Strong exception guarantee.
+void correctPart(scene::Case& value, const AxesPart& part, const core::AxesCorrection& axes);
+
+/// The structures and meshes of `before` that correctPart moved in `after`.
+std::vector<std::string> movedNames(const scene::Case& before, const scene::Case& after);
 
 } // namespace petrous::presenters

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "petrous/Core/GridGeometry.h"
 #include "petrous/Core/RigidTransform.h"
 
 namespace petrous::presenters
@@ -26,6 +27,8 @@ public:
   void addCt(const Eigen::Vector3d& point); ///< replaces a row that still lacks its MR point
   void addMr(const Eigen::Vector3d& point); ///< of the row that lacks it, if any
   void remove(std::size_t row);             ///< no effect if there is no such row
+  /// The MR's image came to lie elsewhere in its own space: from one grid of its voxels to another.
+  void moveMr(const core::GridGeometry& from, const core::GridGeometry& to);
   void clear() { m_rows.clear(); }
 
   /// Landmark residual: distance in the MR between the mapped CT point and the MR point, mm; none

@@ -21,6 +21,12 @@ std::filesystem::path newRecording(const library::Library& library, const scene:
 std::vector<std::filesystem::path> recordingsOf(const library::Library& library,
                                                 const std::string& name);
 
+/// The recordings of one operation belong together: a session's first file and those that it began
+/// with another burr, "NAME.ticks", "NAME (2).ticks" and so on (unusedName) in one folder. Each
+/// operation's files in order; the operations in the order in which `files` first has one of each.
+std::vector<std::vector<std::filesystem::path>>
+inOperations(const std::vector<std::filesystem::path>& files);
+
 /// `file`, or if that exists "NAME (2).ticks", "NAME (3).ticks" and so on beside it.
 std::filesystem::path unusedName(const std::filesystem::path& file);
 

@@ -59,7 +59,8 @@ public:
 
   void caseChanged(); ///< resets everything; selects the first MR
   /// Other parts of the same case. True if the MR that was chosen is still there, also under
-  /// another name: it stays chosen, with its landmarks. Else as caseChanged.
+  /// another name: it stays chosen, with its landmarks, which stay on their voxels where its axes
+  /// were corrected. Else as caseChanged.
   bool partsChanged();
 
   void choose(const std::string& mr); ///< clears the landmarks
@@ -104,6 +105,7 @@ public:
   /// For registerMr; requires an MR.
   RegistrationRequest request(Way way) const;
   /// Applies the outcome. No effect if it failed or while drilling. Returns whether it was applied.
+  /// Throws Error (Refused) if the axes of one of its MRs were corrected since it began.
   bool take(const RegistrationOutcome& outcome);
   /// Applies the result so far of an aborted registration: not judged.
   void keep(const core::RigidTransform& best);
@@ -124,11 +126,13 @@ public:
 
 private:
   void checkAim();
+  void followGrid();
   void moveByHand(const core::RigidTransform& mrFromCt);
 
   WorkstationModel& m_model;
   std::string m_name;
   std::vector<std::string> m_mrs; // known
+  std::optional<core::GridGeometry> m_grid; // of the chosen MR, in which the landmarks lie
   LandmarkList m_landmarks;
   core::RigidTransform m_fitted; // the last one not set by hand
   RegistrationAim m_aim;

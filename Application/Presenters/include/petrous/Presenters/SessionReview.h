@@ -91,8 +91,11 @@ struct SessionReview
   std::vector<Structure> structures; ///< of the case, by name
   std::optional<double> removed; ///< mm^3, by all strokes that stayed, without older ones redone
   std::size_t strokes = 0;       ///< that stayed; only with `removed`
-  std::string whyUnmeasured;     ///< why the removed volumes are not known; empty: they are
-  std::string warning;           ///< what is missing of the recording, one sentence; or empty
+  std::vector<dissection::StrokeInfo> made; ///< those
+  std::size_t applied = 0;                  ///< strokes of the case when it began
+  std::size_t undone = 0;    ///< of those, that were not at its end; only with `removed`
+  std::string whyUnmeasured; ///< why the removed volumes are not known; empty: they are
+  std::string warning;       ///< what is missing of the recording, one sentence; or empty
 };
 
 /// Reads a recording that was made on that case, or on a copy of it: of another one with the same
@@ -106,11 +109,45 @@ struct SessionReview
 SessionReview reviewRecording(const std::filesystem::path& file, scene::Case value,
                               const core::Progress& progress = {});
 
+/// The recordings of one operation, which begins another one with each burr, and what they are
+/// together, one after the other without the pauses: times, paths, starts, strokes and volumes are
+/// sums, distances minima, forces maxima; the mean force is that over the time drilling. A volume
+/// is not known where a part's is not. Strokes of a part that were undone in a later part, or
+/// between them, are not counted; nor is one that a later part redoes.
+struct OperationReview : SessionReview
+{
+  struct Part
+  {
+    std::string name;   ///< of the file
+    double begin = 0.0; ///< s, in the course of the whole
+    SessionReview review;
+  };
+  std::vector<Part> parts; ///< in order, at least one
+};
+
+/// The whole of `parts`, whose `begin` is set; its burr and tool are the first part's.
+OperationReview togetherOf(std::vector<OperationReview::Part> parts);
+
+/// The part at a time of the whole.
+const OperationReview::Part& partAt(const OperationReview& review, double time);
+
+/// Reads the recordings of an operation, in order. As reviewRecording; throws InvalidParameter also
+/// if there is no file.
+OperationReview reviewOperation(const std::vector<std::filesystem::path>& files,
+                                const scene::Case& value, const core::Progress& progress = {});
+
+/// As CSV, a row per part and one of the whole, with the nearest distance and the volume removed of
+/// each structure as columns.
+std::string operationCsv(const OperationReview& review);
+
 /// As CSV: quantity, structure, value, unit.
 std::string metricsCsv(const SessionReview& review);
 
 /// As CSV, a row per sample of the course: time, centre and axis of the burr (patient LPS mm),
 /// drill, force on the hand, thrust and speed of the spindle.
 std::string courseCsv(const SessionReview& review);
+
+/// The same of the whole, with the part's number as last column.
+std::string operationCourseCsv(const OperationReview& review);
 
 } // namespace petrous::presenters

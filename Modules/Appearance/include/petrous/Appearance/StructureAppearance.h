@@ -35,6 +35,11 @@ struct StructureAppearance
 /// "shown,drillable"; "none" clears all. Throws InvalidParameter naming an unknown flag.
 void setFlags(StructureAppearance& look, const std::string& flags);
 
+/// Sets or clears single flags from a comma-separated list, e.g. "+touchable,-drillable"; the
+/// others stay. A list without signs is one of `setFlags`. Throws InvalidParameter naming an
+/// unknown flag, or if some have a sign and others do not.
+void changeFlags(StructureAppearance& look, const std::string& flags);
+
 /// The flags that are set, in the format of `setFlags`.
 std::string flagsOf(const StructureAppearance& look);
 

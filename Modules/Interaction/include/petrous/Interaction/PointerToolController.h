@@ -86,6 +86,9 @@ public:
   /// in front of the tissue.
   void begin();
 
+  /// Goes on with another tool: under the last ray, and in depth mode where the last tool was.
+  void resume();
+
   void point(const PickRay& line);
   void update(); ///< repeats the last ray, after a change of tissue or settings
 

@@ -81,16 +81,14 @@ float opacityFrom(float opacity, float facing, bool ofCt, float slope)
 #endif
 }
 
-// Factor of the colour of cut bone; see grainFactor in OpticalModel.h. `wanted`: otherwise 1.
-float grainAt(vec3 v, float facing, float t, bool wanted)
-{
 #ifdef PETROUS_GRAIN
-  vec3 at = v * cellsPerVoxel;
+// See grainNoise in OpticalModel.h. `corners`: 8, or none.
+float grainNoise(vec3 at, int corners)
+{
   vec3 lower = floor(at);
   vec3 share = smoothstep(0.0, 1.0, at - lower);
   float noise = 0.0;
-  int turns = wanted ? 8 : 0;
-  for (int corner = 0; corner < turns; ++corner)
+  for (int corner = 0; corner < corners; ++corner)
   {
     uvec3 up = uvec3(corner, corner >> 1, corner >> 2) & 1u;
     uvec3 part = (uvec3(ivec3(lower)) + up) * uvec3(73856093u, 19349663u, 83492791u);
@@ -101,8 +99,20 @@ float grainAt(vec3 v, float facing, float t, bool wanted)
     vec3 near = mix(1.0 - share, share, vec3(up));
     noise += near.x * near.y * near.z * (2.0 * float(hash >> 8) / 16777216.0 - 1.0);
   }
-  float cells = (pixel.x + pixel.y * t) / (kGrainCell * max(facing, kLeastFacing));
-  return 1.0 + grain * kGrainContrast * (1.0 - smoothstep(kFineGrain, kCoarseGrain, cells)) * noise;
+  return noise;
+}
+#endif
+
+// Factor of the colour of cut bone; see grainFactor in OpticalModel.h. `wanted`: otherwise 1.
+float grainAt(vec3 v, float facing, float t, bool wanted)
+{
+#ifdef PETROUS_GRAIN
+  float covered = (pixel.x + pixel.y * t) / max(facing, kLeastFacing);
+  vec2 left = vec2(kCoarseShare, kFineShare) *
+              (1.0 - smoothstep(kFineGrain, kCoarseGrain, covered / vec2(kCoarseCell, kFineCell)));
+  float noise = left.x * grainNoise(coarseCells * v, wanted && left.x > 0.0 ? 8 : 0) +
+                left.y * grainNoise(fineCells * v, wanted && left.y > 0.0 ? 8 : 0);
+  return 1.0 + grain * kGrainContrast * noise;
 #else
   return 1.0;
 #endif

@@ -20,8 +20,8 @@
 //   ROUNDED    the card's filter is made to round its weights, for tests on one that does not
 // Preceded by the constants that the C++ code defines (RayShader.cpp): kMaxPlanes,
 // kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity, kLeastFacing,
-// kEdgeSlope, kUnlike, kAlike, kAsideSlope, kMostAside, kSoftInSection, kGrainCell, kGrainContrast,
-// kFineGrain, kCoarseGrain (OpticalModel.h),
+// kEdgeSlope, kUnlike, kAlike, kAsideSlope, kMostAside, kSoftInSection, kCoarseCell, kFineCell,
+// kCoarseShare, kFineShare, kGrainContrast, kFineGrain, kCoarseGrain (OpticalModel.h),
 // kOcclusionReach, kShadowReach, kLampTangent, kSliceGrowth (OpticalModel.h, RayShader.h),
 // kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h), kMeeting,
 // kDeepest, kMarginPerDepth (LabelBorders.h).
@@ -90,7 +90,8 @@ uniform float edges; // 0 to 1
 #endif
 #ifdef PETROUS_GRAIN
 uniform float grain;        // 0 to 1
-uniform vec3 cellsPerVoxel; // cells of the grain
+uniform mat3 coarseCells;   // its cells from voxels, turned
+uniform mat3 fineCells;
 uniform vec2 pixel;         // its edge at a distance of t mm is x + y t mm
 #endif
 // Grey of faces: value of black, 1 / range; 0, 0: bone's are lit as surfaces are, and soft tissue

@@ -1,0 +1,10 @@
+#pragma once
+
+namespace petrous::presenters
+{
+
+// EditHistory::Edit::group
+constexpr const char* kMrEdits = "mr";     ///< places of MRs
+constexpr const char* kMrAxes = "mr axes"; ///< axes of an MR, which moves with them
+
+} // namespace petrous::presenters

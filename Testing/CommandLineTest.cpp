@@ -1346,6 +1346,37 @@ TEST_F(CommandLine, AxesThatAreWrongAreCorrected)
   expectRefused("correct-axes plain --axes RPS --as both --part incus", 2, "--part");
   expectRefused("correct-axes plain --axes RPS --part nothing", 3, "nothing");
 
+  // By the name that lists show.
+  json("add plain --labels sigmoid_sinus=" + quoted(m_folder / "incus.nrrd"));
+  json("correct-axes plain --axes LPI --part \"sigmoid sinus\"");
+  json("appearance plain --color \"sigmoid sinus=#112233\"");
+  const auto sinus = json("info plain")["labels"][1];
+  EXPECT_EQ(sinus["name"], "sigmoid_sinus");
+  EXPECT_EQ(sinus["provenance"]["corrected_axes"], "LPI");
+  EXPECT_NEAR(sinus["color"][2].get<double>(), 0x33 / 255.0, 1e-6);
+  ASSERT_EQ(run("export plain --what structure --part \"Sigmoid sinus\" --out " +
+                quoted(m_folder / "sinus.stl"))
+                .code,
+            0);
+  json("remove plain --part \"sigmoid sinus\"");
+  EXPECT_EQ(json("info plain")["labels"].size(), 1U);
+
+  // A mesh has no more of it than its notes.
+  std::ofstream(m_folder / "stapes.obj") << "v 21 32 43\nv 22 32 43\nv 21 33 43\nv 21 32 44\n"
+                                            "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  json("add plain --mesh stapes=" + quoted(m_folder / "stapes.obj"));
+  const std::string meshNote = "axes of the file corrected (LPI): what it calls left, back and "
+                               "head is the patient's left, back and feet";
+  EXPECT_EQ(run("info plain").out.find(meshNote), std::string::npos);
+  json("correct-axes plain --axes LPI --part stapes");
+  const auto mesh = json("info plain")["meshes"][0];
+  EXPECT_EQ(mesh["name"], "stapes");
+  EXPECT_EQ(mesh["notes"], nlohmann::json::array({meshNote}));
+  const std::string lines = run("info plain").out;
+  const std::size_t at = lines.find("  mesh 'stapes'");
+  ASSERT_NE(at, std::string::npos) << lines;
+  EXPECT_EQ(lines.find("\n    " + meshNote + "\n", at), lines.find('\n', at)) << lines;
+
   expectRefused("correct-axes plain --axes LPS --as none", 2, "--axes");
   expectRefused("correct-axes plain --axes RPS --as mirrored", 4, "mirrored");
 }

@@ -8,6 +8,7 @@
 #include "Commands.h"
 #include "Context.h"
 #include "Numbers.h"
+#include "PartNamed.h"
 #include "petrous/Appearance/AppearanceMaterial.h"
 #include "petrous/Appearance/OwnPresets.h"
 #include "petrous/Appearance/SoftTissues.h"
@@ -207,10 +208,11 @@ std::optional<Part> findPart(scene::Case& value, const std::string& name)
     part.looks = {&value.softTissue};
     return part;
   }
-  if (auto* structure = scene::findStructure(value, name))
+  part.name = partNamed(value, name);
+  if (auto* structure = scene::findStructure(value, part.name))
     part.looks.push_back(&structure->look);
   part.meshOnly = part.looks.empty();
-  if (auto* mesh = scene::findMesh(value, name))
+  if (auto* mesh = scene::findMesh(value, part.name))
     part.looks.push_back(&mesh->look);
   return part.looks.empty() ? std::nullopt : std::optional(part);
 }

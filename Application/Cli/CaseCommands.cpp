@@ -5,6 +5,7 @@
 #include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "PartNamed.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
@@ -329,6 +330,8 @@ void printCase(const Context& context, const scene::Case& value, const CaseFacts
     context.print("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
                   measure + drilledText(mesh.name) + placeText(value, place) +
                   errorText(mesh.name) + (refusal.empty() ? "" : ", not touchable: " + refusal));
+    for (const std::string& note : mesh.notes) // which alone say what its file did not
+      context.print("    " + note);
   }
   context.print("  " + std::to_string(value.applied()) +
                 (value.applied() == 1 ? " stroke done, " : " strokes done, ") +
@@ -623,7 +626,8 @@ void addCorrectAxes(CLI::App& app, Context& context)
         if (!options->part.empty())
         {
           scene::Case value = library.open(options->name);
-          const presenters::AxesPart part = presenters::axesPart(value, options->part);
+          const presenters::AxesPart part =
+              presenters::axesPart(value, partNamed(value, options->part));
           const presenters::AxesFollowers followers = presenters::axesFollowers(value, part);
           presenters::correctPart(value, part, axes);
           library.save(value);
@@ -678,7 +682,7 @@ void addRemove(CLI::App& app, Context& context)
                          {
                            library::Library library = context.openLibrary();
                            scene::Case value = library.open(options->name);
-                           scene::removePart(value, options->part);
+                           scene::removePart(value, partNamed(value, options->part));
                            library.save(value);
                            const CaseFacts facts = factsOf(value);
                            printCase(context, value, facts);

@@ -407,6 +407,8 @@ json infoJson(const scene::Case& value, const CaseFacts& facts)
       meshes.back()["open_edges"] = measured->openEdges;
       meshes.back()["volume_mm3"] = measured->volume ? json(*measured->volume) : json(nullptr);
     }
+    if (!mesh.notes.empty())
+      meshes.back()["notes"] = mesh.notes;
     addPlace(meshes.back(), scene::placementOf(value, mesh));
     addRegistrationError(meshes.back(), facts, mesh.name);
     if (!refusal.empty())

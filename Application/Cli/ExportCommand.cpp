@@ -6,6 +6,7 @@
 #include "Commands.h"
 #include "MaskOptions.h"
 #include "Numbers.h"
+#include "PartNamed.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/CaseExport.h"
 
@@ -77,6 +78,8 @@ void exportCase(const Context& context, Options options)
     context.refuseOverwriting(presenters::exportedFiles(options)); // before anything is computed
     const library::Library library = context.openLibrary();
     scene::Case value = library.open(options.caseName);
+    if (!options.part.empty())
+      options.part = partNamed(value, options.part);
     presenters::LeftOut leftOut;
     // Labels that are written are read, and thus checked; the surface is that of all structures.
     if (options.what == "surface" || (options.what == "labels" && options.withoutDamaged))

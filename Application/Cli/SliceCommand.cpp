@@ -10,6 +10,7 @@
 #include "Commands.h"
 #include "Context.h"
 #include "Numbers.h"
+#include "PartNamed.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Presenters/CaseRegistration.h"
 #include "petrous/Presenters/IntensityDisplay.h"
@@ -49,8 +50,8 @@ bool isPart(const scene::Case& value, const std::string& name)
 // UsageError naming `option` if it is neither, InvalidParameter if it cannot be placed on the CT.
 Place parsePlace(const std::string& text, const scene::Case& value, const std::string& option)
 {
-  if (isPart(value, text))
-    return {presenters::placeOf(value, text).point, text};
+  if (const std::string part = partNamed(value, text); isPart(value, part))
+    return {presenters::placeOf(value, part).point, part};
   if (std::count(text.begin(), text.end(), ',') != 2)
     throw UsageError(option + ": x,y,z in mm or the name of a structure of the case, not '" + text +
                      "'");

@@ -3172,10 +3172,6 @@ Das Rad ändert ihn, während die Fräse bohrt, 0,5 N je Raste, mit Umschalt ein
         <translation>I&amp;nstrument</translation>
     </message>
     <message>
-        <source>Kind of the burr: a cutting burr takes some six times as much in the same time as a diamond one. More burrs: Drill &gt; Materials and burrs…</source>
-        <translation>Art der Fräse: Eine schneidende trägt in derselben Zeit etwa sechsmal so viel ab wie eine Diamantfräse. Weitere Fräsen: Bohren &gt; Materialien und Fräsen…</translation>
-    </message>
-    <message>
         <source>Diamond burr</source>
         <translation>Diamantfräse</translation>
     </message>
@@ -3238,6 +3234,10 @@ Ohne ihn dreht Ziehen den Patienten.</translation>
     <message>
         <source>Cutting, rake -25°</source>
         <translation>Schneidend, Spanwinkel -25°</translation>
+    </message>
+    <message>
+        <source>Kind of the burr: a cutting burr takes several times as much in the same time as a diamond one, and a fine diamond the least. More burrs: Drill &gt; Materials and burrs…</source>
+        <translation>Art der Fräse: Eine schneidende trägt in derselben Zeit mehrmals so viel ab wie eine Diamantfräse, ein feiner Diamant am wenigsten. Weitere Fräsen: Bohren &gt; Materialien und Fräsen…</translation>
     </message>
 </context>
 <context>
@@ -4765,6 +4765,14 @@ Ohne ihn dreht Ziehen den Patienten.</translation>
     <message>
         <source>A structure or mesh of the case has this name, too, and would be taken out in its place; take that out first</source>
         <translation>Eine Struktur oder ein Netz des Falls hat auch diesen Namen und würde statt dessen aus dem Fall genommen; nehmen Sie sie zuerst heraus</translation>
+    </message>
+    <message>
+        <source>%1 and %2 more: %3</source>
+        <translation>%1 und %2 weitere: %3</translation>
+    </message>
+    <message>
+        <source>Preparing the picture…</source>
+        <translation>Das Bild wird vorbereitet…</translation>
     </message>
 </context>
 <context>

@@ -57,13 +57,22 @@ char opposite(char letter)
   return kLetters[(at - std::begin(kLetters)) ^ 1];
 }
 
+QString shownNames(const std::vector<std::string>& names)
+{
+  QStringList all;
+  for (const std::string& name : names)
+    all += shownName(name);
+  return all.join(", ");
+}
+
 QString followText(const presenters::AxesFollowers& followers)
 {
   QStringList lines;
   if (!followers.parts.empty())
-    lines += AxesDialog::tr("Goes along: %1").arg(listed(followers.parts));
+    lines += AxesDialog::tr("Goes along: %1").arg(shownNames(followers.parts));
   if (!followers.unregistered.empty())
-    lines += AxesDialog::tr("Is to be registered again: %1").arg(listed(followers.unregistered));
+    lines +=
+        AxesDialog::tr("Is to be registered again: %1").arg(shownNames(followers.unregistered));
   return lines.join('\n');
 }
 
@@ -93,9 +102,9 @@ QString leftText(const presenters::LeftBehind& left)
   const auto add = [&lines](const QString& line)
   { lines += QString::fromUtf8("\xe2\x80\xa2 ") + line; };
   if (!left.mr.empty())
-    add(AxesDialog::tr("MRs with their registrations: %1").arg(listed(left.mr)));
+    add(AxesDialog::tr("MRs with their registrations: %1").arg(shownNames(left.mr)));
   if (!left.drawnOnMr.empty())
-    add(AxesDialog::tr("Drawn on an MR: %1").arg(listed(left.drawnOnMr)));
+    add(AxesDialog::tr("Drawn on an MR: %1").arg(shownNames(left.drawnOnMr)));
   if (left.strokes > 0)
     add(AxesDialog::tr("Strokes: %1").arg(left.strokes));
   if (left.measurements > 0)

@@ -142,7 +142,7 @@ QString contentsOf(const scene::Case& value, bool planOnly)
     parts += value.ct.modality == scene::Modality::Mr ? CaseDocumentController::tr("MR")
                                                       : CaseDocumentController::tr("CT");
     for (const scene::ImagePart& mr : value.mr)
-      parts += CaseDocumentController::tr("MR “%1”").arg(words(mr.name));
+      parts += CaseDocumentController::tr("MR “%1”").arg(shownName(mr.name));
     std::size_t structures = 0;
     for (const scene::LabelPart& part : value.labels)
       structures += part.structures.size();
@@ -1501,9 +1501,9 @@ bool CaseDocumentController::askDrawnOn(presenters::PartSource& source)
   std::vector<std::pair<const QAbstractButton*, std::string>> images;
   images.emplace_back(box.addButton(tr("On the &%1").arg(primary), QMessageBox::ActionRole), "ct");
   for (const scene::ImagePart& mr : value.mr)
-    images.emplace_back(
-        box.addButton(tr("On %1").arg(words(mr.name).replace('&', "&&")), QMessageBox::ActionRole),
-        mr.name);
+    images.emplace_back(box.addButton(tr("On %1").arg(shownName(mr.name).replace('&', "&&")),
+                                      QMessageBox::ActionRole),
+                        mr.name);
   const QAbstractButton* stays =
       hasCorrected ? box.addButton(tr("&Leave it where it is"), QMessageBox::ActionRole) : nullptr;
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));

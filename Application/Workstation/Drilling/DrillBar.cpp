@@ -136,9 +136,9 @@ DrillBar::DrillBar(QWidget* parent)
   m_kind->setObjectName("burrKind");
   offerBurrs();
   offerDiameters();
-  m_kind->setToolTip(tr("Kind of the burr: a cutting burr takes some six times as much in "
-                        "the same time as a diamond one. More burrs: Drill > Materials and "
-                        "burrs…"));
+  m_kind->setToolTip(tr("Kind of the burr: a cutting burr takes several times as much in the same "
+                        "time as a diamond one, and a fine diamond the least. More burrs: Drill > "
+                        "Materials and burrs…"));
   m_speed->setRange(10, 100);
   m_speed->setSingleStep(5);
   m_speed->setValue(60);

@@ -157,27 +157,56 @@ void paintHandles(QPainter& painter, const DrawnMeasure& measure,
   painter.setBrush(Qt::NoBrush);
 }
 
+constexpr double kRim = 4.0; // px, about a label's text and from the picture's edge
+
+// Words that do not fit into the picture go into further lines.
+int flagsOf(const QPainter& painter, const QString& text)
+{
+  const double room = painter.viewport().width() - 4.0 * kRim;
+  const QFontMetricsF metrics(painter.font());
+  if (metrics.horizontalAdvance(text) <= room)
+    return Qt::AlignCenter;
+  for (const QString& word : text.split(' '))
+    if (metrics.horizontalAdvance(word) > room)
+      return Qt::AlignCenter | Qt::TextWrapAnywhere;
+  return Qt::AlignCenter | Qt::TextWordWrap;
+}
+
+QSizeF sizeOfLabel(const QPainter& painter, const QString& text)
+{
+  constexpr double kHighest = 1e4; // px
+  const QFontMetricsF metrics(painter.font());
+  const int flags = flagsOf(painter, text);
+  if (flags == Qt::AlignCenter)
+    return {metrics.horizontalAdvance(text) + 2.0 * kRim, metrics.height() + 2.0};
+  const QRectF room(0.0, 0.0, painter.viewport().width() - 4.0 * kRim, kHighest);
+  return {room.width() + 2.0 * kRim, metrics.boundingRect(room, flags, text).height() + 2.0};
+}
+
 // Right above the handle, in the picture.
 QRectF placeOfLabel(const QPainter& painter, const QString& label, const QPointF& handle)
 {
-  constexpr double kAway = 8.0;   // px
-  constexpr double kMargin = 4.0; // px
-  const QFontMetricsF metrics(painter.font());
-  QRectF box(handle.x() + kAway, handle.y() - kAway - metrics.height(),
-             metrics.horizontalAdvance(label) + 2.0 * kMargin, metrics.height() + 2.0);
+  constexpr double kAway = 8.0; // px
+  QRectF box(QPointF(), sizeOfLabel(painter, label));
+  box.moveBottomLeft(handle + QPointF(kAway, 2.0 - kAway));
   const QRectF picture = painter.viewport();
-  if (box.right() > picture.right() - kMargin)
-    box.moveRight(std::max(handle.x() - kAway, box.width() + kMargin));
-  if (box.right() > picture.right() - kMargin)
-    box.moveRight(picture.right() - kMargin);
-  if (box.top() < kMargin)
+  if (box.right() > picture.right() - kRim)
+    box.moveRight(std::max(handle.x() - kAway, box.width() + kRim));
+  if (box.right() > picture.right() - kRim)
+    box.moveRight(picture.right() - kRim);
+  if (box.top() < kRim)
     box.moveTop(handle.y() + kAway);
   return box;
 }
 
-// Below what is in the way, or above it where there is no room left.
-QRectF freePlace(const QRectF& wanted, const std::vector<QRectF>& taken, const QRectF& picture)
+// In the picture, below what is in the way, or above it where there is no room left. Where there is
+// none at all it lies on something, and is whole.
+QRectF freePlace(QRectF wanted, const std::vector<QRectF>& taken, const QRectF& picture)
 {
+  const auto inside = [](double at, double from, double to)
+  { return std::max(from, std::min(at, to)); };
+  wanted.moveLeft(inside(wanted.left(), picture.left(), picture.right() - wanted.width()));
+  wanted.moveTop(inside(wanted.top(), picture.top(), picture.bottom() - wanted.height()));
   const auto moved = [&](bool down)
   {
     QRectF box = wanted;
@@ -193,7 +222,7 @@ QRectF freePlace(const QRectF& wanted, const std::vector<QRectF>& taken, const Q
   if (below.bottom() <= picture.bottom())
     return below;
   const QRectF above = moved(false);
-  return above.top() >= picture.top() ? above : below;
+  return above.top() >= picture.top() ? above : wanted;
 }
 
 void paintLabel(QPainter& painter, const QRectF& box, const QString& text, const QColor& color,
@@ -205,7 +234,7 @@ void paintLabel(QPainter& painter, const QRectF& box, const QString& text, const
   painter.setBrush(back);
   painter.drawRoundedRect(box, 3.0, 3.0);
   painter.setPen(color.lighter(115));
-  painter.drawText(box, Qt::AlignCenter, text);
+  painter.drawText(box.adjusted(kRim, 0.0, -kRim, 0.0), flagsOf(painter, text), text);
   painter.setBrush(Qt::NoBrush);
 }
 

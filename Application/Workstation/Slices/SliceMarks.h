@@ -83,8 +83,8 @@ QRectF paintBox(QPainter& painter, const presenters::HandledBox& box, bool dims,
 void paintCut(QPainter& painter, const scene::ViewState::Clipping::Plane& plane,
               const presenters::SliceGeometry& slice);
 
-/// What is told of something that is dragged, beside the pointer; it lies on none of `taken`.
-/// Returns its place.
+/// What is told of something that is dragged, beside the pointer; it lies on none of `taken` where
+/// there is room, and is whole, in lines where the picture is narrow. Returns its place.
 QRectF paintReading(QPainter& painter, const QString& text, const QPointF& pointer,
                     const QColor& color, const std::vector<QRectF>& taken);
 

@@ -478,6 +478,9 @@ void SliceView::paintEvent(QPaintEvent*)
   std::vector<QRectF> taken{placeOfScaleBar(size())};
   for (const EdgeText& one : texts)
     taken.push_back(one.place());
+  for (const QWidget* badge : findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly))
+    if (!badge->isHidden())
+      taken.emplace_back(badge->geometry());
   if (m_box)
     taken.push_back(paintBox(painter, m_box->handled, m_box->dims, picture, taken));
   paintCutReading(painter, taken);

@@ -7,6 +7,7 @@
 #include <QApplication>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
+#include <QLabel>
 #include <QLineF>
 #include <QMouseEvent>
 #include <QPainter>
@@ -22,6 +23,7 @@
 #include "SceneDisplay.h"
 #include "SliceMarks.h"
 #include "SliceView.h"
+#include "Theme.h"
 #include "ThreeDView.h"
 #include "petrous/Presenters/BoxHandles.h"
 #include "petrous/Presenters/ClippingHandles.h"
@@ -726,6 +728,70 @@ TEST_F(ClippingBox, ItsSizeInASliceLiesOnNoOtherText)
   EXPECT_FALSE(second.isEmpty());
   EXPECT_FALSE(second.intersects(first));
   EXPECT_TRUE(QRectF(image.rect()).contains(second));
+}
+
+// Of the widths that slices have, from the narrowest on.
+TEST_F(ClippingBox, AReadingIsWholeInEverySlice)
+{
+  const QString text = "25.1 mm before the bone's surface, moved by -7.1 mm";
+  for (const QSize& size : {QSize(140, 120), QSize(200, 150), QSize(268, 220), QSize(600, 500)})
+  {
+    QImage image(size, QImage::Format_RGB32);
+    image.fill(Qt::black);
+    QPainter painter(&image);
+    const QRectF picture(image.rect());
+    const QRectF badge(size.width() - 90.0, size.height() - 62.0, 85.0, 22.0);
+    for (const QPointF& pointer :
+         {QPointF(0.0, 0.0), QPointF(size.width() - 1.0, 0.5 * size.height()),
+          QPointF(0.5 * size.width(), size.height() - 1.0), badge.center()})
+    {
+      const QRectF box = paintReading(painter, text, pointer, cutColor(), {badge});
+      EXPECT_TRUE(picture.contains(box)) << size.width() << " at " << pointer.x();
+      EXPECT_FALSE(size.width() > 140 && box.intersects(badge))
+          << size.width() << " at " << pointer.x();
+      QFont font = painter.font();
+      font.setPixelSize(12);
+      const QFontMetricsF metrics(font);
+      EXPECT_GE(box.width() * box.height(),
+                metrics.horizontalAdvance(text) * metrics.ascent()) // all of the lines
+          << size.width();
+    }
+    EXPECT_TRUE(
+        picture.contains(paintReading(painter, QString(60, 'm'), {5.0, 60.0}, cutColor(), {})))
+        << "a word that is wider than the slice";
+  }
+}
+
+// Zoomed, so that no edge of the box is seen, but its size in the corner of the badge.
+TEST_F(ClippingBox, ItsSizeLiesBesideTheBadgeOfTheSide)
+{
+  saveBall("ball");
+  openWindow("ball");
+  const presenters::CropFrame frame(window().model().value().ct.geometry);
+  SliceBox box;
+  box.handled = frame.box(core::IndexBox{{4, 4, 4}, {60, 60, 60}});
+  SliceView& view = axial();
+  view.setBox(box);
+  scene::ViewState::Slices::Plane near;
+  near.zoom = 20.0;
+  view.setPlane(near);
+  const auto* badge = view.findChild<QLabel*>("caseStamp");
+  ASSERT_TRUE(badge && badge->isVisible());
+  const auto blue = [&](const QRect& part)
+  {
+    QImage image(view.size(), QImage::Format_RGB32);
+    view.render(&image, QPoint(), QRegion(), QWidget::RenderFlags()); // without the badge itself
+    int count = 0;
+    for (int y = std::max(part.top(), 0); y <= std::min(part.bottom(), image.height() - 1); ++y)
+      for (int x = std::max(part.left(), 0); x <= std::min(part.right(), image.width() - 1); ++x)
+      {
+        const QColor pixel(image.pixel(x, y));
+        count += pixel.blue() > pixel.red() + 60 && pixel.green() > pixel.red() + 30;
+      }
+    return count;
+  };
+  EXPECT_GT(blue(view.rect()), 20) << "the size is there";
+  EXPECT_EQ(blue(badge->geometry()), 0);
 }
 
 TEST_F(ClippingBox, APlaneIsDraggedByItsLineInASlice)

@@ -1595,6 +1595,36 @@ TEST_F(Import, ASideThatWasAssumedIsToldWheneverTheCaseIsOpened)
   }
 }
 
+TEST_F(Import, NotesOfOneTextAreOneLine)
+{
+  scene::Case value = ballCase("ball");
+  value.ct.notes = {"partly read", "dark"};
+  ASSERT_EQ(value.meshes.size(), 0U);
+  core::TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  for (int n = 1; n <= 5; ++n)
+  {
+    scene::MeshPart part;
+    part.name = "part_" + std::to_string(n);
+    part.triangles = mesh.triangles.size();
+    part.mesh = std::make_shared<const core::TriangleMesh>(mesh);
+    part.notes = {"dark"};
+    if (n > 3)
+      part.notes.emplace_back("open");
+    value.meshes.push_back(part);
+  }
+  library().save(value);
+  openWindow();
+  auto* banner = window().findChild<Banner*>("notesBanner");
+  ASSERT_TRUE(waitFor([banner] { return banner->isVisible(); }));
+  EXPECT_EQ(banner->shownText().split('\n'),
+            (QStringList{"CT: partly read", "CT, part 1 and 4 more: dark", "part 4: open",
+                         "part 5: open"}));
+  EXPECT_EQ(banner->text().split('\n').size(), 2 + 5 + 2);
+  EXPECT_EQ(banner->findChild<QLabel*>()->toolTip(), banner->text());
+}
+
 TEST_F(Import, WhatWasNotedIsToldWheneverTheCaseIsOpenedUntilItsPartIsTakenOut)
 {
   scene::Case value = ballCase("ball");

@@ -540,9 +540,15 @@ TEST_F(Window, TheFirstPictureIsAnnouncedUntilItIsDrawn)
   PaintedTexts painted;
   for (QLabel* label : window().statusBar()->findChildren<QLabel*>())
     label->installEventFilter(&painted);
+  PaintedTexts onPage;
+  auto* busy = window().findChild<QLabel*>("startBusy");
+  busy->installEventFilter(&onPage);
   const_cast<presenters::WorkstationModel&>(window().model()).open("ball");
   const auto isAnnounced = [](const QString& text)
   { return text.startsWith("Preparing the picture"); };
+  EXPECT_TRUE(std::any_of(onPage.texts.begin(), onPage.texts.end(), isAnnounced))
+      << "in place of a page whose buttons look as if they could be pressed";
+  EXPECT_TRUE(busy->isHidden()) << "the page is as ever when the case is closed";
   EXPECT_TRUE(std::any_of(painted.texts.begin(), painted.texts.end(), isAnnounced))
       << "seen before the picture is drawn";
   EXPECT_TRUE(waitFor(
@@ -552,6 +558,41 @@ TEST_F(Window, TheFirstPictureIsAnnouncedUntilItIsDrawn)
         return std::none_of(labels.begin(), labels.end(),
                             [&](const QLabel* label) { return isAnnounced(label->text()); });
       }));
+}
+
+TEST_F(Window, BannersScrollWhereTheyWouldTakeTheViewsRoom)
+{
+  QWidget whole;
+  auto* layout = new QVBoxLayout(&whole);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  BannerStack stack(whole);
+  auto* views = new QWidget;
+  views->setMinimumHeight(360);
+  layout->addWidget(stack.room());
+  layout->addWidget(views, 1);
+  auto* banner = new Banner("many", Banner::Kind::Notice);
+  stack.add(banner);
+  whole.resize(800, 700);
+  whole.show();
+  const auto shows = [&](int lines)
+  {
+    QStringList all;
+    for (int n = 0; n < lines; ++n)
+      all += QString("line %1").arg(n);
+    banner->setText(all.join('\n'));
+    banner->show();
+    return waitFor([&] { return stack.height() > 0 && stack.room()->height() == stack.height(); });
+  };
+  ASSERT_TRUE(shows(2));
+  QTest::qWait(50);
+  EXPECT_EQ(stack.height(), banner->height()) << "all of it";
+  ASSERT_TRUE(shows(60));
+  QTest::qWait(50);
+  EXPECT_EQ(whole.height(), 700);
+  EXPECT_EQ(stack.height(), 280) << "two fifths";
+  EXPECT_GT(banner->height(), 60 * 10);
+  EXPECT_GE(views->height(), 360);
 }
 
 TEST_F(Window, ACaseThatIsNotThereIsToldInOneLine)

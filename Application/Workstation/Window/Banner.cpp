@@ -1,11 +1,15 @@
 #include "Banner.h"
 
+#include <algorithm>
+
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPointer>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QVBoxLayout>
 #include <QVariant>
 
@@ -16,12 +20,19 @@ namespace petrous::workstation
 
 BannerStack::BannerStack(QWidget& over)
   : QWidget(&over)
-  , m_layout(new QVBoxLayout(this))
+  , m_scroll(new QScrollArea(this))
+  , m_inside(new QWidget)
+  , m_layout(new QVBoxLayout(m_inside))
   , m_room(new QWidget(&over))
 {
   m_layout->setContentsMargins(0, 0, 0, 0);
   m_layout->setSpacing(0);
   m_layout->setSizeConstraint(QLayout::SetNoConstraint);
+  m_scroll->setFrameShape(QFrame::NoFrame);
+  m_scroll->setFocusPolicy(Qt::NoFocus);
+  m_scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  m_scroll->setWidget(m_inside);
+  m_inside->installEventFilter(this);
   m_room->setFixedHeight(0);
   over.installEventFilter(this);
 }
@@ -49,15 +60,42 @@ bool BannerStack::eventFilter(QObject* watched, QEvent* event)
 {
   if (watched == parent() && event->type() == QEvent::Resize)
     place();
+  if (watched == m_inside && event->type() == QEvent::LayoutRequest)
+    place();
   return QWidget::eventFilter(watched, event);
+}
+
+int BannerStack::heightFor(int across) const
+{
+  return m_layout->hasHeightForWidth() ? m_layout->totalHeightForWidth(across)
+                                       : m_layout->sizeHint().height();
+}
+
+// A share of the widget, and no more than the views leave.
+int BannerStack::most() const
+{
+  constexpr double kShare = 0.4;
+  constexpr int kLeast = 72; // px, as of a line or two with buttons
+  const QLayout* whole = parentWidget()->layout();
+  const int views = whole ? whole->minimumSize().height() - m_room->minimumHeight() : 0;
+  const int down = parentWidget()->height();
+  return std::max(kLeast, std::min(static_cast<int>(kShare * down), down - views));
 }
 
 void BannerStack::place()
 {
   const int across = parentWidget()->width();
-  const int down = m_layout->hasHeightForWidth() ? m_layout->totalHeightForWidth(across)
-                                                 : m_layout->sizeHint().height();
+  int whole = heightFor(across);
+  const int down = std::min(whole, most());
+  int wide = across;
+  if (down < whole)
+  {
+    wide -= m_scroll->verticalScrollBar()->sizeHint().width();
+    whole = heightFor(wide);
+  }
   setGeometry(0, 0, across, down);
+  m_scroll->setGeometry(rect());
+  m_inside->resize(wide, whole);
   raise();
   if (!m_held)
     m_room->setFixedHeight(down);
@@ -92,10 +130,14 @@ Banner::Banner(const QString& name, Kind kind, QWidget* parent)
 
 void Banner::setText(const QString& text)
 {
+  setText(text, text);
+}
+
+void Banner::setText(const QString& text, const QString& shown)
+{
   m_whole = text;
-  const QString shown = elided(text);
-  m_text->setText(shown);
-  m_text->setToolTip(shown == text ? QString() : text);
+  m_text->setText(elided(shown));
+  m_text->setToolTip(m_text->text() == text ? QString() : text);
 }
 
 QString Banner::text() const
@@ -122,7 +164,7 @@ void Banner::addButton(const QString& name, const QString& text, const std::func
             if (self && hadFocus && isHidden())
               emit dismissed();
           });
-  m_layout->addWidget(button);
+  m_layout->addWidget(button, 0, Qt::AlignTop); // seen before a long text is scrolled
 }
 
 void Banner::setButtonVisible(const QString& name, bool visible)

@@ -7,7 +7,7 @@
 
 class QBoxLayout;
 class QLabel;
-
+class QScrollArea;
 class QVBoxLayout;
 
 namespace petrous::workstation
@@ -17,7 +17,7 @@ class Banner;
 
 /// Banners above the views. They have space reserved in the layout; while a tool is in use that
 /// space is fixed, and new banners overlay the views: otherwise a view would move under a resting
-/// pointer.
+/// pointer. They scroll where they are higher than a share of that widget, or would make it higher.
 class BannerStack : public QWidget
 {
   Q_OBJECT
@@ -38,7 +38,11 @@ protected:
 
 private:
   void place();
+  int heightFor(int across) const; // of all banners, pixels
+  int most() const;
 
+  QScrollArea* m_scroll;
+  QWidget* m_inside;
   QVBoxLayout* m_layout;
   QWidget* m_room;
   bool m_held = false;
@@ -58,6 +62,8 @@ public:
   Banner(const QString& name, Kind kind, QWidget* parent = nullptr);
 
   void setText(const QString& text);
+  /// `shown`: what of it is shown where that is less, as of many lines; the tooltip has all.
+  void setText(const QString& text, const QString& shown);
   QString text() const;
   QString shownText() const; ///< long words elided in the middle; the tooltip has the full text
 

@@ -29,6 +29,7 @@ namespace
 constexpr int kMostName = 260;      // px
 constexpr int kSliceMargin = 5;     // px
 constexpr int kOverScaleBar = 40;   // px, of a slice: its text and halo
+constexpr int kLetter = 24;         // px, of the right edge, with its halo
 constexpr double kOfHeight = 0.024; // a stamp's letters, of a picture
 
 QString sideOfStamp(scene::Side side)
@@ -177,8 +178,10 @@ void CaseStamps::placeInSlices()
     label->setText(label->fontMetrics().elidedText(words(value.name), Qt::ElideMiddle, room) +
                    QString::fromUtf8(" · ") + sideOfStamp(value.description.side));
     label->adjustSize();
-    label->move(slice.width() - kSliceMargin - label->width(),
-                slice.height() - kOverScaleBar - label->height());
+    // In a low slice beside the letter of its right edge.
+    const int top = slice.height() - kOverScaleBar - label->height();
+    const bool isAtLetter = top < slice.height() / 2 + kLetter / 2;
+    label->move(slice.width() - kSliceMargin - (isAtLetter ? kLetter : 0) - label->width(), top);
   }
 }
 

@@ -18,6 +18,7 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMap>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
@@ -159,6 +160,35 @@ QStringList notesOf(const scene::Case& value)
   for (const auto& mesh : value.meshes)
     add(mesh.name, mesh.notes);
   return notes;
+}
+
+// Notes "PART: TEXT" of one text in one line, which names the first of the parts.
+QStringList joinedNotes(const QStringList& notes)
+{
+  constexpr int kNamed = 2;
+  QStringList texts;
+  QMap<QString, QStringList> parts; // of a text
+  for (const QString& note : notes)
+  {
+    const int at = note.indexOf(": ");
+    const QString text = at < 0 ? note : note.mid(at + 2);
+    if (!texts.contains(text))
+      texts += text;
+    parts[text] += at < 0 ? QString() : note.left(at);
+  }
+  QStringList lines;
+  for (const QString& text : texts)
+  {
+    const QStringList of = parts[text];
+    if (of.size() <= kNamed)
+      for (const QString& part : of)
+        lines += part.isEmpty() ? text : part + ": " + text;
+    else
+      lines += MainWindow::tr("%1 and %2 more: %3")
+                   .arg(QStringList(of.mid(0, kNamed)).join(", "),
+                        QString::number(of.size() - kNamed), text);
+  }
+  return lines;
 }
 
 WindowOptions safeOptions(WindowOptions options)
@@ -1271,10 +1301,16 @@ void MainWindow::caseChanged()
   const scene::Case& value = m_model.value();
   const bool first = m_pages->currentIndex() == 0;
   if (first)
+  {
+    m_start->setBusy(tr("Preparing the picture…"));
+    m_start->layout()->activate();
+    m_start->repaint(); // it is seen until the picture is drawn, and nothing can be chosen there
     m_picture->announce();
+  }
   // The first page asks for no room behind the case: told before it is hidden, or it is not heard.
   m_start->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
   m_pages->setCurrentIndex(1);
+  m_start->setBusy({});
   if (!std::exchange(m_hasShownPanels, true)) // later they stay as they are
     showPanels();
   m_drill->releaseTool();
@@ -1308,7 +1344,7 @@ void MainWindow::showUnregistered(bool opened)
   QStringList names;
   for (const scene::ImagePart& mr : m_model.value().mr)
     if (!mr.registered)
-      names += tr("“%1”").arg(words(mr.name));
+      names += tr("“%1”").arg(shownName(mr.name));
   if (names.isEmpty())
     return m_mrBanner->hide();
   m_mrBanner->setText(
@@ -1356,7 +1392,7 @@ void MainWindow::notifyNotes()
 void MainWindow::showNotes(const QStringList& notes)
 {
   m_notesShown = notes;
-  m_notesBanner->setText(notes.join('\n'));
+  m_notesBanner->setText(notes.join('\n'), joinedNotes(notes).join('\n'));
   m_notesBanner->setVisible(!notes.isEmpty());
 }
 
@@ -1594,7 +1630,7 @@ void MainWindow::fillCaseMenu()
   const std::vector<std::string> names = scene::partNames(m_model.value());
   for (const scene::ImagePart& mr : m_model.value().mr)
   {
-    const QString shown = words(mr.name).replace('&', "&&");
+    const QString shown = shownName(mr.name).replace('&', "&&");
     connect(menu.addAction(tr("Rename the MR “%1”…").arg(shown)), &QAction::triggered, this,
             [this, name = mr.name] { m_keeper->renamePart(name); });
     QAction* remove = menu.addAction(tr("Remove the MR “%1”").arg(shown));

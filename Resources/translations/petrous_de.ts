@@ -5627,16 +5627,16 @@ Verletzt: %1, %2</translation>
         <translation>Körn&amp;ung</translation>
     </message>
     <message>
-        <source>A fine grain on bone where it was cut, for the eye alone: the CT has none. It fades from afar</source>
-        <translation>Eine feine Körnung auf abgetragenem Knochen, nur fürs Auge: Das CT hat keine. Von weitem verschwindet sie</translation>
-    </message>
-    <message>
         <source>Exit s&amp;urfaces</source>
         <translation>Aus&amp;trittsflächen</translation>
     </message>
     <message>
         <source>Translucent tissue is shaded also where a line of sight leaves it, so that its far walls are seen; it lets less through, and needs lower opacities</source>
         <translation>Durchscheinendes Gewebe wird auch dort schattiert, wo eine Blicklinie es verlässt, sodass man seine hinteren Wände sieht; es lässt weniger durch und braucht geringere Deckkräfte</translation>
+    </message>
+    <message>
+        <source>A fine grain where the drill has cut, for the eye alone: the image has none. It fades from afar</source>
+        <translation>Eine feine Körnung, wo gebohrt wurde, nur fürs Auge: Das Bild hat keine. Von weitem verschwindet sie</translation>
     </message>
 </context>
 <context>
@@ -10189,12 +10189,16 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Um ein Grad, in der Schicht, der die Tastatur gehört; in der 3D-Ansicht um die Senkrechte des Bildes, von oben gesehen</translation>
     </message>
     <message>
-        <source>Turn the cut counterclockwise</source>
-        <translation>Schnitt gegen den Uhrzeigersinn drehen</translation>
+        <source>Clippin&amp;g plane</source>
+        <translation>Schnittebe&amp;ne</translation>
     </message>
     <message>
-        <source>Turn the cut clockwise</source>
-        <translation>Schnitt im Uhrzeigersinn drehen</translation>
+        <source>Turn the cut &amp;counterclockwise</source>
+        <translation>Schnitt &amp;gegen den Uhrzeigersinn drehen</translation>
+    </message>
+    <message>
+        <source>&amp;Turn the cut clockwise</source>
+        <translation>Schnitt &amp;im Uhrzeigersinn drehen</translation>
     </message>
 </context>
 </TS>

@@ -84,8 +84,9 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
   addPercent(
       form, tr("Grai&n"),
       m_bound.add(
-          percentSlider("grain", tr("A fine grain on bone where it was cut, for the eye alone: the "
-                                    "CT has none. It fades from afar")),
+          percentSlider("grain",
+                        tr("A fine grain where the drill has cut, for the eye alone: the image "
+                           "has none. It fades from afar")),
           [this] { return percent(m_settings.light().grain); },
           [this](int percent) { m_settings.setGrain(0.01 * percent); }));
   addCheck(

@@ -902,6 +902,8 @@ TEST_F(ClippingBox, TheLineOfAPlaneGivesWayToATool)
   ASSERT_TRUE(measure && measure->active());
   drag(axial(), from, from + QPoint(30, 0));
   EXPECT_EQ(clipping(), before);
+  QTest::mouseClick(&axial(), Qt::LeftButton, Qt::NoModifier, from);
+  EXPECT_EQ(clipping(), before);
   EXPECT_TRUE(measure->hasPoints());
   measure->leaveTool();
 }

@@ -204,15 +204,16 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                   tr("What lies before the crosshair is not shown, until a tool is taken up"));
   clipOff = make(m_view, tr("Show what was cut &away"), Qt::CTRL + Qt::SHIFT + Qt::Key_C,
                  tr("Also where the case was saved with a part of the picture only"));
-  clipDeeper = make(m_view, tr("Cut &deeper"), Qt::SHIFT + Qt::Key_PageDown,
+  QMenu* plane = m_view->addMenu(tr("Clippin&g plane"));
+  clipDeeper = make(plane, tr("Cut &deeper"), Qt::SHIFT + Qt::Key_PageDown,
                     tr("Moves the plane that cuts the picture by 0.5 mm"));
-  clipLess = make(m_view, tr("Cut l&ess deep"), Qt::SHIFT + Qt::Key_PageUp,
+  clipLess = make(plane, tr("Cut l&ess deep"), Qt::SHIFT + Qt::Key_PageUp,
                   tr("Moves the plane that cuts the picture back by 0.5 mm"));
   const QString turned = tr("By a degree, within the slice that has the keyboard; in the 3D view "
                             "about the vertical of the picture, as seen from above");
   clipTurnLeft =
-      make(m_view, tr("Turn the cut counterclockwise"), Qt::SHIFT + Qt::Key_Left, turned);
-  clipTurnRight = make(m_view, tr("Turn the cut clockwise"), Qt::SHIFT + Qt::Key_Right, turned);
+      make(plane, tr("Turn the cut &counterclockwise"), Qt::SHIFT + Qt::Key_Left, turned);
+  clipTurnRight = make(plane, tr("&Turn the cut clockwise"), Qt::SHIFT + Qt::Key_Right, turned);
   // Of the views: lists and numbers have these keys.
   for (QAction* action : {clipDeeper, clipLess, clipTurnLeft, clipTurnRight})
     action->setShortcutContext(Qt::WidgetWithChildrenShortcut);

@@ -10190,7 +10190,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>Clippin&amp;g plane</source>
-        <translation>Schnittebe&amp;ne</translation>
+        <translation>S&amp;chnittebene</translation>
     </message>
     <message>
         <source>Turn the cut &amp;counterclockwise</source>
@@ -10198,7 +10198,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>&amp;Turn the cut clockwise</source>
-        <translation>Schnitt &amp;im Uhrzeigersinn drehen</translation>
+        <translation>Schnitt im &amp;Uhrzeigersinn drehen</translation>
     </message>
 </context>
 </TS>

@@ -1261,7 +1261,7 @@
     </message>
     <message>
         <source>mr axes</source>
-        <translation type="unfinished"></translation>
+        <translation>Achsen der MR</translation>
     </message>
     <message>
         <source>%1: the %~2 would lie in %3, which is never changed; give it another place</source>

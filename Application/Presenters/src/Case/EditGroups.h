@@ -4,7 +4,7 @@ namespace petrous::presenters
 {
 
 // EditHistory::Edit::group
-constexpr const char* kMrEdits = "mr";     ///< places of MRs
-constexpr const char* kMrAxes = "mr axes"; ///< axes of an MR, which moves with them
+constexpr const char* kMrEdits = "mr";    ///< places of MRs
+constexpr const char* kMrAxes = "mraxes"; ///< axes of an MR, which moves with them
 
 } // namespace petrous::presenters

@@ -1260,10 +1260,6 @@
         <translation>„%1“ behält seine Achsen: Striche dieses Falls halten fest, was dort, wo es liegt, davon abgetragen wurde</translation>
     </message>
     <message>
-        <source>mr axes</source>
-        <translation>Achsen der MR</translation>
-    </message>
-    <message>
         <source>%1: the %~2 would lie in %3, which is never changed; give it another place</source>
         <translation>%1: %~2 läge in %3, worin nie etwas geändert wird; wählen Sie einen anderen Ort</translation>
     </message>

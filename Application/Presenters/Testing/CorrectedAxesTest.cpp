@@ -727,7 +727,7 @@ TEST_F(CorrectedAxes, AreNotFollowedByWhatWasMeasured)
   };
   const AxesCorrection mirrored = AxesCorrection::parse("RPS");
   scene::Case corrected = model.value();
-  presenters::correctPart(corrected, "nerve", mirrored);
+  presenters::correctPart(corrected, presenters::axesPart(corrected, "nerve"), mirrored);
   EXPECT_TRUE(corrected.measurements[0].structureGone);
   EXPECT_TRUE(corrected.measurements[1].structureGone) << "of the same map";
   EXPECT_FALSE(corrected.measurements[2].structureGone);

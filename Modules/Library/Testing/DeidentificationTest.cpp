@@ -535,9 +535,9 @@ TEST_F(Deidentification, KeepsNoTextInPlaceOfNumbers)
         "J\xd6RG A B", "GO\xd1I, AB", "NOV\xc1KOV\xc1", "\xa3UKASZ A", "M\xfcller A"})
     for (const std::uint32_t tag : {0x00189305U, 0x00189404U}) // FD, FL
     {
-      const std::string key = tag == 0x00189305U ? "00189305" : "00189404";
-      EXPECT_EQ(cleaned(element(0x00100010, "MUELLER^ANNA") + element(tag, eight)).count(key), 0U)
-          << key << ": " << eight;
+      const std::string name = tag == 0x00189305U ? "00189305" : "00189404";
+      EXPECT_EQ(cleaned(element(0x00100010, "MUELLER^ANNA") + element(tag, eight)).count(name), 0U)
+          << name << ": " << eight;
     }
   // A name of the patient's that is shorter than what is told by itself
   EXPECT_EQ(cleaned(element(0x00100010, "Wong^Li") + element(0x00209057, "Wong")).count("00209057"),

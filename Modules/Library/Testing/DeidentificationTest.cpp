@@ -546,8 +546,8 @@ TEST_F(Deidentification, KeepsNoTextInPlaceOfNumbers)
 
 TEST_F(Deidentification, KeepsRealNumbers)
 {
-  for (const double value : {0.0, 0.1, -0.6, 1.0 / 3.0, 127.724321, 1e-9, 6.123233995736766e-17,
-                             -2.5e-20, 299792458.0, 6.02e14, 123456.789})
+  for (const double value : {0.0, 0.1, -0.6, 1.0 / 3.0, 2.0 / 3.0, 0.35, 0.7, 1.4, 127.724321, 1e-9,
+                             6.123233995736766e-17, -2.5e-20, 299792458.0, 6.02e14, 123456.789})
   {
     std::string eight(sizeof value, '\0');
     std::memcpy(eight.data(), &value, sizeof value);

@@ -395,7 +395,7 @@ TEST(OpticalModel, GrainFadesWithThePixelsItCovers)
   EXPECT_EQ(at(0.5, 0.05, 0.0), 1.0);
   const core::GridGeometry other({200, 64, 64}, {0.3, 0.3, 0.6}, {-20.0, 7.0, 3.0});
   const Eigen::Vector3d there(100.25, 7.5, 41.0);
-  EXPECT_NEAR(optics::grainFactor(other, there, 0.5, 0.04, 0.5), 1.0164772102828374, 1e-12);
+  EXPECT_NEAR(optics::grainFactor(other, there, 0.5, 0.04, 1.0), 1.0164772102828374, 1e-12);
   EXPECT_NEAR(optics::grainFactor(other, there, 1.0, 0.16, 1.0), 0.9942824424420056, 1e-12)
       << "the coarse octave alone";
 }

@@ -484,11 +484,13 @@ bool mayBeText(const std::string& text)
          2 * static_cast<std::size_t>(letters) >= text.size();
 }
 
-// Whether text of Latin-1 has a word of five letters or more, or is nothing but words, each in
-// capitals or in small letters after the first.
+// Whether text of Latin-1 has a word of five letters or more, at least three of them different, or
+// is nothing but words, each in capitals or in small letters after the first. One letter over and
+// over is a fraction's: "UUUUUU" of thirds, "ffffff" of tenths.
 bool hasWordsOfLatin1(const std::string& text)
 {
   constexpr std::size_t kLong = 5;
+  constexpr std::size_t kDifferent = 3;
   const auto isCapital = [](unsigned char c)
   { return (c >= 'A' && c <= 'Z') || (c >= 0xc0 && c <= 0xde && c != 0xd7); }; // a times sign
   const auto isSmall = [](unsigned char c)
@@ -506,7 +508,9 @@ bool hasWordsOfLatin1(const std::string& text)
     // The last capital of several begins a word of small letters.
     const std::size_t word =
         small == 0 ? capitals : std::max(capitals, small + (capitals > 0 ? 1 : 0));
-    if (word >= kLong)
+    const auto start = text.begin() + static_cast<std::ptrdiff_t>(at);
+    const std::set<char> letters(start, start + static_cast<std::ptrdiff_t>(capitals + small));
+    if (word >= kLong && letters.size() >= kDifferent)
       return true;
     at += capitals + small;
     isAll = isAll && (capitals < 2 || small == 0);

@@ -1260,6 +1260,10 @@
         <translation>„%1“ behält seine Achsen: Striche dieses Falls halten fest, was dort, wo es liegt, davon abgetragen wurde</translation>
     </message>
     <message>
+        <source>mr axes</source>
+        <translation>MR-Achsen</translation>
+    </message>
+    <message>
         <source>%1: the %~2 would lie in %3, which is never changed; give it another place</source>
         <translation>%1: %~2 läge in %3, worin nie etwas geändert wird; wählen Sie einen anderen Ort</translation>
     </message>
@@ -2876,20 +2880,12 @@
         <translation>Die Punkte scheinen nicht in ihrer Reihenfolge entlang der Struktur zu liegen: %1 ergäbe eine viel kürzere Linie.</translation>
     </message>
     <message>
-        <source>%~1The scan does not resolve it along %#2 of %#3: there the path is a guess between your points.</source>
-        <translation>%~1Die Aufnahme löst sie auf %#2 von %#3 nicht auf: Dort ist der Verlauf eine Vermutung zwischen Ihren Punkten.</translation>
+        <source>The scan does not resolve it along %#1 of %#2: there the path is a guess between your points.</source>
+        <translation>Die Aufnahme löst sie auf %#1 von %#2 nicht auf: Dort ist der Verlauf eine Vermutung zwischen Ihren Punkten.</translation>
     </message>
     <message>
-        <source>%~1The scan does not resolve it along %#2 of %#3: there the path and its radius are a guess between your points.</source>
-        <translation>%~1Die Aufnahme löst sie auf %#2 von %#3 nicht auf: Dort sind Verlauf und Radius eine Vermutung zwischen Ihren Punkten.</translation>
-    </message>
-    <message>
-        <source>%~1 The scan does not resolve it along %#2 of %#3: there the path is a guess between your points.</source>
-        <translation>%~1 Die Aufnahme löst sie auf %#2 von %#3 nicht auf: Dort ist der Verlauf eine Vermutung zwischen Ihren Punkten.</translation>
-    </message>
-    <message>
-        <source>%~1 The scan does not resolve it along %#2 of %#3: there the path and its radius are a guess between your points.</source>
-        <translation>%~1 Die Aufnahme löst sie auf %#2 von %#3 nicht auf: Dort sind Verlauf und Radius eine Vermutung zwischen Ihren Punkten.</translation>
+        <source>The scan does not resolve it along %#1 of %#2: there the path and its radius are a guess between your points.</source>
+        <translation>Die Aufnahme löst sie auf %#1 von %#2 nicht auf: Dort sind Verlauf und Radius eine Vermutung zwischen Ihren Punkten.</translation>
     </message>
     <message>
         <source>change of</source>

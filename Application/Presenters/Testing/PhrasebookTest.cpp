@@ -197,6 +197,56 @@ TEST(GermanPhrases, EachIsFoundAsItself)
   }
 }
 
+// As the segment editor puts them together: sentences on lines of their own.
+TEST(GermanPhrases, HaveEveryDoubtOfATracedNerve)
+{
+  const std::pair<std::string, std::string> guesses[] = {
+      {"The scan does not resolve it along 0.9 mm of 22.0 mm: there the path is a guess between "
+       "your points.",
+       "Die Aufnahme l\u00f6st sie auf 0.9 mm von 22.0 mm nicht auf: Dort ist der Verlauf eine "
+       "Vermutung zwischen Ihren Punkten."},
+      {"The scan does not resolve it along 0.9 mm of 22.0 mm: there the path and its radius are a "
+       "guess between your points.",
+       "Die Aufnahme l\u00f6st sie auf 0.9 mm von 22.0 mm nicht auf: Dort sind Verlauf und Radius "
+       "eine Vermutung zwischen Ihren Punkten."}};
+  const std::pair<std::string, std::string> before[] = {
+      {"", ""},
+      {"The points seem not to be in their order along the structure: 1, 3, 2 would make a much "
+       "shorter line.\n",
+       "Die Punkte scheinen nicht in ihrer Reihenfolge entlang der Struktur zu liegen: 1, 3, 2 "
+       "erg\u00e4be eine viel k\u00fcrzere Linie.\n"},
+      {"Where it is thinner than the voxels it is drawn one voxel wide, so that it has no gap: 7 "
+       "of "
+       "its 90 voxels, which its volume counts whole.\n",
+       "Wo sie d\u00fcnner als die Voxel ist, wird sie ein Voxel breit gezeichnet, damit sie keine "
+       "L\u00fccke hat: 7 ihrer 90 Voxel, die ihr Volumen ganz z\u00e4hlt.\n"}};
+  const std::pair<std::string, std::string> after[] = {
+      {"", ""},
+      {"\nIts radius of 0.6 mm is the usual one of its name, and nothing that the image shows.",
+       "\nIhr Radius von 0.6 mm ist der zu ihrem Namen \u00fcbliche; das Bild zeigt ihn nicht."}};
+  for (const auto& [english, german] : guesses)
+    for (const auto& [englishBefore, germanBefore] : before)
+      for (const auto& [englishAfter, germanAfter] : after)
+        EXPECT_EQ(germanPhrases().text(englishBefore + english + englishAfter),
+                  germanBefore + german + germanAfter);
+  // Each reason for which a stretch is not resolved.
+  for (const char* reason :
+       {"it does not stand out from the noise", "it is narrower than two voxels",
+        "what is seen is wider than the structure can be",
+        "the path runs through air or bone, not through a nerve",
+        "the path leads through something of another intensity",
+        "a quarter of its circumference or more has no wall, as at an edge",
+        "the path is a long detour between two points; set another one between them",
+        "what is seen is too short a piece of it"})
+  {
+    const std::string text =
+        germanPhrases().text("Not resolved from 0.0 to 0.9 mm: " + std::string(reason) + ".");
+    EXPECT_EQ(text.rfind("Nicht aufgel\u00f6st von 0.0 bis 0.9 mm: ", 0), 0U) << text;
+    for (const char* word : {" it ", " is ", " the ", " not ", " than ", " of "})
+      EXPECT_EQ(text.find(word), std::string::npos) << text;
+  }
+}
+
 TEST(GermanPhrases, AreThoseOfMessagesAsTheyAreShown)
 {
   const std::pair<const char*, const char*> messages[] = {

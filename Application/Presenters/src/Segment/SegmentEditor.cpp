@@ -245,6 +245,26 @@ std::string noteOf(const Tube& tube, std::optional<double> widest)
   return text + ".";
 }
 
+// Sentences stand on lines of their own, as each is translated by itself.
+void addSentence(std::string& text, const std::string& sentence)
+{
+  if (!sentence.empty())
+    text += (text.empty() ? "" : "\n") + sentence;
+}
+
+std::string guessText(const Tube& tube, const segmentation::TubeOptions& options)
+{
+  const double left = tube.length - tube.resolvedLength;
+  if (left < 0.05 * tube.length)
+    return {};
+  if (segmentation::hasUsualRadius(tube, options))
+    return "The scan does not resolve it along " + millimetres(left, 1) + " of " +
+           millimetres(tube.length, 1) + ": there the path is a guess between your points.";
+  return "The scan does not resolve it along " + millimetres(left, 1) + " of " +
+         millimetres(tube.length, 1) +
+         ": there the path and its radius are a guess between your points.";
+}
+
 std::string warningOf(const Tube& tube, const segmentation::TubeOptions& options,
                       const segmentation::TubeLabel& label)
 {
@@ -253,15 +273,9 @@ std::string warningOf(const Tube& tube, const segmentation::TubeOptions& options
     text = "The points seem not to be in their order along the structure: " + order +
            " would make a much shorter line.";
   if (const std::string bridging = bridgingText(label); !bridging.empty())
-    text += (text.empty() ? "W" : " W") + bridging.substr(1) + ".";
-  const double left = tube.length - tube.resolvedLength;
-  if (left < 0.05 * tube.length)
-    return text;
-  return text + (text.empty() ? "" : " ") + "The scan does not resolve it along " +
-         millimetres(left, 1) + " of " + millimetres(tube.length, 1) +
-         (segmentation::hasUsualRadius(tube, options)
-              ? ": there the path is a guess between your points."
-              : ": there the path and its radius are a guess between your points.");
+    addSentence(text, "W" + bridging.substr(1) + ".");
+  addSentence(text, guessText(tube, options));
+  return text;
 }
 
 } // namespace
@@ -352,7 +366,7 @@ struct SegmentEditor::Preview
   void warn(const Sentences& texts)
   {
     for (const std::string& text : texts)
-      warning += (warning.empty() ? "" : " ") + text;
+      addSentence(warning, text);
   }
 };
 
@@ -1287,8 +1301,9 @@ const std::vector<Eigen::Vector3d>& SegmentEditor::seeds() const noexcept
 
 std::string SegmentEditor::warning() const
 {
-  const std::string& resampled = m_draft->resampled;
-  return resampled + (resampled.empty() || m_warning.empty() ? "" : " ") + m_warning;
+  std::string text = m_draft->resampled;
+  addSentence(text, m_warning);
+  return text;
 }
 
 void SegmentEditor::dropPreview()

@@ -8,6 +8,7 @@
 #include <QAbstractTextDocumentLayout>
 #include <QBuffer>
 #include <QFontDatabase>
+#include <QFontMetricsF>
 #include <QGuiApplication>
 #include <QImage>
 #include <QPainter>
@@ -15,9 +16,11 @@
 #include <QTextBlock>
 #include <QTextCursor>
 #include <QTextDocument>
+#include <QTextFrame>
 #include <QTextLayout>
 #include <QTextTable>
 #include <QUrl>
+#include <QVector>
 
 #include "petrous/Core/Error.h"
 
@@ -195,6 +198,63 @@ QString factsHtml(const presenters::PlanReport& report)
   return html + "</table>";
 }
 
+/// Of a cell's text at its fonts, without its line breaks.
+double widthOf(const QTextTableCell& cell)
+{
+  double width = 0.0;
+  for (QTextBlock block = cell.firstCursorPosition().block();
+       block.isValid() && block.position() <= cell.lastPosition(); block = block.next())
+  {
+    double line = 0.0;
+    for (auto at = block.begin(); !at.atEnd(); ++at)
+      line +=
+          QFontMetricsF(at.fragment().charFormat().font()).horizontalAdvance(at.fragment().text());
+    width = std::max(width, line);
+  }
+  return width;
+}
+
+/// Columns of numbers are as wide as these, which else break anywhere where room is short; the text
+/// beside them wraps.
+void keepNumbersWhole(QTextDocument& document, const presenters::PlanReport& report)
+{
+  constexpr double kRounding = 2.0;
+  std::vector<const ReportTable*> tables;
+  for (const ReportSection& section : report.sections)
+    if (!section.table.rows.empty())
+      tables.push_back(&section.table);
+  std::size_t next = 0;
+  for (QTextFrame* frame : document.rootFrame()->childFrames())
+  {
+    auto* shown = qobject_cast<QTextTable*>(frame);
+    if (!shown || shown->format().headerRowCount() == 0 || next >= tables.size())
+      continue;
+    const ReportTable& table = *tables[next++];
+    QVector<QTextLength> widths(shown->columns());
+    for (int column = 0; column < shown->columns(); ++column)
+    {
+      double width = 0.0;
+      for (int row = 1; row < shown->rows(); ++row)
+      {
+        const auto r = static_cast<std::size_t>(row - 1), c = static_cast<std::size_t>(column);
+        if (r >= table.rows.size() || c >= table.rows[r].size() || !table.rows[r][c].isNumber)
+          continue;
+        const QTextTableCell place = shown->cellAt(row, column);
+        width = std::max(width, widthOf(place));
+        QTextBlockFormat format;
+        format.setNonBreakableLines(true);
+        QTextCursor(place.firstCursorPosition()).mergeBlockFormat(format);
+      }
+      if (width > 0.0)
+        widths[column] = QTextLength(QTextLength::FixedLength,
+                                     width + 2.0 * shown->format().cellPadding() + kRounding);
+    }
+    QTextTableFormat format = shown->format();
+    format.setColumnWidthConstraints(widths);
+    shown->setFormat(format);
+  }
+}
+
 void fill(QTextDocument& document, const presenters::PlanReport& report)
 {
   std::vector<const ReportPicture*> pictures;
@@ -215,6 +275,7 @@ void fill(QTextDocument& document, const presenters::PlanReport& report)
                          QImage::fromData(pictures[n]->png.data(),
                                           static_cast<int>(pictures[n]->png.size()), "PNG"));
   document.setHtml(html);
+  keepNumbersWhole(document, report);
 }
 
 int pageOf(double height)

@@ -1260,10 +1260,6 @@
         <translation>„%1“ behält seine Achsen: Striche dieses Falls halten fest, was dort, wo es liegt, davon abgetragen wurde</translation>
     </message>
     <message>
-        <source>mr axes</source>
-        <translation>MR-Achsen</translation>
-    </message>
-    <message>
         <source>%1: the %~2 would lie in %3, which is never changed; give it another place</source>
         <translation>%1: %~2 läge in %3, worin nie etwas geändert wird; wählen Sie einen anderen Ort</translation>
     </message>
@@ -2876,16 +2872,16 @@
         <translation>nach ihrem Namen höchstens %#1</translation>
     </message>
     <message>
-        <source>The points seem not to be in their order along the structure: %1 would make a much shorter line.</source>
-        <translation>Die Punkte scheinen nicht in ihrer Reihenfolge entlang der Struktur zu liegen: %1 ergäbe eine viel kürzere Linie.</translation>
-    </message>
-    <message>
         <source>The scan does not resolve it along %#1 of %#2: there the path is a guess between your points.</source>
         <translation>Die Aufnahme löst sie auf %#1 von %#2 nicht auf: Dort ist der Verlauf eine Vermutung zwischen Ihren Punkten.</translation>
     </message>
     <message>
         <source>The scan does not resolve it along %#1 of %#2: there the path and its radius are a guess between your points.</source>
         <translation>Die Aufnahme löst sie auf %#1 von %#2 nicht auf: Dort sind Verlauf und Radius eine Vermutung zwischen Ihren Punkten.</translation>
+    </message>
+    <message>
+        <source>The points seem not to be in their order along the structure: %1 would make a much shorter line.</source>
+        <translation>Die Punkte scheinen nicht in ihrer Reihenfolge entlang der Struktur zu liegen: %1 ergäbe eine viel kürzere Linie.</translation>
     </message>
     <message>
         <source>change of</source>

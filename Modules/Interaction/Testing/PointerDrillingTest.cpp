@@ -258,7 +258,8 @@ TEST(PointerDrilling, ALargerBurrComesFreeOnTheLineOfSightWhereTheSmallerOneWas)
       else if (mode == Mode::Depth)
       {
         EXPECT_GT(next.tool().z(), small.tool().z() - 0.05);
-        EXPECT_LT(next.tool().z(), small.tool().z() + 1.05) << "a step back at most";
+        // Its own hole is tight about it, so that the first step may not be free.
+        EXPECT_LT(next.tool().z(), small.tool().z() + 2.05) << "two steps back at most";
         EXPECT_EQ(next.force().norm(), 0.0);
       }
       next.run(400);

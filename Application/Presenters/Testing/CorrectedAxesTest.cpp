@@ -206,9 +206,12 @@ protected:
   /// A stroke that removed some of a structure.
   static void record(scene::Case& value, const std::string& structure)
   {
-    dissection::Stroke stroke;
-    stroke.info.structures = {{structure, 1.0}};
-    value.dissection.append(std::make_shared<const dissection::Stroke>(stroke));
+    const Vector3d middle = value.ct.geometry.center();
+    value.dissection.beginStroke({});
+    value.dissection.cut({middle, middle, 1.0});
+    value.dissection.openInfo().structures = {{structure, 1.0}};
+    value.dissection.endStroke();
+    ASSERT_FALSE(value.dissection.strokes().empty());
   }
 
   static void expectRefused(scene::Case value, const std::string& part, const std::string& told)

@@ -207,6 +207,7 @@ protected:
   static void record(scene::Case& value, const std::string& structure)
   {
     const Vector3d middle = value.ct.geometry.center();
+    value.dissection = dissection::Dissection(value.ct.geometry);
     value.dissection.beginStroke({});
     value.dissection.cut({middle, middle, 1.0});
     value.dissection.openInfo().structures = {{structure, 1.0}};

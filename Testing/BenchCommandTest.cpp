@@ -94,7 +94,7 @@ TEST_F(BenchCommand, MeasuresTheRendererBesideItsPeersAndItsError)
     }
   }
   EXPECT_EQ(surfaces, 6);
-  EXPECT_EQ(features, 19);
+  EXPECT_EQ(features, 21);
   EXPECT_EQ(roundedFilters, 4);
   const std::string paraview = report.at("machine").at("paraview");
   EXPECT_NE(paraview.find("no peer"), std::string::npos) << paraview;

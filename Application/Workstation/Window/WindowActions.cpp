@@ -204,7 +204,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                   tr("What lies before the crosshair is not shown, until a tool is taken up"));
   clipOff = make(m_view, tr("Show what was cut &away"), Qt::CTRL + Qt::SHIFT + Qt::Key_C,
                  tr("Also where the case was saved with a part of the picture only"));
-  QMenu* plane = m_view->addMenu(tr("Clippin&g plane"));
+  QMenu* plane = m_view->addMenu(tr("Clipping plan&e"));
   clipDeeper = make(plane, tr("Cut &deeper"), Qt::SHIFT + Qt::Key_PageDown,
                     tr("Moves the plane that cuts the picture by 0.5 mm"));
   clipLess = make(plane, tr("Cut l&ess deep"), Qt::SHIFT + Qt::Key_PageUp,

@@ -710,8 +710,8 @@ TEST_F(SegmentEditorTest, WhatComesBackLiesOnTheMrThatItWasDrawnOn)
   EXPECT_EQ(model.value().labels.front().drawnOn, "T2 axial");
 }
 
-// Two structures of one map, or one on an MR: it would come back where that was before its axes were
-// corrected, beside what was corrected with it.
+// Two structures of one map, or one on an MR: it would come back where that was before its axes
+// were corrected, beside what was corrected with it.
 TEST_F(SegmentEditorTest, WhatWasReplacedDoesNotComeBackToWhereItsAxesWere)
 {
   openWithMr();

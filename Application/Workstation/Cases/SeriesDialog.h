@@ -27,8 +27,8 @@ public:
   SeriesDialog(const presenters::SourceContent& source, bool hasCase, QWidget* parent = nullptr);
 
   std::vector<presenters::SeriesContent> chosen() const;
-  /// Of each of them, where its file is wrong; nullopt: of an image as it states them, of structures
-  /// and meshes as those of their image.
+  /// Of each of them, where its file is wrong; nullopt: of an image as it states them, of
+  /// structures and meshes as those of their image.
   std::vector<std::optional<core::AxesCorrection>> axes() const;
   bool wantsRegion() const; ///< a region of each image is to be chosen before it is read
 

@@ -594,13 +594,11 @@ std::vector<SliceView::EdgeText> SliceView::edgeTexts(const QFont& base) const
   const QColor color("#f2f5f8");
   const presenters::SliceGeometry seen = slice();
   const Eigen::Matrix3d toPatient = m_correction.matrix();
-  const presenters::SliceAxes directions{toPatient * seen.axes().right,
-                                         toPatient * seen.axes().down,
-                                         toPatient * seen.axes().next};
-  const auto letters =
-      presenters::SliceGeometry(m_orientation, directions, seen.center(), seen.mmPerPixel(),
-                                seen.width(), seen.height())
-          .edgeLetters();
+  const presenters::SliceAxes directions{
+      toPatient * seen.axes().right, toPatient * seen.axes().down, toPatient * seen.axes().next};
+  const auto letters = presenters::SliceGeometry(m_orientation, directions, seen.center(),
+                                                 seen.mmPerPixel(), seen.width(), seen.height())
+                           .edgeLetters();
   const double top = m_covered + kMargin;
   const double middle = 0.5 * height() + 0.35 * metrics.ascent();
   const auto letter = [](const std::string& text) { return words(text); };

@@ -524,7 +524,8 @@ void WorkstationModel::correctAxes(const std::string& part, const core::AxesCorr
                 setMeasurements(std::move(measurements));
               },
               place,
-              true, after.mr.empty() ? "" : kMrAxes});
+              true,
+              after.mr.empty() ? "" : kMrAxes});
 }
 
 // Parts are found by their data: their names and places in the case may be others.

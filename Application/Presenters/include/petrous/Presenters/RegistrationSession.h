@@ -131,7 +131,7 @@ private:
 
   WorkstationModel& m_model;
   std::string m_name;
-  std::vector<std::string> m_mrs; // known
+  std::vector<std::string> m_mrs;           // known
   std::optional<core::GridGeometry> m_grid; // of the chosen MR, in which the landmarks lie
   LandmarkList m_landmarks;
   core::RigidTransform m_fitted; // the last one not set by hand

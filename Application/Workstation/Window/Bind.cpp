@@ -201,9 +201,10 @@ QCheckBox* checkBox(const QString& text, const char* name, const QString& tip)
 void showWhole(QComboBox& box, int rows)
 {
   const QFontMetrics metrics = box.fontMetrics();
+  constexpr int kMargin = 4; // px, of the style about the text
   int width = 0;
   for (int row = 0; row < std::min(rows, box.count()); ++row)
-    width = std::max(width, metrics.boundingRect(box.itemText(row)).width());
+    width = std::max(width, metrics.horizontalAdvance(box.itemText(row)) + kMargin);
   const int letter = metrics.horizontalAdvance('X'); // in which Qt measures the length
   box.setMinimumContentsLength((width + letter - 1) / letter);
 }

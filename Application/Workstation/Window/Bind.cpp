@@ -206,7 +206,8 @@ void showWhole(QComboBox& box, int rows)
   for (int row = 0; row < std::min(rows, box.count()); ++row)
     width = std::max(width, metrics.horizontalAdvance(box.itemText(row)) + kMargin);
   const int letter = metrics.horizontalAdvance('X'); // in which Qt measures the length
-  box.setMinimumContentsLength((width + letter - 1) / letter);
+  // And two more: what the style keeps for its frame and arrow is not counted.
+  box.setMinimumContentsLength((width + letter - 1) / letter + 2);
 }
 
 QPushButton* button(const QString& text, const char* name, const QString& tip)

@@ -208,6 +208,7 @@ void showWhole(QComboBox& box, int rows)
   const int letter = metrics.horizontalAdvance('X'); // in which Qt measures the length
   // And two more: what the style keeps for its frame and arrow is not counted.
   box.setMinimumContentsLength((width + letter - 1) / letter + 2);
+  box.setMinimumWidth(width + 5 * letter); // also where a layout is narrow
 }
 
 QPushButton* button(const QString& text, const char* name, const QString& tip)

@@ -5,22 +5,18 @@
 #include <map>
 #include <string>
 
-#include <QAbstractItemView>
 #include <QAction>
-#include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QFontMetrics>
 #include <QLabel>
 #include <QLineEdit>
 #include <QSignalBlocker>
 #include <QSpinBox>
-#include <QStyle>
-#include <QStyleOptionComboBox>
 #include <QToolButton>
 
 #include "Bind.h"
 #include "Commands.h"
 #include "DiameterBox.h"
+#include "FittedBox.h"
 #include "Theme.h"
 #include "petrous/Dissection/BurrName.h"
 
@@ -30,38 +26,6 @@ namespace petrous::workstation
 namespace
 {
 constexpr int kNameWidth = 120; // px
-
-/// As wide as the entry that it shows: the longest of the list would push the numbers of a device,
-/// which stand in the same row, out of a narrow window. The list itself is as wide as its entries.
-class BurrBox : public QComboBox
-{
-public:
-  BurrBox()
-  {
-    connect(this, qOverload<int>(&QComboBox::currentIndexChanged), this,
-            [this] { updateGeometry(); });
-  }
-
-  QSize sizeHint() const override
-  {
-    QStyleOptionComboBox option;
-    initStyleOption(&option);
-    const QFontMetrics metrics(font());
-    const QSize text(metrics.horizontalAdvance(currentText()) + metrics.horizontalAdvance('x'),
-                     metrics.height());
-    return {style()->sizeFromContents(QStyle::CT_ComboBox, &option, text, this).width(),
-            QComboBox::sizeHint().height()};
-  }
-
-  QSize minimumSizeHint() const override { return sizeHint(); }
-
-  void showPopup() override
-  {
-    view()->setMinimumWidth(view()->sizeHintForColumn(0) +
-                            style()->pixelMetric(QStyle::PM_ScrollBarExtent, nullptr, view()));
-    QComboBox::showPopup();
-  }
-};
 
 /// Of the burrs that come with the program; other names are shown as they are.
 QString titleOf(const dissection::BurrModel& burr)
@@ -88,7 +52,7 @@ DrillBar::DrillBar(QWidget* parent)
   , m_instrument(new QAction(tr("I&nstrument"), this))
   , m_wheel(new QAction(tr("By wheel"), this))
   , m_diameter(new DiameterBox)
-  , m_kind(new BurrBox)
+  , m_kind(new FittedBox) // the longest would push a device's numbers out of a narrow window
   , m_speed(new QSpinBox)
   , m_thrust(numberBox(
         "thrust",

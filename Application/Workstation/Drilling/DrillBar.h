@@ -6,7 +6,6 @@
 #include "petrous/Dissection/Stroke.h"
 
 class QAction;
-class QComboBox;
 class QDoubleSpinBox;
 class QSpinBox;
 
@@ -14,6 +13,7 @@ namespace petrous::workstation
 {
 
 class DiameterBox;
+class FittedBox;
 
 /// Selects the tool, the burr, and how it is pressed.
 class DrillBar : public QToolBar
@@ -80,7 +80,7 @@ private:
   QAction* m_instrumentButton; // in the bar, while it is in the hand
   QAction* m_wheel;
   DiameterBox* m_diameter;
-  QComboBox* m_kind;
+  FittedBox* m_kind;
   QSpinBox* m_speed;
   QDoubleSpinBox* m_thrust;
   QString m_instrumentTip;

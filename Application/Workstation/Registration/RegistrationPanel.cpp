@@ -12,6 +12,7 @@
 
 #include "Application.h"
 #include "Bind.h"
+#include "FittedBox.h"
 #include "FoldBox.h"
 #include "HandlesBox.h"
 #include "LandmarksBox.h"
@@ -133,7 +134,8 @@ void RegistrationPanel::addSteps(QVBoxLayout& layout)
 
 void RegistrationPanel::addSeeing(QVBoxLayout& layout)
 {
-  m_overlay = choiceBox("overlayMode", {});
+  m_overlay = new FittedBox;
+  m_overlay->setObjectName("overlayMode");
   m_overlay->addItem({}, kOff);
   m_overlay->addItem(tr("Blend"), static_cast<int>(OverlayMode::Blend));
   m_overlay->addItem({}, static_cast<int>(OverlayMode::Edges));
@@ -314,7 +316,7 @@ void RegistrationPanel::refresh()
       tr("Mutual information of %1 and MR as they lie now; higher is better").arg(primary));
   m_overlay->setItemText(0, tr("%1 alone").arg(primary));
   m_overlay->setItemText(2, tr("%1's edges over the MR").arg(primary));
-  showWhole(*m_overlay, m_overlay->count());
+  m_overlay->fit(m_overlay->count());
   m_bound.refresh();
   m_state->setText(m_session.part()       ? phrase(m_session.stateText())
                    : !m_session.hasCase() ? tr("Open a case first")

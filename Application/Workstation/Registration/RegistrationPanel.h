@@ -17,11 +17,12 @@ class QVBoxLayout;
 namespace petrous::workstation
 {
 
-class RegistrationTargetBox;
+class FittedBox;
 class FoldBox;
 class HandlesBox;
 class LandmarksBox;
 class MetricCurve;
+class RegistrationTargetBox;
 
 /// Registration of an MR of the case: display, fit, manual motion, landmarks, sign-off.
 class RegistrationPanel : public Panel
@@ -78,7 +79,7 @@ private:
   QLabel* m_line;
   std::optional<presenters::OverlayMode> m_overlayMode; ///< none: CT alone
   double m_overlayOpacity = 0.5;
-  QComboBox* m_overlay;
+  FittedBox* m_overlay;
   QSlider* m_opacity;
   QWidget* m_opacityLabel;
   QPushButton* m_undo;

@@ -11,6 +11,7 @@
 #include <QPushButton>
 
 #include "AskName.h"
+#include "FittedBox.h"
 #include "SliceColumn.h"
 #include "SliceController.h"
 #include "Theme.h"
@@ -101,8 +102,9 @@ void SlicesPanel::addPlanes(QFormLayout* form)
 
 void SlicesPanel::addWindow(QFormLayout* form)
 {
-  m_windows = choiceBox("greyWindow", tr("Grey windows by name: those of the image that is seen, "
-                                         "and your own"));
+  m_windows = new FittedBox;
+  m_windows->setObjectName("greyWindow");
+  m_windows->setToolTip(tr("Grey windows by name: those of the image that is seen, and your own"));
   m_bound.add(
       m_windows,
       [this]
@@ -227,7 +229,7 @@ void SlicesPanel::fillWindows()
   for (std::size_t n = 0; n < m_offered.size(); ++n)
     m_windows->addItem(static_cast<int>(n) < m_own ? windowName(m_offered[n].name)
                                                    : words(m_offered[n].name));
-  showWhole(*m_windows, m_own); // names of the user's may be long
+  m_windows->fit(m_own); // names of the user's may be long
   const presenters::IntensityDisplay display = m_slices.seenDisplay();
   for (QDoubleSpinBox* box : {m_width, m_level})
   {

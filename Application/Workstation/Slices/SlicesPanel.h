@@ -4,13 +4,13 @@
 #include "Panels.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 
-class QComboBox;
 class QDoubleSpinBox;
 class QFormLayout;
 
 namespace petrous::workstation
 {
 
+class FittedBox;
 class SliceColumn;
 class SliceController;
 class WindowSettings;
@@ -46,7 +46,7 @@ private:
   Bindings m_bound;
   std::vector<presenters::NamedWindow> m_offered; ///< as in m_windows
   int m_own = 0;                                  ///< the first of the user's
-  QComboBox* m_windows = nullptr;
+  FittedBox* m_windows = nullptr;
   QDoubleSpinBox* m_width = nullptr;
   QDoubleSpinBox* m_level = nullptr;
   QWidget* m_forget = nullptr;

@@ -1,6 +1,5 @@
 #include "Bind.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -196,19 +195,6 @@ QCheckBox* checkBox(const QString& text, const char* name, const QString& tip)
   box->setObjectName(name);
   box->setToolTip(tip);
   return box;
-}
-
-void showWhole(QComboBox& box, int rows)
-{
-  const QFontMetrics metrics = box.fontMetrics();
-  constexpr int kMargin = 4; // px, of the style about the text
-  int width = 0;
-  for (int row = 0; row < std::min(rows, box.count()); ++row)
-    width = std::max(width, metrics.horizontalAdvance(box.itemText(row)) + kMargin);
-  const int letter = metrics.horizontalAdvance('X'); // in which Qt measures the length
-  // And two more: what the style keeps for its frame and arrow is not counted.
-  box.setMinimumContentsLength((width + letter - 1) / letter + 2);
-  box.setMinimumWidth(width + 5 * letter); // also where a layout is narrow
 }
 
 QPushButton* button(const QString& text, const char* name, const QString& tip)

@@ -85,9 +85,6 @@ QDoubleSpinBox* numberBox(const char* name, const QString& tip, const NumberRang
 QSlider* percentSlider(const char* name, const QString& tip);
 QComboBox* choiceBox(const char* name, const QString& tip);
 QCheckBox* checkBox(const QString& text, const char* name, const QString& tip);
-/// As wide as the first `rows` of its entries, which were set just now, in the letters that it has
-/// and will have: one that is empty when it is first shown stays as wide as seven letters.
-void showWhole(QComboBox& box, int rows);
 QPushButton* button(const QString& text, const char* name, const QString& tip);
 
 /// Return, Enter and other keys that a cell's editor leaves over stay in it: neither the list nor

@@ -274,6 +274,64 @@ TEST(StructurePresets, LeavesNeutralWhatItDoesNotKnow)
     EXPECT_EQ(presets.lookFor(name).preset, "other") << name;
 }
 
+TEST(StructurePresets, ANervesOwnWordDecidesBeforeThatOfItsPlace)
+{
+  const auto presets = StructurePresets::builtIn();
+  const std::pair<NerveKind, std::vector<const char*>> nerves[] = {
+      {NerveKind::Facial,
+       {"Fazialis mastoid",
+        "Fazialis mastoid segment",
+        "VII mastoid",
+        "VII_labyrinthine_left",
+        "Fazialis tympanal",
+        "Fazialis vertikal",
+        "linker Fazialis",
+        "Fazialisknie",
+        "facial_mastoid",
+        "facial_labyrinthine",
+        "facial_genu",
+        "facial_meatal",
+        "facial nerve IAC",
+        "facial nerve, internal auditory canal",
+        "N. VII meatus",
+        "CN VII mastoid",
+        "cn_7",
+        "Facialisverlauf",
+        "facial nerve to stapedius",
+        "facial nerve in the middle ear",
+        "facial nerve, temporal bone",
+        "Nervus facialis Knochen"}},
+      {NerveKind::ChordaTympani, {"chorda in the middle ear", "chorda tympani, mastoid"}},
+      {NerveKind::Other, {"nerve IAC", "CN VIII", "cochlear nerve", "Nervenverlauf"}}};
+  for (const auto& [kind, names] : nerves)
+    for (const char* name : names)
+    {
+      EXPECT_EQ(presets.lookFor(name).preset, "nerve") << name;
+      EXPECT_EQ(presets.lookFor(name).warning, 2.0) << name;
+      EXPECT_TRUE(presets.nerveOf(name) == kind) << name;
+    }
+  const std::pair<const char*, std::vector<const char*>> others[] = {
+      {"artery",
+       {"Karotis", "Karotis links", "Carotis mastoid", "carotid tympanic cavity",
+        "Karotis Paukenh\xc3\xb6hle", "A. carotis interna", "Karotiskanal", "A. facialis",
+        "facial artery", "carotid sinus"}},
+      {"tumour", {"facial schwannoma", "facial nerve tumour", "carotid paraganglioma"}},
+      {"vein", {"V. facialis", "facial vein", "cavernous sinus carotid"}},
+      {"muscle", {"facial muscle"}},
+      {"bone", {"facial bones", "facial left bones", "mastoid", "facial skeleton"}},
+      {"air-cells", {"facial recess", "antrum", "middle ear"}},
+      {"inner-ear", {"IAC", "labyrinth"}},
+      {"other",
+       {"facial nerve implant", "facial fat", "facial skin", "Facial_Ridge", "facialist",
+        "Segment VII", "VII", "nervous system", "innervation", "midfacial"}}};
+  for (const auto& [preset, names] : others)
+    for (const char* name : names)
+    {
+      EXPECT_EQ(presets.lookFor(name).preset, preset) << name;
+      EXPECT_TRUE(presets.nerveOf(name) == NerveKind::None) << name;
+    }
+}
+
 TEST(StructurePresets, ACodeChoosesTheLookInAnyLanguage)
 {
   const auto presets = StructurePresets::builtIn();

@@ -115,6 +115,35 @@ bool isFormOf(const std::string& word, const std::string& stem)
           std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings));
 }
 
+bool matchesPattern(const std::string& word, std::string_view pattern)
+{
+  const bool isOpenBefore = !pattern.empty() && pattern.front() == '*';
+  if (isOpenBefore)
+    pattern.remove_prefix(1);
+  const bool isOpenAfter = !pattern.empty() && pattern.back() == '*';
+  if (isOpenAfter)
+    pattern.remove_suffix(1);
+  if (isOpenBefore && isOpenAfter)
+    return word.find(pattern) != word.npos;
+  if (word.size() < pattern.size())
+    return false;
+  return isOpenAfter    ? word.compare(0, pattern.size(), pattern) == 0
+         : isOpenBefore ? word.compare(word.size() - pattern.size(), word.npos, pattern) == 0
+                        : word == pattern;
+}
+
+bool matchesOneOf(const std::string& word, const std::vector<std::string>& patterns)
+{
+  return std::any_of(patterns.begin(), patterns.end(),
+                     [&word](const std::string& pattern) { return matchesPattern(word, pattern); });
+}
+
+bool hasWordOf(const std::vector<std::string>& name, const std::vector<std::string>& patterns)
+{
+  return std::any_of(name.begin(), name.end(),
+                     [&patterns](const std::string& word) { return matchesOneOf(word, patterns); });
+}
+
 } // namespace
 
 StructureAppearance presetFrom(json entry)
@@ -176,20 +205,40 @@ StructurePresets::StructurePresets(std::string_view text)
     m_other = presetFrom(catalogue.at("other"));
     for (const auto& entry : catalogue.at("presets"))
     {
-      m_words.push_back({phrases(entry), m_presets.size()});
+      m_words.push_back({phrases(entry), m_presets.size(), {}});
       m_presets.push_back(presetFrom(entry));
+    }
+    const auto indices = [this](const json& entry, const char* where)
+    {
+      std::vector<std::size_t> result;
+      for (const std::string& name : entry.value("unless", std::vector<std::string>()))
+        result.push_back(indexOf(name, where));
+      return result;
+    };
+    if (const auto found = catalogue.find("nerve_names"); found != catalogue.end())
+    {
+      const json& entry = *found;
+      const auto patterns = [&entry](const char* key)
+      { return entry.value(key, std::vector<std::string>()); };
+      NerveNames names;
+      names.preset = indexOf(entry.at("preset").get<std::string>(), "nerve_names");
+      names.unless = indices(entry, "nerve_names");
+      names.nerve = patterns("nerve");
+      names.facial = patterns("facial");
+      names.notFacial = patterns("not_facial");
+      names.number = patterns("number");
+      names.course = patterns("course");
+      names.isNot = patterns("not");
+      names.isFacial = patterns("is_facial");
+      names.facialCode = entry.value("facial_code", "");
+      names.isChorda = patterns("is_chorda");
+      m_nerveNames = std::move(names);
     }
     std::vector<Words> first;
     for (const auto& entry : catalogue.value("first", json::array()))
     {
-      const auto name = entry.at("preset").get<std::string>();
-      const StructureAppearance* look = find(name);
-      if (!look)
-        throw core::InvalidParameter("structure presets: 'first' names no preset '" + name + "'");
-      // "other" has the index after the last preset.
-      const auto index =
-          look == &m_other ? m_presets.size() : static_cast<std::size_t>(look - m_presets.data());
-      first.push_back({phrases(entry), index});
+      const auto index = indexOf(entry.at("preset").get<std::string>(), "first");
+      first.push_back({phrases(entry), index, indices(entry, "first")});
     }
     m_words.insert(m_words.begin(), first.begin(), first.end());
     for (const auto& entry : catalogue.value("codes", json::array()))
@@ -225,6 +274,16 @@ const StructureAppearance* StructurePresets::find(const std::string& name) const
   const auto found = std::find_if(m_presets.begin(), m_presets.end(),
                                   [&name](const auto& look) { return look.preset == name; });
   return found != m_presets.end() ? &*found : name == m_other.preset ? &m_other : nullptr;
+}
+
+// "other" has the index after the last preset.
+std::size_t StructurePresets::indexOf(const std::string& preset, const char* where) const
+{
+  const StructureAppearance* look = find(preset);
+  if (!look)
+    throw core::InvalidParameter(std::string("structure presets: '") + where +
+                                 "' names no preset '" + preset + "'");
+  return look == &m_other ? m_presets.size() : static_cast<std::size_t>(look - m_presets.data());
 }
 
 void StructurePresets::addPhrases(Phrases& phrases, const std::vector<std::string>& texts,
@@ -280,11 +339,74 @@ bool StructurePresets::hasPhrase(const std::vector<std::string>& name, const Phr
   return false;
 }
 
+// What counts only alone counts too: "A. facialis mastoid" is no nerve.
+bool StructurePresets::hasPhraseOf(const std::vector<std::string>& name,
+                                   const std::vector<std::size_t>& presets) const
+{
+  for (const Words& entry : m_words)
+    if (std::find(presets.begin(), presets.end(), entry.preset) != presets.end())
+    {
+      Phrases phrases = entry.phrases;
+      for (Phrase& phrase : phrases)
+        phrase.isAlone = false;
+      if (hasPhrase(name, phrases))
+        return true;
+    }
+  return false;
+}
+
+NerveKind StructurePresets::nerveOf(const std::string& structureName) const
+{
+  return nerveOfWords(foldedWords(structureName));
+}
+
+NerveKind StructurePresets::nerveOfWords(const std::vector<std::string>& name) const
+{
+  if (!m_nerveNames)
+    return NerveKind::None;
+  const NerveNames& names = *m_nerveNames;
+  const auto hasNervePhrase = [&]
+  {
+    for (const Words& entry : m_words)
+      if (entry.preset == names.preset && hasPhrase(name, entry.phrases))
+        return true;
+    return false;
+  };
+  const auto hasNumber = [&] // "VII mastoid", and not "segment VII"
+  {
+    return hasWordOf(name, names.number) && hasWordOf(name, names.course) &&
+           std::all_of(name.begin(), name.end(),
+                       [&](const std::string& word)
+                       {
+                         return isNeutral(word) || matchesOneOf(word, names.number) ||
+                                matchesOneOf(word, names.course);
+                       });
+  };
+  const bool isNerve = hasWordOf(name, names.nerve) || hasNumber() || hasNervePhrase() ||
+                       (hasWordOf(name, names.facial) && !hasWordOf(name, names.notFacial));
+  if (!isNerve || hasWordOf(name, names.isNot) || hasPhraseOf(name, names.unless))
+    return NerveKind::None;
+  const auto isFacial = [&]
+  {
+    return hasWordOf(name, names.isFacial) ||
+           std::any_of(m_codes.begin(), m_codes.end(),
+                       [&](const Code& entry) {
+                         return entry.code.type == names.facialCode &&
+                                hasPhrase(name, entry.phrases);
+                       });
+  };
+  return hasWordOf(name, names.isChorda) ? NerveKind::ChordaTympani
+         : isFacial()                    ? NerveKind::Facial
+                                         : NerveKind::Other;
+}
+
 const StructureAppearance* StructurePresets::lookByWord(const std::string& structureName) const
 {
   const std::vector<std::string> name = foldedWords(structureName);
+  if (nerveOfWords(name) != NerveKind::None)
+    return &m_presets[m_nerveNames->preset];
   for (const Words& entry : m_words)
-    if (hasPhrase(name, entry.phrases))
+    if (hasPhrase(name, entry.phrases) && !hasPhraseOf(name, entry.unless))
       return entry.preset < m_presets.size() ? &m_presets[entry.preset] : &m_other;
   return nullptr;
 }

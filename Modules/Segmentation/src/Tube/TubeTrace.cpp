@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <string>
 #include <utility>
@@ -14,7 +13,6 @@
 #include "TubePath.h"
 #include "TubeRefinement.h"
 #include "petrous/Appearance/StructurePresets.h"
-#include "petrous/Core/AsciiCase.h"
 #include "petrous/Core/Error.h"
 
 namespace petrous::segmentation
@@ -203,13 +201,6 @@ double voxelAcross(const core::GridGeometry& geometry, const Vector3d& tangent)
 namespace
 {
 
-std::string lowerCase(std::string_view name)
-{
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(), core::asciiLower);
-  return lower;
-}
-
 /// How far each point lies from the line, and the vertex there.
 void placePoints(Tube& tube)
 {
@@ -247,108 +238,10 @@ std::vector<std::uint8_t> straysOf(const Tube& tube, const std::vector<double>& 
   return strays;
 }
 
-enum class NerveKind
+appearance::NerveKind nerveOf(std::string_view name)
 {
-  None,
-  Other,
-  Facial,
-  ChordaTympani
-};
-
-/// Runs of letters or of digits, in lower case; capitals within a word begin another.
-std::vector<std::string> wordsOf(std::string_view name)
-{
-  const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
-  const auto isCapital = [](char c) { return c >= 'A' && c <= 'Z'; };
-  const auto isSmall = [](char c) { return c >= 'a' && c <= 'z'; };
-  const auto isOfWord = [&](char c)
-  { return isDigit(c) || isCapital(c) || isSmall(c) || static_cast<unsigned char>(c) >= 0x80; };
-  std::vector<std::string> words;
-  char before = ' ';
-  for (const char c : name)
-  {
-    if (isOfWord(c))
-    {
-      if (!isOfWord(before) || isDigit(c) != isDigit(before) || (isCapital(c) && isSmall(before)))
-        words.emplace_back();
-      words.back() += core::asciiLower(c);
-    }
-    before = c;
-  }
-  return words;
-}
-
-/// A name that has a nerve's word is a nerve's whatever else stands there (a segment, its course
-/// through mastoid, meatus or middle ear), unless that is a vessel, tumour, or another thing that
-/// is named after the nerve. The words are those of the catalogue of structures, each by itself, as
-/// the catalogue takes the whole name for the first of its presets that has a word of it.
-NerveKind nerveOf(std::string_view name)
-{
-  constexpr const char* kFacialNerve = "56052001"; // SNOMED CT
-  constexpr std::size_t kLongestPhrase = 3;        // words
   static const auto presets = appearance::StructurePresets::builtIn();
-  const std::string whole(name), lower = lowerCase(name);
-  const auto hasOneOf = [&lower](std::initializer_list<const char*> parts)
-  {
-    return std::any_of(parts.begin(), parts.end(),
-                       [&](const char* part) { return lower.find(part) != lower.npos; });
-  };
-  const std::vector<std::string> words = wordsOf(name);
-  const auto hasWordWith = [&words](std::initializer_list<const char*> beginnings)
-  {
-    return std::any_of(words.begin(), words.end(),
-                       [&](const std::string& word)
-                       {
-                         return std::any_of(beginnings.begin(), beginnings.end(),
-                                            [&](const char* one)
-                                            { return word.rfind(one, 0) == 0; });
-                       });
-  };
-  const auto isCompoundOf = [&words](std::initializer_list<const char*> ends) // "Gesichtsvene"
-  {
-    const auto endsIn = [](const std::string& word, std::string_view end)
-    {
-      return word.size() > end.size() &&
-             word.compare(word.size() - end.size(), end.size(), end) == 0;
-    };
-    return std::any_of(words.begin(), words.end(),
-                       [&](const std::string& word)
-                       {
-                         return std::any_of(ends.begin(), ends.end(),
-                                            [&](const char* one) { return endsIn(word, one); });
-                       });
-  };
-
-  if (hasOneOf({"recess", "rezess", "sinus", "arter", "muscle", "muskel", "collicul", "implant",
-                "electrode", "elektrode", "tumor", "neurinom", "schwannom"}) ||
-      hasWordWith({"ridge", "musculus"}) || isCompoundOf({"vene", "venen"}))
-    return NerveKind::None;
-  bool isNamed = hasWordWith({"facial", "fazial"}); // the face has the word, too
-  bool isNerve = hasWordWith({"nerv"});
-  for (std::size_t first = 0; first < words.size(); ++first)
-  {
-    std::string phrase;
-    for (std::size_t n = first; n < std::min(first + kLongestPhrase, words.size()); ++n)
-    {
-      phrase += (n == first ? "" : " ") + words[n];
-      const std::string preset = presets.lookFor(phrase).preset;
-      if (preset == "vein" || preset == "artery" || preset == "tumour" || preset == "cholesteatoma")
-        return NerveKind::None;
-      // A word that is not neutral beside it: what denotes a nerve only where it stands alone does
-      // not count.
-      isNerve = isNerve || presets.lookFor(phrase + " structureless").preset == "nerve";
-    }
-  }
-  isNamed = isNamed && !hasOneOf({"bone", "knochen", "skelet"}) &&
-            !hasWordWith({"fat", "fett", "skin", "haut", "lymph"});
-  if (!isNerve && !isNamed)
-    return NerveKind::None;
-  if (hasOneOf({"chorda", "paukensaite"}))
-    return NerveKind::ChordaTympani;
-  return presets.codeFor(whole, "nerve").type == kFacialNerve ||
-                 hasOneOf({"facial", "fazial", "fallopian", "gesichtsnerv"})
-             ? NerveKind::Facial
-             : NerveKind::Other;
+  return presets.nerveOf(std::string(name));
 }
 
 /// Half of the segments on either side of a vertex, mm.
@@ -626,25 +519,25 @@ std::vector<TubeStretch> unresolvedStretches(const Tube& tube)
 
 std::optional<volume::ValueRange> lumenFor(std::string_view name)
 {
-  if (nerveOf(name) != NerveKind::None)
+  if (nerveOf(name) != appearance::NerveKind::None)
     return volume::ValueRange{-500.0, 700.0}; // soft tissue 40, air -1000, cortical bone 1400 HU
   return std::nullopt;
 }
 
 double widestFor(std::string_view name)
 {
-  const NerveKind nerve = nerveOf(name);
-  return nerve == NerveKind::ChordaTympani ? 0.5
-         : nerve == NerveKind::Facial      ? 1.3
-                                           : TubeOptions{}.widest;
+  const appearance::NerveKind nerve = nerveOf(name);
+  return nerve == appearance::NerveKind::ChordaTympani ? 0.5
+         : nerve == appearance::NerveKind::Facial      ? 1.3
+                                                       : TubeOptions{}.widest;
 }
 
 std::optional<double> usualFor(std::string_view name)
 {
-  const NerveKind nerve = nerveOf(name);
-  return nerve == NerveKind::ChordaTympani ? std::optional(0.2)
-         : nerve == NerveKind::Facial      ? std::optional(0.6)
-                                           : std::nullopt;
+  const appearance::NerveKind nerve = nerveOf(name);
+  return nerve == appearance::NerveKind::ChordaTympani ? std::optional(0.2)
+         : nerve == appearance::NerveKind::Facial      ? std::optional(0.6)
+                                                       : std::nullopt;
 }
 
 TubeOptions tubeOptionsFor(std::string_view name, const std::optional<double>& radius,

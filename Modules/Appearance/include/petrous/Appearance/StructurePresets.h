@@ -21,6 +21,15 @@ struct StructureCode
   std::string typeMeaning = "Anatomical Structure";
 };
 
+/// Which nerve a name denotes.
+enum class NerveKind
+{
+  None,
+  Other,
+  Facial,
+  ChordaTympani
+};
+
 /// The catalogue of appearance presets, selected by structure name (Resources/structures.json).
 class StructurePresets
 {
@@ -34,6 +43,11 @@ public:
   /// The default appearance of a structure of this name, e.g. "facial_nerve", "N. facialis" or
   /// "Gesichtsnerv links" -> nerve; "other" if the catalogue does not know the name.
   StructureAppearance lookFor(const std::string& structureName) const;
+
+  /// Whether a name is that of a nerve: a nerve's own word decides, whatever place or segment
+  /// stands beside it ("Fazialis mastoid"), unless that is a vessel, a tumour, or another thing
+  /// that is named after the nerve ("facial recess").
+  NerveKind nerveOf(const std::string& structureName) const;
 
   /// The appearance by what a file says that a structure is: by the codes that the catalogue has,
   /// else by the words of their meanings; nullopt if neither says more. Of what is abnormal, the
@@ -75,7 +89,17 @@ private:
   struct Words
   {
     Phrases phrases;
-    std::size_t preset; ///< index in `m_presets`
+    std::size_t preset;              ///< index in `m_presets`
+    std::vector<std::size_t> unless; ///< presets of which a word decides instead
+  };
+  /// Patterns of a folded word: '*' at either end stands for any letters.
+  using Patterns = std::vector<std::string>;
+  struct NerveNames
+  {
+    std::size_t preset = 0; ///< index in `m_presets`
+    Patterns nerve, facial, notFacial, number, course, isNot, isFacial, isChorda;
+    std::string facialCode;          ///< its words in `m_codes` denote the facial nerve
+    std::vector<std::size_t> unless; ///< presets of which a word decides instead
   };
   struct Code
   {
@@ -92,12 +116,17 @@ private:
   const StructureAppearance* find(const std::string& name) const; ///< nullptr: no such preset
   const StructureAppearance* lookByWord(const std::string& structureName) const;
   bool hasPhrase(const std::vector<std::string>& name, const Phrases& phrases) const;
+  bool hasPhraseOf(const std::vector<std::string>& name,
+                   const std::vector<std::size_t>& presets) const;
+  NerveKind nerveOfWords(const std::vector<std::string>& name) const;
+  std::size_t indexOf(const std::string& preset, const char* where) const;
   bool isNeutral(const std::string& foldedWord) const;
   bool isSide(const std::string& foldedWord) const;
   static void addPhrases(Phrases& phrases, const std::vector<std::string>& texts, bool isAlone);
 
   std::vector<StructureAppearance> m_presets;
   std::vector<Words> m_words;
+  std::optional<NerveNames> m_nerveNames;
   std::vector<std::string> m_sides;      ///< words and abbreviations of left and right
   std::vector<std::string> m_neutral;    ///< words accepted besides those of structures
   std::vector<std::string> m_qualifiers; ///< without which a name would mean something else

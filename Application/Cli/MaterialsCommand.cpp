@@ -22,52 +22,26 @@ std::string provenance(const std::string& certainty, const std::string& source)
   return "\n      certainty: " + stated(certainty) + "\n      source: " + stated(source);
 }
 
-nlohmann::json materialsJson(const Context& context, const CatalogueEditor& tables)
+void printMaterials(const Context& context, const CatalogueEditor& tables)
 {
-  nlohmann::json materials = nlohmann::json::array();
   context.print("materials:");
   for (const auto& one : tables.materials())
-  {
-    materials.push_back({{"name", one.name},
-                         {"title", one.title},
-                         {"specific_cutting_energy_gpa", one.specificEnergy},
-                         {"friction", one.friction},
-                         {"vickers_hardness_hv", one.hardness},
-                         {"certainty", one.certainty},
-                         {"status", one.source}});
     context.print("  " + one.name + ": cutting energy " + plainText(one.specificEnergy) +
                   " GPa, friction " + plainText(one.friction) + ", hardness " +
                   plainText(one.hardness) + " HV" + provenance(one.certainty, one.source));
-  }
-  return materials;
 }
 
-nlohmann::json burrsJson(const Context& context, const CatalogueEditor& tables)
+void printBurrs(const Context& context, const CatalogueEditor& tables)
 {
-  nlohmann::json burrs = nlohmann::json::array();
   context.print("burrs:");
   for (const auto& one : tables.burrs())
-  {
-    const bool isCutting = one.kind == dissection::Burr::Kind::Cutting;
-    nlohmann::json burr{{"name", one.name},
-                        {"kind", dissection::nameOf(one.kind)},
-                        {isCutting ? "rake_deg" : "wear_coefficient", one.constant},
-                        {"diameters_mm", one.diameters},
-                        {"certainty", one.certainty},
-                        {"status", one.source}};
-    std::string line = "  " + one.name + ": " + dissection::nameOf(one.kind) + ", " +
-                       (isCutting ? "rake " + plainText(one.constant) + " degrees"
-                                  : "wear coefficient " + plainText(one.constant));
-    if (one.grit > 0.0)
-    {
-      burr["grit_um"] = one.grit;
-      line += ", grit " + plainText(one.grit) + " um";
-    }
-    burrs.push_back(std::move(burr));
-    context.print(line + "; " + presenters::diametersText(one.diameters) + " mm" +
+    context.print("  " + one.name + ": " + dissection::nameOf(one.kind) + ", " +
+                  (one.kind == dissection::Burr::Kind::Cutting
+                       ? "rake " + plainText(one.constant) + " degrees"
+                       : "wear coefficient " + plainText(one.constant)) +
+                  (one.grit > 0.0 ? ", grit " + plainText(one.grit) + " um" : "") + "; " +
+                  presenters::diametersText(one.diameters) + " mm" +
                   provenance(one.certainty, one.source));
-  }
-  return burrs;
 }
 
 nlohmann::json softTissuesJson(const Context& context)
@@ -93,14 +67,10 @@ nlohmann::json softTissuesJson(const Context& context)
 void list(const Context& context)
 {
   const CatalogueEditor tables(context.openLibrary().folder());
-  const auto& bone = tables.bone();
-  nlohmann::json answer;
-  answer["materials"] = materialsJson(context, tables);
-  answer["bone"] = {{"cellular", bone.cellular},
-                    {"cortical", bone.cortical},
-                    {"from_hu", bone.low},
-                    {"to_hu", bone.high}};
-  answer["burrs"] = burrsJson(context, tables);
+  printMaterials(context, tables);
+  printBurrs(context, tables);
+  auto answer = nlohmann::json::parse(tables.materialsText());
+  answer.update(nlohmann::json::parse(tables.burrsText()));
   answer["soft_tissues"] = softTissuesJson(context);
   context.printJson(answer);
 }

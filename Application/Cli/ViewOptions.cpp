@@ -186,6 +186,11 @@ void addLightOptions(CLI::App& command, LightOptions& options, const std::string
             help + defaultText)
         ->check(truth());
   };
+  const auto addShare = [&](const char* name, std::optional<double>& value, const std::string& help)
+  {
+    command.add_option(std::string("--") + name, value, help + defaultText)
+        ->check(within({0.0, 1.0}));
+  };
   command
       .add_option("--light-falloff", options.falloff,
                   "Distance at which the light has half its intensity, with the focal point as "
@@ -193,11 +198,8 @@ void addLightOptions(CLI::App& command, LightOptions& options, const std::string
                       defaultText)
       ->type_name("MM")
       ->check(within({0.0, 10000.0, "mm"}));
-  command
-      .add_option("--wetness", options.wetness,
-                  "A film of water on tissue, thin highlights in place of its gloss, 0 to 1" +
-                      defaultText)
-      ->check(within({0.0, 1.0}));
+  addShare("wetness", options.wetness,
+           "A film of water on tissue, thin highlights in place of its gloss, 0 to 1");
   addFlag("shadows", options.shadows,
           "Darken cavities, and throw the soft shadow of a lamp above the view axis");
   command
@@ -207,16 +209,10 @@ void addLightOptions(CLI::App& command, LightOptions& options, const std::string
       ->check(within({-kMaxExposure, kMaxExposure, "EV"}));
   addFlag("tone-curve", options.toneCurve,
           "Roll highlights off above 80 % instead of clipping them");
-  command
-      .add_option("--edges", options.edges,
-                  "More opacity of translucent surfaces that are seen from the side, 0 to 1" +
-                      defaultText)
-      ->check(within({0.0, 1.0}));
-  command
-      .add_option("--grain", options.grain,
-                  "Contrast of a fine grain on cut bone, which the CT does not have, 0 to 1" +
-                      defaultText)
-      ->check(within({0.0, 1.0}));
+  addShare("edges", options.edges,
+           "More opacity of translucent surfaces that are seen from the side, 0 to 1");
+  addShare("grain", options.grain,
+           "Contrast of a fine grain on cut bone, which the CT does not have, 0 to 1");
   addFlag("exit-surfaces", options.exitSurfaces,
           "Shade translucent tissue also where a line of sight leaves it");
 }

@@ -174,14 +174,14 @@ protected:
     return count == 0 ? Vector3d(Vector3d::Constant(std::nan(""))) : Vector3d(sum / count);
   }
 
-  /// Two structures of one map: incus as labelsOn, malleus beside it at 5, 4, 4.
-  presenters::PartSource ossicles() const
+  /// Two structures of one map: the first, incus as labelsOn, and malleus beside it at 5, 4, 4.
+  presenters::PartSource ossicles(const char* first = "incus") const
   {
     auto voxels = volume::makeZeroVolume<std::uint16_t>(kFileGrid);
     voxels->at(4, 4, 4) = 1;
     voxels->at(5, 4, 4) = 2;
     volume::Segment incus, malleus;
-    incus.name = "incus";
+    incus.name = first;
     incus.index = 1;
     malleus.name = "malleus";
     malleus.index = 2;
@@ -693,23 +693,9 @@ TEST_F(CorrectedAxes, OfAnMrOfTheOpenCaseAreCorrectedInIt)
 // without it. Of marks and of other structures nothing changes.
 TEST_F(CorrectedAxes, AreNotFollowedByWhatWasMeasured)
 {
-  auto voxels = volume::makeZeroVolume<std::uint16_t>(kFileGrid);
-  voxels->at(4, 4, 4) = 1;
-  voxels->at(5, 4, 4) = 2;
-  volume::Segment nerve, malleus;
-  nerve.name = "nerve";
-  nerve.index = 1;
-  malleus.name = "malleus";
-  malleus.index = 2;
-  imaging::writeLabelFile(m_folder / "map.seg.nrrd",
-                          volume::makeLabelMap(voxels, {nerve, malleus}));
-  core::TriangleMesh mesh;
-  mesh.vertices = {{0, 4, 5}, {1, 4, 5}, {0, 5, 5}, {0, 4, 6}};
-  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-  imaging::writeMesh(m_folder / "stapes.obj", mesh);
   m_sources.axes = {};
-  m_sources.parts.labels = {{"", m_folder / "map.seg.nrrd"}};
-  m_sources.parts.meshes = {{"stapes", m_folder / "stapes.obj"}};
+  m_sources.parts.labels = {ossicles("nerve")};
+  m_sources.parts.meshes = {meshNamed("stapes")};
   library::Library library(m_folder / "library");
   presenters::WorkstationModel model(library);
   model.adopt(presenters::buildCase("ear", m_sources, {}));

@@ -49,6 +49,15 @@ protected:
   /// Drops what is to be added to the open case, and answers the question `box` by the button
   /// `answer`. What was asked; empty: it was not.
   QString askedOnDrop(const fs::path& path, const QString& box, const QString& answer);
+  /// The sample patient's CT and MR, in the folder "visit".
+  void writeImagesOfAVisit()
+  {
+    phantom::SampleOptions options;
+    options.spacing = 1.5;
+    petrous::testing::writeSharedSample(folder() / "visit", options);
+    for (const char* part : {"labels", "labels.seg.nrrd", "meshes"})
+      fs::remove_all(folder() / "visit" / part);
+  }
 };
 using presenters::Content;
 
@@ -86,11 +95,7 @@ TEST_F(Import, ADroppedDicomFolderCanBeDrilledAtOnce)
 
 TEST_F(Import, AFolderOfSeveralSeriesAsksWhich)
 {
-  phantom::SampleOptions options;
-  options.spacing = 1.5;
-  petrous::testing::writeSharedSample(folder() / "visit", options);
-  for (const char* part : {"labels", "labels.seg.nrrd", "meshes"})
-    fs::remove_all(folder() / "visit" / part);
+  writeImagesOfAVisit();
   openWindow();
   QStringList offered;
   onDialog(
@@ -133,11 +138,7 @@ TEST_F(Import, AFolderOfSeveralSeriesAsksWhich)
 // Beside the verdict: what `petrous new` has as --ct-axes and --mr-axes.
 TEST_F(Import, AxesThatAFileStatesWronglyAreSaidWhereItsSeriesIsChosen)
 {
-  phantom::SampleOptions options;
-  options.spacing = 1.5;
-  petrous::testing::writeSharedSample(folder() / "visit", options);
-  for (const char* part : {"labels", "labels.seg.nrrd", "meshes"})
-    fs::remove_all(folder() / "visit" / part);
+  writeImagesOfAVisit();
   openWindow();
   onDialog(
       [](QDialog& dialog)
@@ -174,11 +175,7 @@ TEST_F(Import, AxesThatAFileStatesWronglyAreSaidWhereItsSeriesIsChosen)
 // Of one series alone its folder names the case, as if that had been opened.
 TEST_F(Import, ASeriesOfATreeNamesTheCaseByItsFolder)
 {
-  phantom::SampleOptions options;
-  options.spacing = 1.5;
-  petrous::testing::writeSharedSample(folder() / "visit", options);
-  for (const char* part : {"labels", "labels.seg.nrrd", "meshes"})
-    fs::remove_all(folder() / "visit" / part);
+  writeImagesOfAVisit();
   openWindow();
   onDialog(
       [](QDialog& dialog)

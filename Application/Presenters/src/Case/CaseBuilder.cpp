@@ -1407,9 +1407,7 @@ core::AxesCorrection follow(const scene::Case& value, const PartSource& source, 
   for (volume::LabelMap& map : loaded.maps)
   {
     const core::GridGeometry& grid = map.voxels->geometry();
-    const std::string on = drawnOn(value, source, grid).value_or("");
-    const scene::ImagePart* mr = on.empty() ? nullptr : scene::findMr(value, on);
-    const scene::ImagePart& image = mr ? *mr : value.ct;
+    const scene::ImagePart& image = imageDrawnOn(value, drawnOn(value, source, grid).value_or(""));
     const core::AxesCorrection& axes = image.provenance.axes;
     if (axes.isIdentity() || core::sameGrid(grid, image.geometry))
       continue;
@@ -1437,9 +1435,9 @@ std::vector<std::string> correct(const scene::Case& value, const PartSource& sou
     if (!on) // that of labels which alone are wrong
       on = drawnOn(value, source, axes.applied(grid));
     images.push_back(on.value_or(""));
-    const scene::ImagePart* mr = scene::findMr(value, images.back());
     if (!axes.isIdentity())
-      map = volume::onGrid(map, axes.applied(grid, (mr ? *mr : value.ct).geometry.center()));
+      map = volume::onGrid(
+          map, axes.applied(grid, imageDrawnOn(value, images.back()).geometry.center()));
   }
   return images;
 }

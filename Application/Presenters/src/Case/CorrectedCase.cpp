@@ -192,8 +192,7 @@ void correctMr(scene::Case& value, const std::string& name, const core::AxesCorr
 void correctMeshPart(scene::Case& value, const std::string& name, const core::AxesCorrection& axes)
 {
   scene::MeshPart& mesh = *scene::findMesh(value, name);
-  const scene::ImagePart* mr = scene::findMr(value, mesh.drawnOn);
-  correctMesh(mesh, axes, mr ? *mr : value.ct);
+  correctMesh(mesh, axes, imageDrawnOn(value, mesh.drawnOn));
 }
 
 void correctStructure(scene::Case& value, const std::string& name, const core::AxesCorrection& axes)
@@ -202,20 +201,25 @@ void correctStructure(scene::Case& value, const std::string& name, const core::A
   // About the middle of the image on which it was drawn, as the builder of a case does, so that
   // what lies on parts of its grid keeps its place among the rest.
   const std::string on = scene::placementOf(value, *maps.front()).drawnOn;
-  const scene::ImagePart* mr = scene::findMr(value, on);
   std::map<std::shared_ptr<const volume::LabelMap>, core::Lazy<volume::LabelMap>> made;
   for (scene::LabelPart& map : value.labels)
   {
     if (std::find(maps.begin(), maps.end(), &map) == maps.end())
       continue;
     const auto drawn = map.labels.get();
-    correctMap(map, axes, mr ? *mr : value.ct);
+    correctMap(map, axes, imageDrawnOn(value, on));
     map.drawnOn = on; // which an older case knows by the grid alone
     map.labels = made.emplace(drawn, map.labels).first->second;
   }
 }
 
 } // namespace
+
+const scene::ImagePart& imageDrawnOn(const scene::Case& value, const std::string& drawnOn)
+{
+  const scene::ImagePart* mr = scene::findMr(value, drawnOn);
+  return mr ? *mr : value.ct;
+}
 
 std::string followedNote(const scene::ImagePart& image)
 {

@@ -48,6 +48,9 @@ public:
   const std::vector<Material>& materials() const noexcept { return m_now.materials; }
   const std::vector<Burr>& burrs() const noexcept { return m_now.burrs; }
   const dissection::BoneRamp& bone() const noexcept { return m_now.bone; }
+  /// The tables as materials.json and burrs.json have them.
+  std::string materialsText() const { return materialsJson(m_now); }
+  std::string burrsText() const { return burrsJson(m_now); }
 
   /// Whether presets, or cases by themselves, give that material to structures: it has its name for
   /// good.

@@ -134,7 +134,7 @@ public:
   void stereo(const BenchmarkPatient& patient);
   void edits(const BenchmarkPatient& patient, bool shadows);
   void interaction(const BenchmarkPatient& patient, const core::Progress& progress);
-  void softTissue(const BenchmarkPatient& patient, const core::Progress& progress);
+  void softTissue(const BenchmarkPatient& patient, bool isLit, const core::Progress& progress);
   void features(const BenchmarkPatient& patient, const core::Progress& progress);
 
 private:
@@ -376,15 +376,15 @@ void Run::interaction(const BenchmarkPatient& patient, const core::Progress& pro
     }
 }
 
-// Soft tissue alone, in optics that all programs have: at rest, and while the camera swings as in a
-// window, each program with its own adjustment. The error while it moves is that of a further frame
-// where the swing ends.
-void Run::softTissue(const BenchmarkPatient& patient, const core::Progress& progress)
+// Soft tissue alone: at rest, and while the camera swings as in a window, each program with its own
+// adjustment. The error while it moves is that of a further frame where the swing ends. In light
+// without direction (not `isLit`) all programs have the same optics.
+void Run::softTissue(const BenchmarkPatient& patient, bool isLit, const core::Progress& progress)
 {
-  const rendering::SceneContents contents = softTissueOf(patient);
+  const rendering::SceneContents contents = softTissueOf(patient, isLit);
   const core::CameraPose middle = cameraOf(patient, BenchmarkView::Head);
   const PictureSize& size = m_extent.picture;
-  const std::string name = patient.name + ", head, soft tissue alone";
+  const std::string name = patient.name + ", head, soft tissue alone" + (isLit ? ", lit" : "");
   progress.report(0.0, name);
   const std::vector<float> truth =
       rendering::ReferenceRayCaster(contents)
@@ -398,8 +398,15 @@ void Run::softTissue(const BenchmarkPatient& patient, const core::Progress& prog
     auto point = pointOf(scene, size, timing);
     point.peer = peer;
     point.isDefault = peer.empty();
-    point.error = rmsOf(view.picture(), truth);
-    point.errorUnit = "1/255, RMS of colour of all pixels";
+    if (isLit && !peer.empty())
+    {
+      point.errorUnit = "none: other optics than ours";
+    }
+    else
+    {
+      point.error = rmsOf(view.picture(), truth);
+      point.errorUnit = "1/255, RMS of colour of all pixels";
+    }
     // The peers' at rest and moving over ours, which come first.
     double& ours = ourSeconds[scene];
     if (peer.empty())
@@ -518,7 +525,10 @@ core::BenchmarkReport runRendererBenchmark(const RendererBenchmarkOptions& optio
         for (const bool shadows : {false, true})
           run.edits(patient, shadows);
       if (wants("soft"))
-        run.softTissue(patient, part.part(0.9, 0.95));
+      {
+        run.softTissue(patient, false, part.part(0.9, 0.925));
+        run.softTissue(patient, true, part.part(0.925, 0.95));
+      }
       if (wants("paraview"))
       {
         const Extent& extent = run.extent();

@@ -47,7 +47,7 @@ rendering::SceneContents contentsOf(const BenchmarkPatient& patient, BenchmarkLo
   return contents;
 }
 
-rendering::SceneContents softTissueOf(const BenchmarkPatient& patient)
+rendering::SceneContents softTissueOf(const BenchmarkPatient& patient, bool isLit)
 {
   rendering::SceneContents contents;
   contents.ct = patient.ct;
@@ -62,7 +62,8 @@ rendering::SceneContents softTissueOf(const BenchmarkPatient& patient)
                                                          {100.0, {0.62F, 0.24F, 0.20F}, 0.05F},
                                                          {300.0, {0.90F, 0.85F, 0.75F}, 0.15F},
                                                          {1200.0, {0.97F, 0.95F, 0.88F}, 0.6F}})};
-  contents.light.ambient = 1.0;
+  if (!isLit)
+    contents.light.ambient = 1.0;
   return contents;
 }
 

@@ -25,8 +25,9 @@ std::string nameOf(BenchmarkLook look);
 std::string nameOf(BenchmarkView view);
 rendering::SceneContents contentsOf(const BenchmarkPatient& patient, BenchmarkLook look);
 /// All of the CT as soft tissue, skin, fat, muscle and bone by one transfer function, in light that
-/// has no direction: emission and absorption alone, which other programs draw, too.
-rendering::SceneContents softTissueOf(const BenchmarkPatient& patient);
+/// has no direction: emission and absorption alone, which other programs draw, too. `isLit`: in the
+/// light of a new case instead, by the tissue's gradient.
+rendering::SceneContents softTissueOf(const BenchmarkPatient& patient, bool isLit = false);
 core::CameraPose cameraOf(const BenchmarkPatient& patient, BenchmarkView view);
 
 } // namespace petrous::cli

@@ -177,6 +177,7 @@ public:
   void drawSoftTissue(bool isOnGpu, vtkImageData* image);
   void applyCamera();
   void setProperty(vtkVolumeProperty* property, const appearance::Material& material, double below);
+  void shade(vtkVolumeProperty* property) const;
   void addLabels();
   void addUnion();
 
@@ -206,13 +207,13 @@ PeerPicture::Implementation::Implementation(Peer peer, const SceneContents& scen
   const auto step = static_cast<float>(kStep * grid.minSpacing());
   const auto image = upright(wrap(*contents.ct));
   bone->SetUserMatrix(poseOf(grid));
+  lamp->SetLightTypeToHeadlight();
   if (isSmart)
   {
     drawSoftTissue(peer == Peer::SmartGpu, image);
     return;
   }
   setProperty(bone->GetProperty(), contents.materials.front(), contents.iso);
-  lamp->SetLightTypeToHeadlight();
   if (peer == Peer::CpuFixedPoint)
   {
     vtkNew<vtkFixedPointVolumeRayCastMapper> mapper;
@@ -255,7 +256,10 @@ void PeerPicture::Implementation::drawSoftTissue(bool isOnGpu, vtkImageData* ima
   property->SetScalarOpacity(tables.opacity);
   property->SetScalarOpacityUnitDistance(1.0);
   property->SetInterpolationTypeToLinear();
-  property->ShadeOff();
+  if (contents.light.ambient < 1.0)
+    shade(property);
+  else
+    property->ShadeOff();
   smart = vtkSmartPointer<vtkSmartVolumeMapper>::New();
   smart->SetInputData(image);
   smart->SetBlendModeToComposite();
@@ -274,6 +278,11 @@ void PeerPicture::Implementation::setProperty(vtkVolumeProperty* property,
   property->SetScalarOpacity(tables.opacity);
   property->SetScalarOpacityUnitDistance(1.0);
   property->SetInterpolationTypeToLinear();
+  shade(property);
+}
+
+void PeerPicture::Implementation::shade(vtkVolumeProperty* property) const
+{
   property->ShadeOn();
   property->SetAmbient(contents.light.ambient);
   property->SetDiffuse(1.0 - contents.light.ambient);

@@ -20,7 +20,7 @@ enum class Peer
   GpuLabelMap,   ///< the same with labels and cut as a label map mask, one transfer function each
   GpuMulti,      ///< vtkMultiVolume: CT and smoothed union as two volumes; no cut
   CpuFixedPoint, ///< vtkFixedPointVolumeRayCastMapper: CT only, on the CPU
-  SmartGpu,      ///< vtkSmartVolumeMapper on the GPU, as it is: soft tissue alone, unshaded
+  SmartGpu,      ///< vtkSmartVolumeMapper on the GPU, as it is: soft tissue alone
   SmartCpu       ///< the same on the CPU
 };
 
@@ -46,7 +46,7 @@ double lampTilt();
 ///
 /// The optical model differs from ours (no explicit surfaces, gradients that ignore the cut), so
 /// times are compared, but no error. That of soft tissue alone, of light that is all ambient, is
-/// the same: emission and absorption by one transfer function.
+/// the same: emission and absorption by one transfer function, unshaded.
 class PeerPicture
 {
 public:

@@ -166,6 +166,7 @@ struct MaskRange
   std::uint16_t max = 0;
 };
 
+// Not narrower than what `judge` can tell apart: it ends where air and tissue were both met.
 MaskRange rangeOf(const volume::CutMask& mask, const core::IndexBox& voxels)
 {
   constexpr int edge = volume::CutMask::kBrickEdge;
@@ -197,6 +198,8 @@ MaskRange rangeOf(const volume::CutMask& mask, const core::IndexBox& voxels)
               range.min = std::min(range.min, row[x]);
               range.max = std::max(range.max, row[x]);
             }
+            if (range.min <= kLastAir && range.max > kLastAir)
+              return range;
           }
       }
     }
@@ -465,17 +468,29 @@ core::IndexBox OccupancyGrid::maskChanged(const volume::CutMask* mask, const cor
     bricks.lower[a] = std::max((inside.lower[a] + m_edge - 1) / m_edge - 1, 0);
     bricks.upper[a] = std::min((inside.upper[a] - 1) / m_edge + 1, m_dims[a]);
   }
+  const core::Index3 size = bricks.size();
+  std::vector<std::uint8_t> flags(bricks.count()); // first axis fastest
+  tbb::parallel_for(bricks.lower[2], bricks.upper[2],
+                    [&](int k)
+                    {
+                      auto* judged = flags.data() + static_cast<std::ptrdiff_t>(size[0]) * size[1] *
+                                                        (k - bricks.lower[2]);
+                      for (int j = bricks.lower[1]; j < bricks.upper[1]; ++j)
+                        for (int i = bricks.lower[0]; i < bricks.upper[0]; ++i)
+                          *judged++ = judge(texelIndex(i, j, k), mask, reach(i, j, k));
+                    });
   core::IndexBox changed;
   Changes tissue;
   Changes seen;
   Changes soft;
+  auto judged = flags.begin();
   for (int k = bricks.lower[2]; k < bricks.upper[2]; ++k)
     for (int j = bricks.lower[1]; j < bricks.upper[1]; ++j)
       for (int i = bricks.lower[0]; i < bricks.upper[0]; ++i)
       {
         const std::size_t brick = texelIndex(i, j, k);
         const std::uint8_t before = m_texels[brick].flags;
-        const std::uint8_t after = judge(brick, mask, reach(i, j, k));
+        const std::uint8_t after = *judged++;
         if (before == after)
           continue;
         m_texels[brick].flags = after;

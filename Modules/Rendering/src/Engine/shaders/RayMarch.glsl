@@ -124,7 +124,7 @@ void passTissue(inout Ray ray, float to, float value, float bulge)
 #ifdef PETROUS_SOFT
   bool isSoft = ray.state == kSoft;
   float own = softLamp(positionOf(ray, middle), ray.direction, ray.more,
-                       isSoft && segment.opacity > kLeastLit);
+                       isSoft && segment.opacity > kLeastLit && light.y < 1.0);
   lamp = isSoft ? own : lamp;
 #endif
   gather(segment, ray.gathering, lamp, ray.nearest + middle, ray.color, ray.lit,

@@ -166,7 +166,7 @@ struct MaskRange
   std::uint16_t max = 0;
 };
 
-// Not narrower than what `judge` can tell apart: it ends where air and tissue were both met.
+// Ends once both air and tissue were met: `judge` asks for no more than that.
 MaskRange rangeOf(const volume::CutMask& mask, const core::IndexBox& voxels)
 {
   constexpr int edge = volume::CutMask::kBrickEdge;

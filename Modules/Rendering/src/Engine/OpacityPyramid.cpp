@@ -1,7 +1,6 @@
 #include "OpacityPyramid.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
@@ -117,6 +116,13 @@ int brickOf(int voxel, int edge, int count)
   return std::clamp(voxel / edge, 0, count - 1);
 }
 
+const OccupancyGrid::Texel& brickAt(const OccupancyGrid& grid, int i, int j, int k)
+{
+  const core::Index3& dims = grid.dims();
+  return grid.texels()[indexIn(dims, brickOf(i, grid.edge(), dims[0]),
+                               brickOf(j, grid.edge(), dims[1]), brickOf(k, grid.edge(), dims[2]))];
+}
+
 Content contentOf(const OccupancyGrid& grid, const core::IndexBox& voxels)
 {
   const int edge = grid.edge();
@@ -150,19 +156,11 @@ public:
     }
     m_size = m_box.size();
     m_values.reserve(m_box.count());
-    const core::Index3& bricks = grid.dims();
     for (int k = m_box.lower[2]; k < m_box.upper[2]; ++k)
       for (int j = m_box.lower[1]; j < m_box.upper[1]; ++j)
-      {
-        const OccupancyGrid::Texel* row =
-            grid.texels().data() + indexIn(bricks, 0, brickOf(j, grid.edge(), bricks[1]),
-                                           brickOf(k, grid.edge(), bricks[2]));
         for (int i = m_box.lower[0]; i < m_box.upper[0]; ++i)
-        {
-          const auto flags = row[brickOf(i, grid.edge(), bricks[0])].flags;
-          m_values.push_back(field.at(i, j, k, (flags & OccupancyGrid::Labels) != 0));
-        }
-      }
+          m_values.push_back(
+              field.at(i, j, k, (brickAt(grid, i, j, k).flags & OccupancyGrid::Labels) != 0));
   }
 
   struct Measure
@@ -176,9 +174,8 @@ public:
     const core::Index3 stride{1, m_size[0], m_size[0] * m_size[1]};
     const auto* here = &m_values[indexIn(m_size, at[0], at[1], at[2])];
     const bool inside = here->f > 0.0F;
-    std::array<float, 3> rises{}; // per one or two voxels
-    std::array<int, 3> runs{};
     bool changes = false;
+    double slope = 0.0; // squared, per voxel
     for (std::size_t a = 0; a < 3; ++a)
     {
       const int down = at[a] > 0 ? 1 : 0;
@@ -186,21 +183,13 @@ public:
       const float low = here[-down * stride[a]].f;
       const float high = here[up * stride[a]].f;
       changes = changes || (low > 0.0F) != inside || (high > 0.0F) != inside;
-      rises[a] = high - low;
-      runs[a] = down + up;
+      const double rise = static_cast<double>(high - low) / std::max(down + up, 1);
+      slope += rise * rise;
     }
-    double share = inside ? 1.0 : 0.0;
-    if (changes) // rare
-    {
-      double slope = 0.0; // squared, per voxel
-      for (std::size_t a = 0; a < 3; ++a)
-      {
-        const double rise = static_cast<double>(rises[a]) / std::max(runs[a], 1);
-        slope += rise * rise;
-      }
-      if (slope > 0.0)
-        share = std::clamp(0.5 + static_cast<double>(here->f) / std::sqrt(slope), 0.0, 1.0);
-    }
+    const double share =
+        changes && slope > 0.0
+            ? std::clamp(0.5 + static_cast<double>(here->f) / std::sqrt(slope), 0.0, 1.0)
+            : (inside ? 1.0 : 0.0);
     return {share, share * static_cast<double>(here->opacity)};
   }
 

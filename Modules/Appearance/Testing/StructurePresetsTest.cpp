@@ -300,9 +300,15 @@ TEST(StructurePresets, ANervesOwnWordDecidesBeforeThatOfItsPlace)
         "facial nerve to stapedius",
         "facial nerve in the middle ear",
         "facial nerve, temporal bone",
-        "Nervus facialis Knochen"}},
-      {NerveKind::ChordaTympani, {"chorda in the middle ear", "chorda tympani, mastoid"}},
-      {NerveKind::Other, {"nerve IAC", "CN VIII", "cochlear nerve", "Nervenverlauf"}}};
+        "Nervus facialis Knochen",
+        "facial nerve (facial recess)",
+        "facial nerve, sinus tympani",
+        "facial nerve at the sigmoid sinus"}},
+      {NerveKind::ChordaTympani,
+       {"chorda in the middle ear", "chorda tympani, mastoid", "chorda, facial recess"}},
+      {NerveKind::Other,
+       {"nerve IAC", "CN VIII", "cochlear nerve", "Nervenverlauf", "abducens nerve cavernous sinus",
+        "optic nerve (sphenoid sinus)", "vagus nerve, jugular foramen"}}};
   for (const auto& [kind, names] : nerves)
     for (const char* name : names)
     {
@@ -316,10 +322,12 @@ TEST(StructurePresets, ANervesOwnWordDecidesBeforeThatOfItsPlace)
         "Karotis Paukenh\xc3\xb6hle", "A. carotis interna", "Karotiskanal", "A. facialis",
         "facial artery", "carotid sinus"}},
       {"tumour", {"facial schwannoma", "facial nerve tumour", "carotid paraganglioma"}},
-      {"vein", {"V. facialis", "facial vein", "cavernous sinus carotid"}},
+      {"vein",
+       {"V. facialis", "facial vein", "cavernous sinus carotid", "vein of the facial nerve",
+        "sigmoid sinus", "jugular foramen"}},
       {"muscle", {"facial muscle"}},
       {"bone", {"facial bones", "facial left bones", "mastoid", "facial skeleton"}},
-      {"air-cells", {"facial recess", "antrum", "middle ear"}},
+      {"air-cells", {"facial recess", "Fazialisrezessus", "sinus tympani", "antrum", "middle ear"}},
       {"inner-ear", {"IAC", "labyrinth"}},
       {"other",
        {"facial nerve implant", "facial fat", "facial skin", "Facial_Ridge", "facialist",

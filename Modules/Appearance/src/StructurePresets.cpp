@@ -228,6 +228,7 @@ StructurePresets::StructurePresets(std::string_view text)
       names.notFacial = patterns("not_facial");
       names.number = patterns("number");
       names.course = patterns("course");
+      names.place = patterns("place");
       names.isNot = patterns("not");
       names.isFacial = patterns("is_facial");
       names.facialCode = entry.value("facial_code", "");
@@ -384,7 +385,14 @@ NerveKind StructurePresets::nerveOfWords(const std::vector<std::string>& name) c
   };
   const bool isNerve = hasWordOf(name, names.nerve) || hasNumber() || hasNervePhrase() ||
                        (hasWordOf(name, names.facial) && !hasWordOf(name, names.notFacial));
-  if (!isNerve || hasWordOf(name, names.isNot) || hasPhraseOf(name, names.unless))
+  std::vector<std::string> rest = name; // without the places of what is called a nerve
+  if (hasWordOf(name, names.nerve) || hasWordOf(name, names.isChorda))
+    rest.erase(std::remove_if(rest.begin(), rest.end(),
+                              [&](const std::string& word)
+                              { return matchesOneOf(word, names.place); }),
+               rest.end());
+  if (!isNerve || hasWordOf(rest, names.place) || hasWordOf(rest, names.isNot) ||
+      hasPhraseOf(rest, names.unless))
     return NerveKind::None;
   const auto isFacial = [&]
   {

@@ -97,7 +97,7 @@ private:
   struct NerveNames
   {
     std::size_t preset = 0; ///< index in `m_presets`
-    Patterns nerve, facial, notFacial, number, course, isNot, isFacial, isChorda;
+    Patterns nerve, facial, notFacial, number, course, place, isNot, isFacial, isChorda;
     std::string facialCode;          ///< its words in `m_codes` denote the facial nerve
     std::vector<std::size_t> unless; ///< presets of which a word decides instead
   };

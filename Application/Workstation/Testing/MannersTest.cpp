@@ -734,7 +734,6 @@ TEST_F(Manners, NoPanelIsLargerThanTheSmallestScreen)
   }
 }
 
-// What is said while drilling, and the report's advice, beside the name of a recording.
 // As HTML they would be an x and a sign for a missing image. Lines are broken at blanks at most.
 TEST_F(Manners, NamesThatLookLikeHtmlAreShownAsTheyAre)
 {
@@ -791,6 +790,7 @@ TEST_F(Manners, NamesThatLookLikeHtmlAreShownAsTheyAre)
   EXPECT_TRUE(waitFor([&isAbout] { return isAbout; })) << "the program's own texts have formats";
 }
 
+// What is said while drilling, and the report's advice, beside the name of a recording.
 TEST_F(Manners, AMessageGetsTheRoomOfThePermanentTexts)
 {
   openWindow();
